@@ -30,14 +30,9 @@ BSM_STRUCT(FaceValues, ConstInts, Ints2, Ints2, Ints2)
 using namespace nb::literals;
 
 NB_MODULE(_kernels, m) {
-    m.def("code_bit", checked<code_one_bit>, "coder"_a, "probability"_a, "bit"_a);
     m.def("code_uniform", checked<code_one_uniform>, "coder"_a, "value"_a, "count"_a);
-    m.def("code_mixed_bit", checked<code_one_mixed_bit>, "coder"_a, "bank"_a, "contexts"_a, "node"_a, "selector"_a,
-        "bit"_a);
     m.def("code_unsigned", checked<code_one_unsigned>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
         "value"_a, "node"_a);
-    m.def("code_signed", checked<code_one_signed>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
-        "value"_a);
 
     m.def("priors", [] { return nb::bytes(PRIORS, PRIORS_BYTES); });
 

@@ -95,22 +95,27 @@ static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool
     return fine(context);
 }
 
+bool parse_beginning(Cursor *cursor, int64_t longest, int64_t run, Gop *gop) {
+    Span first = take_span(cursor, 1);
+    if (failed(cursor->context)) return false;
+    *gop = (Gop){.method = first.data[0] % WITH_ATTRIBUTES};
+    if (first.data[0] / METHODS != run % RUNS)
+        return FAIL(cursor->context, CORRUPT, "GOP of a different run, expected #", run);
+    gop->frames = gop->coded = take_varint(cursor);
+    return fine(cursor->context) && ((gop->frames >= 1 && gop->frames <= longest)
+        || FAIL(cursor->context, CORRUPT, "a GOP of # frames where 1 to # are legal", gop->frames, longest));
+}
+
 bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count,
     bool tolerant, Arena *arena, Gop *gop) {
     Cursor cursor = {context, data};
-    Span first = take_span(&cursor, 1);
-    if (failed(context)) return false;
-    *gop = (Gop){.method = first.data[0] % WITH_ATTRIBUTES, .count = count + 1};
-    if (first.data[0] / METHODS != run % RUNS) return FAIL(context, CORRUPT, "GOP of a different run, expected #", run);
-    gop->frames = gop->coded = take_varint(&cursor);
-    if (failed(context)) return false;
-    if (gop->frames < 1 || gop->frames > longest)
-        return FAIL(context, CORRUPT, "a GOP of # frames where 1 to # are legal", gop->frames, longest);
+    if (!parse_beginning(&cursor, longest, run, gop)) return false;
+    gop->count = count + 1;
     if (!take_longs(arena, gop->frames, &gop->shown) || !TAKE_ZEROS(arena, count + 1, gop->field)) return false;
     for (int64_t t = 0; t < gop->frames; t++) gop->shown.data[t] = t;
     for (int k = 0; k <= count; k++) gop->field[k].width = k > 0 ? moving[k - 1].width : 3;
     if (has_basis(gop) && !parse_stretches(&cursor, gop)) return false;
-    if (first.data[0] % METHODS >= WITH_ATTRIBUTES && !parse_attributes(&cursor, moving, tolerant, arena, gop))
+    if (data.data[0] % METHODS >= WITH_ATTRIBUTES && !parse_attributes(&cursor, moving, tolerant, arena, gop))
         return false;
     return parse_field(context, take_rest(&cursor), gop, arena, gop->field);
 }

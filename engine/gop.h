@@ -32,6 +32,8 @@ typedef struct {
     Doubles2 start;
 } MovingAttribute;
 
+/* Method and frames, which come first in a GOP. */
+bool parse_beginning(Cursor *cursor, int64_t longest, int64_t run, Gop *gop);
 /* What a GOP says, whose bytes have to stay; attributes that do not move are passed over if that is `tolerant`. */
 bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count,
     bool tolerant, Arena *arena, Gop *gop);

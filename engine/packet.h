@@ -12,6 +12,7 @@ typedef enum {
 /* What a frame says; what a kind has not is 0. Its data are the reader's, until more bytes come. */
 typedef struct {
     FrameType type;
+    int64_t size;         /* bytes of the payload */
     int64_t index;        /* of a block, a GOP's first frame, an attribute */
     int64_t coefficients; /* of a block */
     int64_t first, count; /* of a grid, a layer or values */

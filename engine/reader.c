@@ -91,6 +91,7 @@ static Arrival start(Reader *reader) {
         locate(&reader->context->error, MAGIC, -1, -1);
         return NOTHING_BUT_AN_ERROR;
     }
+    reader->version = present.data[MAGIC];
     reader->sum = crc32_of(&reader->sums, (Span){present.data, PREAMBLE}, 0);
     drop(reader, PREAMBLE);
     reader->started = true;
@@ -174,7 +175,7 @@ static bool read_attribute(Reader *reader, Cursor *cursor, Packet *packet) {
 /* F 5: the payload by itself. */
 static bool read_payload(Reader *reader, Frame frame, Packet *packet) {
     Cursor cursor = {reader->context, frame.payload};
-    *packet = (Packet){.type = (FrameType)frame.type};
+    *packet = (Packet){.type = (FrameType)frame.type, .size = frame.payload.size};
     switch (packet->type) {
         case HEADER_FRAME:
             packet->header = &reader->headers[!reader->header];

@@ -27,6 +27,7 @@ typedef struct {
     int64_t last_offset, last_frame; /* where the last packet began, and its number */
     int64_t offset, frames, metadata_bytes; /* bytes and frames behind; bytes of metadata */
     uint32_t sum;
+    uint8_t version;
     bool started, finished;
     Header headers[2];            /* that of the present run, and that of a packet */
     int header;

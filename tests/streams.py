@@ -43,7 +43,7 @@ def frames_in(events: Sequence[Any]) -> dict[int, FrameEvent]:
 
 def packets_of(data: bytes) -> list[tuple[Any, int, int]]:
     """The packets of a stream, with offset and length of the frame of each."""
-    return [(packet, span.offset, span.length) for packet, span in scan([data])]
+    return [(packet, span.offset, span.length) for packet, span in scan(data)]
 
 
 def without(data: bytes, packet: type, index: int, how: str) -> bytes:

@@ -42,7 +42,7 @@ KERNELS = {
 }
 REFUSALS = 40
 """Of a kernel, after which it is left alone."""
-NOTHING_SHORT = {"priors", "code_bit", "code_uniform", "code_mixed_bit", "code_signed", "points_of_levels"}
+NOTHING_SHORT = {"priors", "code_uniform", "points_of_levels"}
 """Kernels that are given no array, or one that may be of any length."""
 
 

@@ -11,13 +11,12 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.packets import PARSERS
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
 from bsm.bitstream.fields.corners import MOST_LARGEST, FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, light_field
 from bsm.codec.geometry.mesh import TriangleMesh
 from tools.payloads import FieldDecoder, decode_connectivity
-from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
+from tools.surgery import Frames, frames_of, header_entries, header_frame, parse_packet, stream_of
 
 Ints = npt.NDArray[np.int32]
 LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_LARGEST)
@@ -52,7 +51,7 @@ def lightened(stream: bytes, *counts: int) -> bytes:
     vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
     faces = decode_connectivity(data, vertices, of_faces)
-    chunks: list[Any] = [PARSERS[FrameType.GRID](payload) for kind, payload in frames if kind == FrameType.GRID]
+    chunks: list[Any] = [parse_packet(kind, payload) for kind, payload in frames if kind == FrameType.GRID]
     decoder, values = FieldDecoder(grid_field(faces, vertices, largest)), np.zeros((vertices, 3), np.int32)
     for chunk in chunks:
         known, coded = decoder.chunk(chunk.data, chunk.count)

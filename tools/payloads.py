@@ -13,13 +13,13 @@ from bsm.bitstream.coefficients.adaptive import CoefficientModel, code_block
 from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of
 from bsm.bitstream.connectivity.partition import code_labels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
-from bsm.bitstream.container.wire import Cursor
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.fields.corners import Corners, Field
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import CONNECTIVITY, NEED
+from tools.surgery import Cursor
 
 Ints = npt.NDArray[np.int32]
 AHEAD = 4  # bytes that a reader holds besides those that a writer is done with

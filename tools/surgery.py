@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import struct
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
 from typing import Any
 
 import msgpack
@@ -14,50 +16,111 @@ from bsm.bitstream.container.header import (
     LAW,
     LAW_OF_SEQUENCES,
     Declaration,
+    Header,
     Paper,
     fields_of,
 )
-from bsm.bitstream.container.packets import Packet
-from bsm.bitstream.container.scanner import FrameSpan, Scanner
+from bsm.bitstream.container.packets import WRITERS, Attribute, End, Metadata, Packet
 from bsm.bitstream.container.wire import (
     MAGIC,
+    MAX_VARINT_BYTES,
     PREAMBLE_BYTES,
+    SKIPPABLE_TYPES,
     VERSION,
-    Cursor,
     FrameType,
-    parse_frame,
-    parse_map,
+    checksum,
+    checksum_size,
     write_frame,
     write_map,
     write_varint,
 )
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.errors import BsmError, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.errors import CorruptError, OptionError
 
 Frames = list[tuple[int, bytes]]
 
 
+class Cursor:
+    """Reads bytes from front to back; raises `CorruptError` where they end early."""
+
+    def __init__(self, data: bytes, at: int = 0) -> None:
+        self.data, self.at = data, at
+
+    def varint(self) -> int:
+        value = 0
+        for place in range(MAX_VARINT_BYTES):
+            (byte,) = self.take(1)
+            value |= (byte & 0x7F) << 7 * place
+            if byte < 0x80:
+                break
+        return value
+
+    def take(self, count: int) -> bytes:
+        if count > len(self.data) - self.at:
+            raise CorruptError("the bytes end early")
+        self.at += count
+        return self.data[self.at - count : self.at]
+
+    def rest(self) -> bytes:
+        return self.take(len(self.data) - self.at)
+
+
+@dataclass(frozen=True)
+class Span:
+    """A frame: its type and payload, and its place in the stream, tag and checksum included."""
+
+    type: int
+    payload: bytes
+    offset: int
+    length: int
+
+
+def spans_of(stream: bytes) -> Iterator[Span]:
+    """Yield all frames of a stream, END included."""
+    cursor = Cursor(stream, PREAMBLE_BYTES)
+    while (start := cursor.at) < len(stream):
+        length, kind = divmod(cursor.varint(), 16)
+        payload, body = cursor.take(length), stream[start : cursor.at]
+        size = checksum_size(kind, length)
+        if cursor.take(size) != checksum(size, body):
+            raise CorruptError(f"checksum of the frame at byte {start} is wrong")
+        yield Span(kind, payload, start, cursor.at - start)
+
+
 def frames_of(stream: bytes) -> Frames:
     """Type and payload of every frame of a stream, END left out."""
-    frames: Frames = []
-    offset = PREAMBLE_BYTES
-    while offset < len(stream):
-        frame = parse_frame(stream, offset, DEFAULT_LIMITS)
-        if frame is None:
-            raise ValueError(f"the stream ends inside the frame at byte {offset}")
-        frames.append((frame.type, frame.payload))
-        offset += frame.size
-    return [frame for frame in frames if frame[0] != FrameType.END]
+    return [(span.type, span.payload) for span in spans_of(stream) if span.type != FrameType.END]
 
 
-def scan(chunks: Iterable[bytes], scanner: Scanner | None = None) -> Iterator[tuple[Packet, FrameSpan]]:
-    """Yield the packets of a whole stream, and where the frame of each lies."""
-    scanner = scanner or Scanner()
-    for chunk in chunks:
-        yield from scanner.receive(chunk)
-    if not scanner.ended:
-        raise TruncatedError("the stream ends before its END frame")
+def scan(stream: bytes) -> Iterator[tuple[Packet, Span]]:
+    """Yield the packets of a stream, and their frames."""
+    for span in spans_of(stream):
+        if span.type not in SKIPPABLE_TYPES:
+            yield parse_packet(span.type, span.payload), span
+
+
+def parse_packet(kind: int, payload: bytes) -> Any:
+    """Inverse of `WRITERS`."""
+    made, cursor = next(made for made, (own, _) in WRITERS.items() if own == kind), Cursor(payload)
+    if made is Header:
+        return record_of(Header, payload)
+    if made is Metadata:
+        return Metadata(header_entries(payload))  # type: ignore[arg-type]
+    if made is Attribute:
+        index, length = cursor.varint(), cursor.varint()
+        return Attribute(index, record_of(Declaration, cursor.take(length)), cursor.rest())
+    if made is End:
+        return End(cursor.varint(), *struct.unpack(f"<{len(cursor.data) // 4}I", cursor.rest()))
+    return made(*(cursor.varint() for _ in fields(made)[1:]), cursor.rest())
+
+
+def record_of(kind: Any, payload: bytes) -> Any:
+    """The header or declaration that a map holds."""
+    names = {declared.key: name for name, declared in fields_of(kind).items()}
+    try:
+        return kind(**{names[key]: value for key, value in header_entries(payload).items()})
+    except (KeyError, TypeError, OptionError) as error:
+        raise CorruptError(f"this cannot be read: {error}") from error
 
 
 def write_stream(packets: list[Packet]) -> bytes:
@@ -111,16 +174,19 @@ def _set_parts(entries: dict[int, Any], changes: dict[str, Any]) -> None:
 
 
 def header_entries(payload: bytes) -> dict[int, Any]:
-    """Key and value of every field that a header stores."""
-    return dict(msgpack.unpackb(payload, strict_map_key=False))
+    """Key and value of every field that a header or a declaration stores."""
+    try:
+        return dict(msgpack.unpackb(payload, strict_map_key=False))
+    except (ValueError, TypeError) as error:
+        raise CorruptError(f"not a map: {error}") from error
 
 
 def first_entries(stream: bytes) -> dict[int, Any]:
-    """What the header of a stream stores, whatever comes behind it; nothing if there is none that can be read."""
+    """The fields in the header of a stream; empty if it cannot be read."""
     try:
-        frame = parse_frame(stream, PREAMBLE_BYTES, DEFAULT_LIMITS)
+        frame = next(spans_of(stream), None)
         return header_entries(frame.payload) if frame is not None and frame.type == FrameType.HEADER else {}
-    except (BsmError, ValueError, TypeError):
+    except CorruptError:
         return {}
 
 
@@ -138,7 +204,7 @@ def with_declaration(stream: bytes, index: int, **changes: Any) -> bytes:
     payload = [payload for kind, payload in frames_of(stream) if kind == FrameType.ATTRIBUTE][index]
     cursor = Cursor(payload)
     number, length = cursor.varint(), cursor.varint()
-    entries = dict(parse_map(cursor.take(length)))
+    entries = header_entries(cursor.take(length))
     keys = {name: declared.key for name, declared in fields_of(Declaration).items()}
     keys |= {name: int(name.removeprefix("key_")) for name in changes if name.startswith("key_")}
     entries |= {keys[name]: value for name, value in changes.items()}

@@ -9,8 +9,8 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.container.wire import Cursor, write_varint
-from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.container.wire import write_varint
+from bsm.bitstream.errors import OptionError
 
 WAYS = (1, 0, -1)  # from frame to frame of a stretch: as they were sent, standing still, backwards
 
@@ -49,11 +49,6 @@ class GopMethod(IntEnum):
     @property
     def has_basis(self) -> bool:
         return self in (GopMethod.LEARNT, GopMethod.LEARNT_NEXT)
-
-    @property
-    def begins(self) -> bool:
-        """Whether the GOP needs none before it."""
-        return self in (GopMethod.LEARNT, GopMethod.KEY_FRAME)
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,18 +127,3 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
     elif method is GopMethod.NEXT_FRAME:
         parts.append(write_varint(field.back))
     return b"".join([*parts, field.levels])
-
-
-def method_of(first: int) -> GopMethod:
-    return GopMethod(first % WITH_ATTRIBUTES)
-
-
-def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
-    """How many frames a GOP of a run has; `CorruptError` if it is none of this run, or too long."""
-    cursor = Cursor(data)
-    if cursor.take(1)[0] // METHODS != run % RUNS:
-        raise CorruptError(f"GOP of a different run, expected {run}")
-    frames = cursor.varint()
-    if not 1 <= frames <= longest:
-        raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
-    return frames

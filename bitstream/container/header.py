@@ -6,7 +6,7 @@ import operator
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias, TypeVar
 
-from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.errors import OptionError
 
 COUNT = 2**31 - 1
 METHODS = 255
@@ -234,15 +234,6 @@ def entries_of(record: Any) -> list[tuple[int, Any]]:
         if name not in defaults or getattr(record, name) != defaults[name]
     ]
     return sorted(entries)
-
-
-def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> Record:
-    """The record that `entries_of` came from."""
-    names = {declared.key: name for name, declared in fields_of(kind).items()}
-    try:
-        return kind(**{names[key]: value for key, value in entries})
-    except (KeyError, TypeError, OptionError) as error:
-        raise CorruptError(f"{what} cannot be read: {error}") from error
 
 
 VERTEX, CORNER, FACE = range(3)  # what has a value in the stream

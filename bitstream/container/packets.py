@@ -2,16 +2,16 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
-from bsm.bitstream.container.header import entries_of, record_of
-from bsm.bitstream.container.wire import MAX_ENTRIES, Cursor, FrameType, parse_map, write_map, write_varint
-from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.container.header import entries_of
+from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, write_map, write_varint
+from bsm.bitstream.errors import OptionError
 
 MetadataValue: TypeAlias = str | int | float | bytes
 
@@ -131,11 +131,6 @@ def write_header(header: Header) -> bytes:
     return write_map(entries_of(header))
 
 
-def parse_header(payload: bytes) -> Header:
-    """Inverse of `write_header`."""
-    return record_of(Header, "header", parse_map(payload))
-
-
 def write_metadata(metadata: Metadata) -> bytes:
     """A map from names to values; raises `OptionError` for what a stream cannot hold."""
     if len(metadata.entries) > MAX_ENTRIES:
@@ -152,27 +147,10 @@ def write_metadata(metadata: Metadata) -> bytes:
         raise OptionError(f"metadata cannot be stored: {error}") from error
 
 
-def parse_metadata(payload: bytes) -> Metadata:
-    try:
-        return Metadata(dict(parse_map(payload)))
-    except (OptionError, TypeError) as error:
-        raise CorruptError(f"metadata cannot be read: {error}") from error
-
-
 def write_plain(packet: Any) -> bytes:
     """Varints, as many as the packet has numbers, then its data."""
     *numbers, data = vars(packet).values()
     return bytes(b"".join(map(write_varint, numbers)) + data)
-
-
-def parse_plain(kind: type[Any]) -> Callable[[bytes], Any]:
-    numbers = len(fields(kind)) - 1
-
-    def parse(payload: bytes) -> Any:
-        cursor = Cursor(payload)
-        return kind(*(cursor.varint() for _ in range(numbers)), cursor.rest())
-
-    return parse
 
 
 def write_attribute(attribute: Attribute) -> bytes:
@@ -181,44 +159,24 @@ def write_attribute(attribute: Attribute) -> bytes:
     return write_varint(attribute.index) + write_varint(len(entries)) + entries + attribute.seams
 
 
-def parse_attribute(payload: bytes) -> Attribute:
-    """Inverse of `write_attribute`."""
-    cursor = Cursor(payload)
-    index, length = cursor.varint(), cursor.varint()
-    return Attribute(index, record_of(Declaration, "attribute", parse_map(cursor.take(length))), cursor.rest())
-
-
 def write_end(end: End) -> bytes:
     """Varint number of frames, CRC-32 of bytes and, if it is known, of positions, little-endian."""
     sums = [end.crc] if end.positions is None else [end.crc, end.positions]
     return write_varint(end.frames) + b"".join(each_sum.to_bytes(4, "little") for each_sum in sums)
 
 
-def parse_end(payload: bytes) -> End:
-    cursor = Cursor(payload)
-    frames, crc = cursor.varint(), int.from_bytes(cursor.take(4), "little")
-    positions = None if cursor.ended else int.from_bytes(cursor.take(4), "little")
-    cursor.finish()
-    return End(frames, crc, positions)
-
-
-_PLAIN: dict[FrameType, type[Any]] = {
-    FrameType.CONNECTIVITY: Connectivity,
-    FrameType.PARTITION: Partition,
-    FrameType.ORDER: Order,
-    FrameType.BLOCK: Block,
-    FrameType.GOP: Gop,
-    FrameType.GRID: Grid,
-    FrameType.REFINEMENT: Refinement,
-    FrameType.VALUES: Values,
+WRITERS: dict[type[Any], tuple[FrameType, Callable[[Any], bytes]]] = {
+    Header: (FrameType.HEADER, write_header),
+    Metadata: (FrameType.METADATA, write_metadata),
+    Connectivity: (FrameType.CONNECTIVITY, write_plain),
+    Partition: (FrameType.PARTITION, write_plain),
+    Order: (FrameType.ORDER, write_plain),
+    Attribute: (FrameType.ATTRIBUTE, write_attribute),
+    Block: (FrameType.BLOCK, write_plain),
+    Gop: (FrameType.GOP, write_plain),
+    Grid: (FrameType.GRID, write_plain),
+    Refinement: (FrameType.REFINEMENT, write_plain),
+    Values: (FrameType.VALUES, write_plain),
+    End: (FrameType.END, write_end),
 }
-_OTHERS: dict[FrameType, tuple[type[Any], Callable[[Any], bytes], Callable[[bytes], Packet]]] = {
-    FrameType.HEADER: (Header, write_header, parse_header),
-    FrameType.METADATA: (Metadata, write_metadata, parse_metadata),
-    FrameType.ATTRIBUTE: (Attribute, write_attribute, parse_attribute),
-    FrameType.END: (End, write_end, parse_end),
-}
-_LAYOUTS = {kind: (made, write_plain, parse_plain(made)) for kind, made in _PLAIN.items()} | _OTHERS
-FRAME_TYPES: dict[type, FrameType] = {made: kind for kind, (made, _, _) in _LAYOUTS.items()}
-WRITERS: dict[FrameType, Callable[[Any], bytes]] = {kind: write for kind, (_, write, _) in _LAYOUTS.items()}
-PARSERS: dict[FrameType, Callable[[bytes], Packet]] = {kind: parse for kind, (_, _, parse) in _LAYOUTS.items()}
+"""The type of the frame of each packet, and the function that writes its payload."""

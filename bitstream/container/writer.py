@@ -2,7 +2,7 @@
 
 import zlib
 
-from bsm.bitstream.container.packets import FRAME_TYPES, WRITERS, End, Packet
+from bsm.bitstream.container.packets import WRITERS, End, Packet
 from bsm.bitstream.container.wire import write_frame, write_preamble
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -37,8 +37,8 @@ class Writer:
     def _frame(self, packet: Packet) -> bytes:
         if self._crc is None:
             raise OptionError("call Writer.start() first")
-        frame_type = FRAME_TYPES[type(packet)]
-        payload = WRITERS[frame_type](packet)
+        frame_type, write = WRITERS[type(packet)]
+        payload = write(packet)
         self._limits.check("frame_bytes", len(payload))
         frame = write_frame(frame_type, payload)
         self._frames += 1

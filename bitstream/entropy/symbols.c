@@ -1,16 +1,7 @@
 /* Single symbols, for the few that are coded one by one (specification, C 1 to C 3). */
 #include "bitstream/entropy/entropy.h"
 
-
 enum { MOST_UNARY = 1 << 10, MOST_VALUE = 1 << 25 };
-
-int64_t code_one_bit(Coder given, int64_t probability, int64_t bit) {
-    RangeCoder coder;
-    if (!open_coder(&coder, given) || probability < 1 || probability >= ONE) return MISUSED;
-    bit = code_bit(&coder, (uint32_t)probability, bit != 0);
-    close_coder(&coder, given);
-    return bit;
-}
 
 int64_t code_one_uniform(Coder given, int64_t value, int64_t count) {
     RangeCoder coder;
@@ -28,17 +19,6 @@ static bool open_bank_for(Mixer *mixer, Bank bank, ConstLongs contexts, int64_t 
         && open_bank(mixer, bank, 1, 1, (int)contexts.size);
 }
 
-int64_t code_one_mixed_bit(Coder given, Bank bank, ConstLongs contexts, int64_t node, int64_t selector, int64_t bit) {
-    RangeCoder coder;
-    Mixer mixer = {0};
-    if (node < 0 || node > MOST_UNARY || !open_coder(&coder, given)
-        || !open_bank_for(&mixer, bank, contexts, selector, node + 1))
-        return MISUSED;
-    bit = code_mixed_bit(&coder, &mixer, (int)contexts.size, contexts.data, node, selector, bit != 0);
-    close_coder(&coder, given);
-    return bit;
-}
-
 int64_t code_one_unsigned(
     Coder given, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value, int64_t node) {
     RangeCoder coder;
@@ -48,17 +28,6 @@ int64_t code_one_unsigned(
         return MISUSED;
     int inputs = (int)contexts.size;
     value = code_unsigned(&coder, &mixer, inputs, contexts.data, selector, (int)unary, value, node);
-    close_coder(&coder, given);
-    return value;
-}
-
-int64_t code_one_signed(Coder given, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value) {
-    RangeCoder coder;
-    Mixer mixer = {0};
-    if (unary < 0 || unary > MOST_UNARY || value < -MOST_VALUE || value > MOST_VALUE || !open_coder(&coder, given)
-        || !open_bank_for(&mixer, bank, contexts, selector, SIGNED_SPAN(unary)))
-        return MISUSED;
-    value = code_signed(&coder, &mixer, (int)contexts.size, contexts.data, selector, (int)unary, value);
     close_coder(&coder, given);
     return value;
 }

@@ -152,9 +152,15 @@ class Decoder {
         return nb::make_tuple((int)event.type, event.index, event.count, event.vertices, event.faces);
     }
 
-    // Check the packets that have come without decoding them; no other call makes sense for this decoder.
-    void skim() {
-        check(locked([&] { return decoder_skim(decoder); }));
+    // Name and numbers of the next packet (see inside.h); None: it has not come as a whole.
+    nb::object skim() {
+        int64_t numbers[SKIMMED_NUMBERS] = {};
+        const char *name = "";
+        check(locked([&] { return name = decoder_skim(decoder, numbers), bsmdec_last_error(decoder)->status; }));
+        if (numbers[0] < 0) return nb::none();
+        nb::list all;
+        for (int64_t number : numbers) all.append(number);
+        return nb::make_tuple(text_of(name), all);
     }
 
     nb::object faces(size_t count) {
@@ -337,7 +343,7 @@ NB_MODULE(_engine, m) {
         .def("finish", &Decoder::finish)
         .def("next", &Decoder::next, "wanted"_a,
             nb::sig("def next(self, wanted: int) -> tuple[int, int, int, int, int]"))
-        .def("skim", &Decoder::skim)
+        .def("skim", &Decoder::skim, nb::sig("def skim(self) -> tuple[str, list[int]] | None"))
         .def("faces", &Decoder::faces, "count"_a,
             nb::sig("def faces(self, count: int) -> numpy.typing.NDArray[numpy.int32]"))
         .def("positions", &Decoder::positions, "count"_a,

@@ -11,7 +11,11 @@ void decoder_state(const bsmdec *decoder, double *state);
 /* The header of the present run, as engine/header.h has it. */
 enum { MOST_HEADER_NUMBERS = 48 };
 void decoder_header(const bsmdec *decoder, double *numbers);
-/* Read the packets that have come without decoding them: all checks that come before decoding. */
-bsmdec_status decoder_skim(bsmdec *decoder);
+/* Read the next packet without decoding it, after all checks that come before decoding, and list it: type, offset and
+ * length of its frame, bytes of its payload and of the data in it, index, count (also of coefficients or frames),
+ * entries of metadata so far, version, whether a GOP begins anew, the checksum of positions or -1; of an attribute,
+ * whose name is returned, domain, semantic, kind, components, rows, coding, whether it moves. Type -1: none. */
+enum { SKIMMED_NUMBERS = 18 };
+const char *decoder_skim(bsmdec *decoder, int64_t *numbers);
 
 #endif

@@ -60,4 +60,4 @@ def encoded(name: str) -> bytes:
 
 def frame_ends(data: bytes) -> list[int]:
     """Offsets behind the preamble and behind every frame."""
-    return [5, *(span.offset + span.length for _, span in scan([data]))]
+    return [5, *(span.offset + span.length for _, span in scan(data))]

@@ -8,9 +8,10 @@ import pytest
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError
 from bsm.codec.decoding import Decoder
 from bsm.codec.events import END_OF_STREAM
+from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import format_mesh, read_mesh
 from tools.attack.mutate import mutate_stream
-from tools.surgery import frames_of, scan, stream_of, with_header
+from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import patch
 from tools.vectors.store import FOLDER
 
@@ -28,7 +29,7 @@ def test_mutated_streams_get_past_the_checksums():
     for k in range(300):
         mutated = mutate_stream(stream, 1 << 16, k, change_a_byte)
         try:
-            list(scan([mutated]))
+            inspect_stream([mutated])
             reached["whole"] += 1
         except BsmError as error:
             reached["checksum" if "checksum" in str(error) else "payload"] += 1
@@ -37,10 +38,9 @@ def test_mutated_streams_get_past_the_checksums():
 
 def test_headers_are_changed_by_name():
     stream = (FOLDER / "good-chain.bsm").read_bytes()
-    header, _ = next(scan([with_header(stream, smoothing=2.5)]))
-    assert header.smoothing == 2.5
+    assert inspect_stream([with_header(stream, smoothing=2.5)]).header.smoothing == 2.5
     with pytest.raises(CorruptError):
-        list(scan([with_header(stream, vertices=None)]))
+        inspect_stream([with_header(stream, vertices=None)])
 
 
 # ------------------------------------------------------------------------------------------------- what it has found

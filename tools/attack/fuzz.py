@@ -24,7 +24,7 @@ from types import FunctionType, ModuleType
 import atheris
 
 from tools.attack.mutate import mutate_stream
-from tools.attack.targets import SLOW, TARGETS, VECTORS, WHOLE_STREAMS, Finding, Target, run, seeds
+from tools.attack.targets import MESH_FILE, SLOW, TARGETS, VECTORS, Finding, Target, run, seeds
 from tools.copies import refuse_other_kernels
 
 ROOT = Path(__file__).parents[2]
@@ -167,7 +167,7 @@ def work() -> None:
     def mutate(data: bytes, max_size: int, seed: int) -> bytes:
         return mutate_stream(data, max_size, seed, atheris.Mutate)
 
-    options = {"custom_mutator": mutate} if name in WHOLE_STREAMS else {}
+    options = {"custom_mutator": mutate} if name != MESH_FILE else {}
     atheris.Setup([sys.argv[0], *sys.argv[2:]], path, **options)
     atheris.Fuzz()
 

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from random import Random
 
 from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Field, fields_of
-from bsm.bitstream.container.wire import Cursor, FrameType, parse_map, write_map, write_varint
+from bsm.bitstream.container.wire import FrameType, write_map, write_varint
 from bsm.bitstream.errors import BsmError
-from tools.surgery import Frames, frames_of, header_entries, stream_of
+from tools.surgery import Cursor, Frames, frames_of, header_entries, stream_of
 
 Mutate = Callable[[bytes, int], bytes]
 _KINDS = frozenset(map(int, FrameType))
@@ -104,7 +104,7 @@ def _change_declaration(frames: Frames, random: Random, mutate: Mutate) -> None:
     try:
         cursor = Cursor(frames[place][1])
         index, size = cursor.varint(), cursor.varint()
-        entries, seams = dict(parse_map(cursor.take(size))), cursor.rest()
+        entries, seams = header_entries(cursor.take(size)), cursor.rest()
     except BsmError:
         return
     item = random.choice(list(fields_of(Declaration).values()))

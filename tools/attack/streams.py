@@ -30,7 +30,7 @@ from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
 from bsm.bitstream.container.header import AS_CODED, CORNER, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
-from bsm.bitstream.container.packets import FRAME_TYPES, WRITERS
+from bsm.bitstream.container.packets import WRITERS
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
@@ -410,8 +410,8 @@ def _nested(kind: FrameType, size: int) -> bytes:
 
 
 def _written(packet: packets.Packet) -> tuple[int, bytes]:
-    kind = FRAME_TYPES[type(packet)]
-    return kind, WRITERS[kind](packet)
+    kind, write = WRITERS[type(packet)]
+    return kind, write(packet)
 
 
 def _torn(stream: bytes, rubbish: bytes) -> bytes:

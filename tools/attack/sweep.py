@@ -21,7 +21,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from tools.attack.mutate import mutate_stream
-from tools.attack.targets import TARGETS, VECTORS, WHOLE_STREAMS, run, seeds
+from tools.attack.targets import MESH_FILE, TARGETS, VECTORS, run, seeds
 from tools.copies import refuse_other_kernels
 
 Ints = npt.NDArray[np.int32]
@@ -54,7 +54,7 @@ def attack(name: str, seconds: float) -> int:
         count += 1
     while time.monotonic() - begin < seconds:
         data = random.choice(found)
-        if name in WHOLE_STREAMS:
+        if name != MESH_FILE:
             data = mutate_stream(data, 65535, random.randrange(1 << 30), lambda part, size: mutate(random, part)[:size])
         else:
             data = mutate(random, data)

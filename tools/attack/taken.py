@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from bsm.bitstream.container.gop import METHODS, WITH_ATTRIBUTES, method_of
+from bsm.bitstream.container.gop import METHODS, WITH_ATTRIBUTES, GopMethod
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.wire import Cursor, FrameType
+from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.decoding import Decoder, SequenceDecoder
@@ -27,7 +27,7 @@ from bsm.codec.events import END_OF_STREAM, NEED_DATA, FrameEvent, HeaderEvent, 
 from bsm.codec.static.encoder import encode
 from bsm.files.stream import peek_header
 from tools.payloads import parse_stretches
-from tools.surgery import frames_of, header_entries
+from tools.surgery import Cursor, frames_of, header_entries
 from tools.vectors.meshes import torus
 
 MOST_SECONDS = 600
@@ -102,7 +102,7 @@ def sequence_memory(stream: bytes, vertices: int) -> float:
 def beginning_of_gop(kind: int, cursor: Cursor) -> tuple[int, int]:
     """Return the frames of a GOP of a kind, and the components of its positions."""
     frames = cursor.varint()
-    if not method_of(kind).has_basis:
+    if not GopMethod(kind % WITH_ATTRIBUTES).has_basis:
         return frames, 0
     parse_stretches(cursor, frames)
     for _ in range(cursor.varint() if kind >= WITH_ATTRIBUTES else 0):

@@ -9,15 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from bsm.bitstream.container.packets import PARSERS
-from bsm.bitstream.container.scanner import Scanner
-from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import Limits
 from bsm.codec.decoding import Decoder, SequenceDecoder, decode
 from bsm.codec.events import END_OF_STREAM, BlockEvent, FrameEvent
+from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import MESH_FORMATS, read_mesh
-from tools.surgery import frames_of, scan
 
 Target = Callable[[bytes], None]
 
@@ -49,15 +46,9 @@ def _expect(right: bool, problem: str) -> None:
         raise Finding(problem)
 
 
-def scanner(data: bytes) -> None:
-    """Frames and their payloads."""
-    list(scan([data[: len(data) // 2], data[len(data) // 2 :]], Scanner(LIMITS)))
-
-
-def payloads(data: bytes) -> None:
-    """The payload of each frame type, without frame and checksum."""
-    kinds = list(PARSERS)
-    PARSERS[kinds[data[0] % len(kinds)]](data[1:])
+def inspection(data: bytes) -> None:
+    """The report of `bsm info`, of a stream in two pieces."""
+    inspect_stream([data[: len(data) // 2], data[len(data) // 2 :]], LIMITS)
 
 
 def stream(data: bytes) -> None:
@@ -111,25 +102,19 @@ def mesh_file(data: bytes) -> None:
 
 
 TARGETS: dict[str, Target] = {
-    item.__name__: item for item in (scanner, payloads, stream, stream_threads, damaged, sequence, mesh_file)
+    item.__name__: item for item in (inspection, stream, stream_threads, damaged, sequence, mesh_file)
 }
-WHOLE_STREAMS = ("scanner", "stream", "stream_threads", "damaged", "sequence")
-"""Targets that take streams, and are given mutations that keep checksums right."""
+MESH_FILE = "mesh_file"
+"""The target that takes no streams; the others are given mutations that keep checksums right."""
 LARGEST_SEED = 4096
 SLOW = ("stream", "stream_threads", "damaged", "sequence", "mesh_file")
 
 
 def seeds(name: str, vectors: Path) -> list[bytes]:
-    """What a target starts from: streams, or the payloads in them, behind the bytes the target reads first."""
-    streams = [path.read_bytes() for path in sorted(vectors.glob("*/*.bsm")) if path.stat().st_size < LARGEST_SEED]
-    if name in WHOLE_STREAMS:
-        return streams
-    if name == "mesh_file":
+    """Return the inputs that a target starts from: streams, or mesh files after a byte for their format."""
+    if name == MESH_FILE:
         return _mesh_seeds()
-    kinds = list(PARSERS)
-    good = (frames_of(path.read_bytes()) for path in sorted(vectors.glob("*/good-*.bsm")))
-    payloads = ((kinds.index(FrameType(kind)), payload) for frames in good for kind, payload in frames if kind in kinds)
-    return sorted({bytes([kind]) + payload for kind, payload in payloads})
+    return [path.read_bytes() for path in sorted(vectors.glob("*/*.bsm")) if path.stat().st_size < LARGEST_SEED]
 
 
 def _mesh_seeds() -> list[bytes]:
@@ -151,7 +136,7 @@ def _mesh_seeds() -> list[bytes]:
 
 def run(target: Target, data: bytes) -> None:
     """Run a target; what it refuses as it should is no finding."""
-    if target in (payloads, mesh_file) and not data:
-        return  # they read their own first byte
+    if target is mesh_file and not data:
+        return  # it reads its own first byte
     with suppress(BsmError):
         target(data)

@@ -6,6 +6,7 @@ speed       what decoding by bsmdec takes, over Draco's
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
 butteraugli how presets look to Butteraugli, beside Draco at 11 bits
 targets     what a target beside the look takes, over the larger of what both take alone
+same        whether another checkout writes the same bytes
 house       how large the repository is, beside its limits
 """
 
@@ -20,6 +21,7 @@ COMMANDS = {
     "speed": "speed:main",
     "butteraugli": "butteraugli:main",
     "targets": "targets:main",
+    "same": "same:main",
     "house": "house:main",
 }
 """The function that does what a word asks for, and its module."""

@@ -7,9 +7,9 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+from bsm.bitstream.container.wire import FrameType, write_varint
 from bsm.codec.static.encoder import encode
-from tools.surgery import frames_of, stream_of, with_declaration, with_header, with_payload
+from tools.surgery import Cursor, frames_of, stream_of, with_declaration, with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE
 from tools.vectors.good_attributes import (

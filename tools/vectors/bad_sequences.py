@@ -6,8 +6,8 @@ import struct
 from collections.abc import Callable
 from functools import cache
 
-from bsm.bitstream.container.wire import Cursor, FrameType, write_map, write_varint
-from tools.surgery import Frames, change_entries, frames_of, header_entries, stream_of, with_header
+from bsm.bitstream.container.wire import FrameType, write_map, write_varint
+from tools.surgery import Cursor, Frames, change_entries, frames_of, header_entries, stream_of, with_header
 from tools.vectors.bad import Bad, unlike
 from tools.vectors.good_sequences import SEQUENCES
 

@@ -8,12 +8,12 @@ from functools import cache
 
 import numpy as np
 
-from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+from bsm.bitstream.container.wire import FrameType, write_varint
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
+from tools.surgery import Cursor, with_header, with_payload
 from tools.surgery import frames_of as _frames_of
-from tools.surgery import with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import Good
 from tools.vectors.good_attributes import charts, colors, creases, with_attributes

@@ -10,7 +10,6 @@ import numpy.typing as npt
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, points_of_levels
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import Header
-from bsm.bitstream.container.scanner import Scanner
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import decode
@@ -18,7 +17,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
 from bsm.codec.static.coding import rules_of
 from tools.payloads import decode_coefficients
-from tools.surgery import frames_of, header_entries
+from tools.surgery import frames_of, header_entries, scan
 from tools.vectors.store import FOLDER
 
 NAME = "good-tetrahedron"
@@ -70,7 +69,7 @@ def _header(payload: bytes) -> Iterator[tuple[bytes, str]]:
 
 
 def _numbers(stream: bytes) -> list[str]:
-    header, _ = next(Scanner().receive(stream))
+    header, _ = next(scan(stream))
     assert isinstance(header, Header)
     mesh = decode(stream)
     graph = graph_of_faces(mesh.faces, header.vertices)

@@ -9,7 +9,6 @@ import numpy as np
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
-from bsm.bitstream.container.scanner import Scanner
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -17,7 +16,7 @@ from bsm.codec.static.choice.blocks import RefinementBase, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from tools.gridded import gridded
-from tools.surgery import stream_of, with_header, write_stream
+from tools.surgery import scan, stream_of, with_header, write_stream
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
@@ -97,7 +96,7 @@ def _exact_lattice() -> TriangleMesh:
 
 def header_of(stream: bytes) -> Header:
     """The header of a stream."""
-    header, _ = next(Scanner().receive(stream))
+    header, _ = next(scan(stream))
     assert isinstance(header, Header)
     return header
 

@@ -76,9 +76,9 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
         "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
         "metadata": {
             name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
-            for name, value in info.metadata.entries.items()
+            for name, value in info.metadata.items()
         },
-        "metadata_bytes": {n: len(value) for n, value in info.metadata.entries.items() if isinstance(value, bytes)},
+        "metadata_bytes": {n: len(value) for n, value in info.metadata.items() if isinstance(value, bytes)},
     }
 
 

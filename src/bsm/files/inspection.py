@@ -1,17 +1,18 @@
-"""Streams taken apart for a report, without decoding them."""
+"""Reports on streams, without decoding them."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
 from bsm._engine import Decoder
-from bsm.bitstream.container import packets
-from bsm.bitstream.container.gop import frames_of_gop
-from bsm.bitstream.container.packets import write_attribute, write_metadata
-from bsm.bitstream.container.scanner import FrameSpan, Scanner
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.packets import MetadataValue
+from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.decoding import header_of
 
 
 @dataclass(frozen=True)
@@ -52,8 +53,8 @@ class AttributeInfo:
 class StreamInfo:
     """What a stream consists of, known without decoding it; sizes in bytes."""
 
-    header: packets.Header
-    metadata: packets.Metadata
+    header: Header
+    metadata: dict[str, MetadataValue]
     coefficients: tuple[int, ...]
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
@@ -84,82 +85,113 @@ class StreamInfo:
         return 3 * (bits or mean) * count / self.header.vertices
 
 
-_CARRIED: dict[type, str] = {
-    packets.Connectivity: "connectivity",
-    packets.Partition: "partition",
-    packets.Order: "order",
-    **dict.fromkeys((packets.Block, packets.Gop, packets.Grid, packets.Refinement), "coefficients"),
+_CARRIED = {
+    FrameType.CONNECTIVITY: "connectivity",
+    FrameType.PARTITION: "partition",
+    FrameType.ORDER: "order",
+    **dict.fromkeys((FrameType.BLOCK, FrameType.GOP, FrameType.GRID, FrameType.REFINEMENT), "coefficients"),
 }
 
 
-def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> StreamInfo:
+@dataclass(frozen=True)
+class Packet:
+    """A packet as the decoder in C lists it (`decoder_skim` in engine/python/inside.h)."""
+
+    name: str
+    type: int
+    offset: int
+    length: int
+    payload: int
+    data: int
+    index: int
+    count: int
+    entries: int
+    version: int
+    begins: int
+    positions: int
+    domain: int
+    semantic: int
+    kind: int
+    components: int
+    rows: int
+    coding: int
+    moves: int
+
+
+class Skimmer:
+    """Checks the packets of a stream that arrives in pieces without decoding them."""
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+        self.engine = Decoder(limits)
+
+    def receive(self, chunk: bytes | None) -> Iterator[Packet]:
+        """Take more bytes, or None at the end; yield the packets that are complete now."""
+        if chunk is None:
+            self.engine.finish()
+        elif len(chunk):
+            self.engine.push(np.frombuffer(chunk, np.uint8))
+        while (found := self.engine.skim()) is not None:
+            yield Packet(found[0], *found[1])
+
+    @property
+    def header(self) -> Header:
+        """Header of the latest run."""
+        return header_of(self.engine.header())
+
+
+def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> StreamInfo:
     """Read a stream to its end, check every checksum, and count."""
-    headers: list[packets.Header] = []
-    metadata = packets.Metadata()
+    skimmer = Skimmer(limits)
+    headers: list[Header] = []
     runs: list[RunInfo] = []
     coefficients: list[int] = []
     gops: list[GopInfo] = []
-    carried = (*dict.fromkeys(_CARRIED.values()), "attributes", "metadata")
-    sizes = dict.fromkeys(carried, 0)
-    declared: list[packets.Attribute] = []
+    sizes = dict.fromkeys((*dict.fromkeys(_CARRIED.values()), "attributes", "metadata"), 0)
+    declared: list[Packet] = []
     lengths: Counter[int] = Counter()
     checksum: int | None = None
-    scanner = Scanner(limits)
-    total = 0
-    for packet, frame in _checked(chunks, limits, scanner):
-        total = frame.offset + frame.length
-        match packet:
-            case packets.Header():
-                headers.append(packet)
-                mesh = packet.run_number if packet.mesh_of is None else packet.mesh_of
-                runs.append(RunInfo(sum(gop.frames for gop in gops), 0, packet.vertices, packet.faces, mesh))
-            case packets.Metadata(entries):
-                metadata = packets.Metadata({**metadata.entries, **entries})
-                sizes["metadata"] += len(write_metadata(packet))
-            case packets.Attribute():
+    total = entries = version = 0
+    for packet in (packet for chunk in chain(chunks, (None,)) for packet in skimmer.receive(chunk)):
+        total, version = packet.offset + packet.length, packet.version
+        match packet.type:
+            case FrameType.HEADER:
+                headers.append(header := skimmer.header)
+                mesh = header.run_number if header.mesh_of is None else header.mesh_of
+                runs.append(RunInfo(sum(gop.frames for gop in gops), 0, header.vertices, header.faces, mesh))
+            case FrameType.METADATA:
+                entries = packet.entries
+                sizes["metadata"] += packet.payload
+            case FrameType.ATTRIBUTE:
                 declared += [packet] if len(runs) == 1 else []
-                lengths[packet.index] += len(write_attribute(packet))
-            case packets.Values():
-                lengths[packet.attribute] += len(packet.data)
-            case packets.End():
-                checksum = packet.positions
-            case _:
-                sizes[_CARRIED[type(packet)]] += len(packet.data)
-        if isinstance(packet, packets.Block):
-            coefficients.append(packet.coefficients)
-        if isinstance(packet, packets.Gop):
-            frames = frames_of_gop(packet.data, headers[-1].gop_frames, headers[-1].run_number)
-            runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
-            gops.append(GopInfo(packet.index, frames, frame.offset, frame.length))
+                lengths[packet.index] += packet.payload
+            case FrameType.VALUES:
+                lengths[packet.index] += packet.data
+            case FrameType.END:
+                checksum = packet.positions if packet.positions >= 0 else None
+            case carried:
+                sizes[_CARRIED[FrameType(carried)]] += packet.data
+        if packet.type == FrameType.BLOCK:
+            coefficients.append(packet.count)
+        if packet.type == FrameType.GOP:
+            runs[-1] = replace(runs[-1], frames=runs[-1].frames + packet.count)
+            gops.append(GopInfo(packet.index, packet.count, packet.offset, packet.length))
+    metadata = dict(sorted(skimmer.engine.metadata(entry) for entry in range(entries)))
     attributes = tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared)
     sizes["attributes"] = sum(attribute.bytes for attribute in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
-    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, scanner.version)
+    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, version)
 
 
-def _checked(chunks: Iterable[bytes], limits: Limits, scanner: Scanner) -> Iterator[tuple[packets.Packet, FrameSpan]]:
-    """The packets of a stream that the decoder would accept, as far as that is known without decoding it."""
-    checks = Decoder(limits)
-    for chunk in chunks:
-        if len(chunk):
-            checks.push(np.frombuffer(chunk, np.uint8))
-            checks.skim()
-            yield from scanner.receive(chunk)
-    checks.finish()
-    checks.skim()
-
-
-def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
-    declared = packet.declaration
+def _attribute_info(packet: Packet, size: int) -> AttributeInfo:
     return AttributeInfo(
-        declared.name,
-        ("vertex", "corner", "face")[declared.domain],
-        ("generic", "color", "normal", "texcoord")[declared.semantic],
-        ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")[declared.kind],
-        declared.components,
-        declared.rows,
-        "moving levels" if declared.moves else ("levels", "octahedral", "bits", "recomputed")[declared.coding],
-        len(packet.seams),
+        packet.name,
+        ("vertex", "corner", "face")[packet.domain],
+        ("generic", "color", "normal", "texcoord")[packet.semantic],
+        ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")[packet.kind],
+        packet.components,
+        packet.rows,
+        "moving levels" if packet.moves else ("levels", "octahedral", "bits", "recomputed")[packet.coding],
+        packet.data,
         size,
     )

@@ -6,8 +6,7 @@ from itertools import chain
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.container.packets import Header
-from bsm.bitstream.container.scanner import Scanner
+from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -44,16 +43,17 @@ Note = Callable[[str], None]
 
 def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]]:
     """The header of a stream, and all of its bytes again; None where the stream is too short or no stream at all."""
+    from bsm.files.inspection import Skimmer
+
     taken: list[bytes] = []
-    scanner = Scanner()
+    skimmer = Skimmer(Limits.wide())
     for chunk in chunks:
         taken.append(chunk)
         try:
-            packet, _ = next(scanner.receive(chunk), (None, None))
-        except BsmError:  # whoever decodes it will say so
+            if next(skimmer.receive(chunk), None) is not None:  # the first packet of a sound stream
+                return skimmer.header, chain(taken, chunks)
+        except BsmError:  # the decoder will report it
             break
-        if packet is not None:
-            return packet if isinstance(packet, Header) else None, chain(taken, chunks)
     return None, chain(taken, chunks)
 
 

@@ -20,11 +20,11 @@ from threading import Condition, Lock
 from typing import Any, BinaryIO
 from urllib.parse import parse_qs, urlsplit
 
-from bsm.bitstream.container.gop import method_of
-from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.wire import MAGIC, FrameType, Tag, parse_map, parse_tag, parse_varint, write_preamble
-from bsm.bitstream.errors import BsmError, CorruptError, DependencyError
+from bsm.bitstream.container.wire import MAGIC, FrameType, write_preamble
+from bsm.bitstream.errors import BsmError, DependencyError
+from bsm.bitstream.limits import Limits
 from bsm.exits import worded
+from bsm.files.inspection import Packet, Skimmer
 from bsm.files.pipes import place_of, read_range
 from bsm.viewer.contents import PRESETS, Content, uploaded
 
@@ -41,7 +41,7 @@ class Growing:
         self._data = bytearray()
         self._over = False
         self._change = Condition()
-        self._scanned = len(write_preamble())
+        self._skimmer: Skimmer | None = Skimmer(Limits.wide())
         self._head: list[slice] = []  # of the present mesh: its header, all metadata so far, what is before its GOPs
         self._metadata: list[slice] = []
         self._entry: int | None = None
@@ -59,7 +59,7 @@ class Growing:
     def take(self, chunk: bytes) -> None:
         with self._change:
             self._data += chunk
-            self._scan()
+            self._skim(chunk)
             self._change.notify_all()
 
     def end(self) -> None:
@@ -93,30 +93,24 @@ class Growing:
             at += len(piece)
             yield piece
 
-    def _scan(self) -> None:
-        """Look at the frames that are there as a whole; nobody enters a stream behind damage."""
+    def _skim(self, chunk: bytes) -> None:
+        """Look at the packets that are complete now; pages do not enter a stream after damage."""
         try:
-            while (tag := parse_tag(self._data, self._scanned)) and tag.end <= len(self._data):
-                self._note(tag, slice(self._scanned, tag.end))
-                self._scanned = tag.end
+            for packet in self._skimmer.receive(chunk) if self._skimmer else ():
+                self._note(packet, slice(packet.offset, packet.offset + packet.length))
         except BsmError:
-            self._entry = None
-            self._scanned = len(self._data)
+            self._entry = self._skimmer = None
 
-    def _note(self, tag: Tag, place: slice) -> None:
-        self._over = tag.type == FrameType.END
-        if tag.type == FrameType.METADATA:
+    def _note(self, packet: Packet, place: slice) -> None:
+        self._over = packet.type == FrameType.END
+        if packet.type == FrameType.METADATA:
             self._metadata.append(place)
-        if tag.type == FrameType.HEADER:
-            run = dict(parse_map(bytes(self._data[tag.payload : tag.checksum]))).get(HEADER_FIELDS["run"].key)
-            shares_mesh = isinstance(run, (list, tuple)) and len(run) > 1  # it has the mesh of an earlier run
+        if packet.type == FrameType.HEADER:
+            assert self._skimmer is not None
             self._entry = None
-            self._head = [] if shares_mesh else [place, *self._metadata]
-        elif tag.type == FrameType.GOP:
-            first = parse_varint(self._data, tag.payload)
-            if first is None or first[1] >= tag.checksum:
-                raise CorruptError("a GOP has no method")
-            if self._head and method_of(self._data[first[1]]).begins:
+            self._head = [place, *self._metadata] if self._skimmer.header.mesh_of is None else []
+        elif packet.type == FrameType.GOP:
+            if self._head and packet.begins:
                 self._entry = place.start
         elif self._head and self._entry is None:
             self._head.append(place)

@@ -6,16 +6,7 @@ from hypothesis.extra.numpy import array_shapes, arrays
 
 from bsm.bitstream.coefficients.adaptive import points_of_levels
 from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, make_level_bank, price_levels
-from bsm.bitstream.container.gop import (
-    MAX_EXPONENT,
-    GopBody,
-    GopField,
-    GopMethod,
-    frames_of_gop,
-    method_of,
-    still,
-    write_gop_body,
-)
+from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, still, write_gop_body
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from tools.payloads import decode_levels
 
@@ -121,16 +112,6 @@ BODIES = [
         GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b"z"), still(4), GopField(2, 1, 2, NONE, b"", b"y"))
     ),
 ]
-
-
-@pytest.mark.parametrize("body", BODIES)
-def test_beginnings_of_bodies(body):
-    widths = {3 * number + 2: field.width for number, field in enumerate(body.fields[1:])}
-    data = write_gop_body(body, 37, list(widths))
-    assert frames_of_gop(data, 4, 37) == body.frames
-    assert method_of(data[0]) == body.method
-    with pytest.raises(CorruptError):
-        frames_of_gop(data, 4, 38)
 
 
 def test_known_bytes_of_a_body():

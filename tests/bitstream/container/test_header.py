@@ -6,20 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, Header, Paper
-from bsm.bitstream.container.packets import parse_header, write_header
-from bsm.bitstream.container.wire import write_map
+from bsm.bitstream.container.packets import write_header
+from bsm.bitstream.container.wire import FrameType, write_map
 from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.files.inspection import inspect_stream
 from tests.bitstream.streams import SMALL_HEADER
-
-SMALL = {1: 100, 2: 190, 3: 3, 4: 60, 5: 10}
+from tools.surgery import record_of, stream_of
 
 
 def parse(payload: bytes) -> Header:
-    return parse_header(payload)
-
-
-def small_with(changes: dict) -> bytes:
-    return write_map(sorted((SMALL | changes).items()))
+    return record_of(Header, payload)
 
 
 def test_known_bytes():
@@ -127,13 +123,24 @@ def test_a_layer_round_trips(layer):
     assert SMALL_HEADER.layer is None
 
 
-def test_headers_that_cannot_be_read():
-    wrong = ({20: 0}, {0: 0}, {64: [1, "x", b"y"]}, {16: 3}, {1: 4_000_000_000}, {1: "x"})
-    for changes in wrong:
-        with pytest.raises(CorruptError):
-            parse(small_with(changes))
+SMALL = {1: 100, 2: 190, 3: 3, 4: 60, 5: 10}
+ILLEGAL = ({1: 4_000_000_000}, {1: "x"}, {9: "x"})
+UNREADABLE = (
+    *(write_map(sorted((SMALL | changes).items())) for changes in ILLEGAL),
+    write_map([(1, 100)]),
+    b"\x81\x01" + b"\x91" * 100_000 + b"\x01",
+    b"\x81\x01" * 100_000 + b"\x01",
+    b"\x81\x01\xdb\xff\xff\xff\xff",
+    b"\x81\x01\xdd\xff\xff\xff\xff",
+    b"\x91\x01",
+    b"",
+)
+
+
+@pytest.mark.parametrize("payload", UNREADABLE)
+def test_headers_that_cannot_be_read(payload):
     with pytest.raises(CorruptError):
-        parse(write_map([(1, 100)]))
+        inspect_stream([stream_of([(FrameType.HEADER, payload)])])
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.bitstream.container.gop import write_stretches
-from bsm.bitstream.container.wire import Cursor
 from tools.payloads import parse_stretches
+from tools.surgery import Cursor
 
 
 @given(st.lists(st.integers(0, 40), min_size=41, max_size=60))

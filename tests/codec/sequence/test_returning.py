@@ -8,7 +8,6 @@ import pytest
 import bsm
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
-from bsm.bitstream.container.wire import Cursor
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.decoding import decode_sequence
 from bsm.codec.geometry.attributes import Attribute
@@ -18,7 +17,7 @@ from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from tests.motion import bending
 from tools.payloads import parse_stretches
-from tools.surgery import scan
+from tools.surgery import Cursor, scan
 
 STEP = 0.002
 TURNS: dict[str, list[int]] = {
@@ -43,7 +42,7 @@ def coded(positions: Positions, faces: Faces, **changes: object) -> tuple[bytes,
 
 def places(data: bytes) -> list[list[int]]:
     """The coded frame that each frame of every GOP with a basis shows."""
-    gops = (packet for packet, _ in scan([data]) if isinstance(packet, Gop))
+    gops = (packet for packet, _ in scan(data) if isinstance(packet, Gop))
     return [parse_stretches(Cursor(gop.data[2:]), gop.data[1]) for gop in gops]
 
 

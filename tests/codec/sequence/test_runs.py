@@ -17,7 +17,7 @@ from bsm.codec.sequence.encoder import KEPT_MESHES, SequenceEncoder
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget
 from tests.streams import frames_in, moving_events_of, packets_of
-from tools.surgery import frames_of, scan
+from tools.surgery import frames_of, spans_of
 from tools.vectors.meshes import torus
 
 WAYS = [{"gop": 4}, {"low_delay": 1, "gop": 3}]
@@ -147,7 +147,7 @@ def test_every_run_has_its_attributes():
 
 def damaged(data, number):
     """The stream with a byte of a frame changed, and not of how long it is, which may lead to the end of any other."""
-    span = next(span for _, span in scan([data]) if span.number >= number)
+    span = list(spans_of(data))[number]
     last = span.offset + span.length - 1
     return data[:last] + bytes([data[last] ^ 0x55]) + data[last + 1 :]
 

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm.bitstream.container.wire import FrameType, parse_frame
+from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import Decoder, decode
 from bsm.codec.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from tests.streams import events_of
+from tools.surgery import spans_of
 from tools.vectors.good_fields import LAYER, base, on_grid, refined, soup
 from tools.vectors.meshes import torus
 
@@ -37,15 +37,7 @@ def shown(events: list[Any]) -> TriangleMesh:
 
 def offset_of(data: bytes, kind: FrameType, which: int) -> int:
     """Where frame number `which` of a type begins."""
-    offset = 5
-    while True:
-        frame = parse_frame(data, offset, DEFAULT_LIMITS)
-        assert frame is not None
-        if frame.type == kind:
-            if which == 0:
-                return offset
-            which -= 1
-        offset += frame.size
+    return [span.offset for span in spans_of(data) if span.type == kind][which]
 
 
 def broken(data: bytes, kind: FrameType, which: int) -> bytes:
