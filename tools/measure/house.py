@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_493,
-    "product Python, lines": 33_362,
-    "product C and C++, lines": 21_477,
+    "product in all languages, lines": 62_600,
+    "product Python, lines": 33_350,
+    "product C and C++, lines": 21_480,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_746,
     "product lines over 120 columns": 237,
-    "all Python, lines": 74_057,
+    "all Python, lines": 74_387,
     "product modules": 199,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
