@@ -65,10 +65,10 @@ def test_what_takes_longer_than_its_size_grows_is_found(monkeypatch):
 
 
 @linux
-def test_nodes_of_a_gltf_that_are_nested_deep_are_refused_before_its_library_climbs_them(tmp_path):
-    for name, about in (("glb, a chain of nodes", "deep"), ("glb, materials", "read")):
+def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
+    for name in ("glb, a chain of nodes", "glb, materials"):
         (tmp_path / "a.glb").write_bytes(_grown(1 << 17)[name]().data)
-        assert about in read_all(tmp_path / "a.glb", Limits()).outcome
+        assert "read" in read_all(tmp_path / "a.glb", Limits()).outcome
     tree = _json_of(samples()["glb"].data)
     tree["accessors"][0]["count"] = 10**400
     (tmp_path / "a.gltf").write_text(json.dumps(tree))

@@ -33,6 +33,7 @@ _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the b
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
 WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")  # what we write
+GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 READERS = ("bsm", "openmesh", "trimesh")  # who can be asked to read a file: ourselves, or a library
 
@@ -99,19 +100,20 @@ def read_mesh(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
-    if (reader == "openmesh" and kind not in _PLAIN) or (reader == "bsm" and kind not in MESH_FORMATS):
+    if (reader == "openmesh" and kind not in _PLAIN) or (reader == "bsm" and kind not in (*MESH_FORMATS, *GLTF)):
         raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
     if kind in USD_FORMATS and path and reader is None:
         usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
         return usd
+    if kind in GLTF and reader != "trimesh":
+        document = by_name("bsm.gltf.document", "Document")(data, Path(path).parent if path else None, limits)
+        scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
+        return scene
     if reader == "trimesh" or kind not in MESH_FORMATS:
-        from bsm.files.formats.with_trimesh import import_trimesh, read_with_trimesh
+        from bsm.files.formats.with_trimesh import read_with_trimesh
 
         if data.startswith(b"PK\x03\x04"):
             require_archive(data, limits)
-        if kind in ("glb", "gltf"):
-            import_trimesh(f".{kind} files are read")
-            by_name("bsm.gltf.document", "require_room_for_meshes")(data, limits, Path(path).parent if path else None)
         return read_with_trimesh(data, path, kind, limits).checked(limits, len(data))
     if kind in _PLAIN:
         require_room(kind, data, limits)

@@ -19,7 +19,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
-from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, by_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import GLTF, USD_FORMATS, WRITTEN_FORMATS, by_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
 from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
@@ -27,7 +27,6 @@ from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input, is_pipe, is_url
 
 ZIP = b"PK\x03\x04"
-GLTF = ("glb", "gltf")
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""

@@ -9,7 +9,6 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any, Protocol, Self
 from urllib.parse import quote
 
@@ -21,17 +20,18 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.gltf import coding
 from bsm.gltf import document as gltf
+from bsm.gltf.coding import PIECE, Drawn, Tree, drawn
 
 _TRIANGLES = 4
-_FLOAT, _UINT = gltf.COMPONENTS["float32"], gltf.COMPONENTS["uint32"]
+_FLOAT, _UINT = coding.COMPONENTS["float32"], coding.COMPONENTS["uint32"]
 _SEMANTICS: dict[str, tuple[Semantic, int]] = {
     "NORMAL": ("normal", 3),
     "TEXCOORD_0": ("texcoord", 2),
     "TEXCOORD_1": ("texcoord", 2),
 }
 _LARGEST = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
-_PIECE = "material"  # the attribute of faces by which decoders sort them
 _GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
 _QUALITIES = {"NORMAL": "10bits", "TANGENT": "9bits", "COLOR_0": "8bits"}
 _QUALITIES |= dict.fromkeys(("TEXCOORD_0", "TEXCOORD_1"), "12bits")
@@ -47,21 +47,21 @@ class Carried:
     qualities: dict[str, str]
 
 
-def arrays_of(primitive: gltf.Tree) -> dict[str, int]:
+def arrays_of(primitive: Tree) -> dict[str, int]:
     """Accessors of what each vertex of a primitive has; those of morph targets are called "0/POSITION" and so on."""
     targets = enumerate(primitive.get("targets", []))
     added = {f"{number}/{name}": index for number, target in targets for name, index in target.items()}
     return dict(primitive["attributes"]) | added
 
 
-def like(document: gltf.Document, primitive: gltf.Tree) -> str:
+def like(document: gltf.Document, primitive: Tree) -> str:
     """A key that is equal for primitives which one stream can hold."""
     accessors = [(name, document.tree["accessors"][index]) for name, index in sorted(arrays_of(primitive).items())]
     kinds = [(name, a["componentType"], a["type"], a.get("normalized", False)) for name, a in accessors]
     return str((kinds, primitive.get("mode", _TRIANGLES)))
 
 
-def as_mesh(document: gltf.Document, primitives: Sequence[gltf.Tree]) -> Carried | str:
+def as_mesh(document: gltf.Document, primitives: Sequence[Tree]) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     if primitives[0].get("mode", _TRIANGLES) != _TRIANGLES:
         return "no triangles"
@@ -108,12 +108,12 @@ def as_mesh(document: gltf.Document, primitives: Sequence[gltf.Tree]) -> Carried
         qualities |= {name: quality} if quality else {}
     if len(primitives) > 1:
         numbers = np.repeat(np.arange(len(faces)), [len(some) for some in faces])
-        attributes.append(Attribute(_PIECE, numbers.astype(np.uint16), "face"))
+        attributes.append(Attribute(PIECE, numbers.astype(np.uint16), "face"))
     mesh = TriangleMesh(positions.astype(np.float64), corners.reshape(-1, 3).astype(np.int32), tuple(attributes), {})
     return Carried(mesh, accessors, qualities)
 
 
-def _vertices(document: gltf.Document, primitive: gltf.Tree) -> dict[str, npt.NDArray[Any]] | str:
+def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, npt.NDArray[Any]] | str:
     """What each vertex of a primitive has, or why that cannot be coded."""
     arrays: dict[str, npt.NDArray[Any]] = {}
     for name, index in arrays_of(primitive).items():
@@ -170,46 +170,10 @@ def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attr
         weights = array / np.float64(1 if is_float else _LARGEST.get(array.dtype, 1))
         levels = np.floor(weights / np.maximum(weights.sum(axis=1, keepdims=True), 1e-9) * 255)
         levels[np.arange(len(levels)), weights.argmax(axis=1)] += 255 - levels.sum(axis=1)
-        return Attribute(name, np.clip(levels, 0, 255).astype(np.uint8)), gltf.COMPONENTS["uint8"], True
+        return Attribute(name, np.clip(levels, 0, 255).astype(np.uint8)), coding.COMPONENTS["uint8"], True
     if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes
         return None
-    return Attribute(name, array), gltf.COMPONENTS[array.dtype.name], normalized and not is_float
-
-
-@dataclass(frozen=True, eq=False)
-class Drawn:
-    """What a decoder makes of a stream: three vertices for each face, and what each vertex has, by names of glTF."""
-
-    index: npt.NDArray[np.uint32]
-    arrays: dict[str, npt.NDArray[Any]]
-    labels: npt.NDArray[np.integer[Any]]
-
-    @property
-    def pieces(self) -> list[tuple[int, int]]:
-        """For each primitive the first of its corners, and how many these are."""
-        starts = np.searchsorted(self.labels, np.unique(self.labels))
-        return [(int(start), int(end - start)) for start, end in pairwise([*starts, len(self.labels)])]
-
-
-def drawn(mesh: TriangleMesh) -> Drawn:
-    """Draw as the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
-    named = {a.name: a.values[:, 0] for a in mesh.attributes if a.name == _PIECE and a.domain == "face"}
-    labels = named.get(_PIECE, np.zeros(len(mesh.faces), np.int64))
-    order = np.argsort(labels, kind="stable")
-    corners = mesh.faces[order].ravel()
-    attributes = [a for a in mesh.attributes if a.name not in named]
-    parting = {a.name: a.indices[order].ravel() for a in attributes if a.indices is not None}
-    vertices: npt.NDArray[np.integer[Any]] = np.arange(len(mesh.positions))
-    rows: npt.NDArray[np.integer[Any]] = corners
-    values = {a.name: a.values for a in attributes}
-    if parting:
-        different, rows = np.unique(np.stack([corners, *parting.values()], axis=1), axis=0, return_inverse=True)
-        vertices = different[:, 0]
-        values |= {name: values[name][different[:, column]] for column, name in enumerate(parting, 1)}
-    for name in values.keys() - parting.keys():
-        values[name] = values[name][vertices]
-    arrays = {"POSITION": mesh.positions.astype(np.float32)[vertices], **values}
-    return Drawn(rows.ravel().astype(np.uint32), arrays, np.repeat(labels[order], 3))
+    return Attribute(name, array), coding.COMPONENTS[array.dtype.name], normalized and not is_float
 
 
 class Coder(Protocol):
@@ -217,7 +181,7 @@ class Coder(Protocol):
         """Its bytes; `attributes` is what is asked of some of its attributes."""
 
 
-Bundle = list[list[gltf.Tree]]
+Bundle = list[list[Tree]]
 """Primitives of one mesh that one stream can hold, each with all others that are drawn of the same accessors."""
 
 
@@ -244,13 +208,13 @@ def code_bundle(document: gltf.Document, bundle: Bundle, coder: Coder) -> Bundle
     return BundleStream(stream, shape, found.accessors)
 
 
-def _accessors_of(primitive: gltf.Tree) -> dict[str, int]:
+def _accessors_of(primitive: Tree) -> dict[str, int]:
     return arrays_of(primitive) | ({"": primitive["indices"]} if "indices" in primitive else {})
 
 
-def bundles_of(document: gltf.Document, tree: gltf.Tree) -> list[Bundle]:
+def bundles_of(document: gltf.Document, tree: Tree) -> list[Bundle]:
     """The primitives of a tree, each in one bundle; `document` has the same accessors."""
-    known: dict[str, list[gltf.Tree]] = {}
+    known: dict[str, list[Tree]] = {}
     bundles: list[Bundle] = []
     for mesh in tree.get("meshes", []):
         alike: dict[str, Bundle] = {}
@@ -268,7 +232,7 @@ def size_of(bundle: Bundle) -> int:
     return sum(len(same) for same in bundle)
 
 
-def users_of(bundles: list[Bundle], tree: gltf.Tree) -> dict[int, set[int]]:
+def users_of(bundles: list[Bundle], tree: Tree) -> dict[int, set[int]]:
     """Which bundles use each accessor; -1: an animation or a skin."""
     users: dict[int, set[int]] = {}
     for number, bundle in enumerate(bundles):
@@ -296,7 +260,7 @@ def that_share(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[i
 # -------------------------------------------------------------------------------------------------------------- a scene
 
 
-_COMPRESSED = {gltf.EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
+_COMPRESSED = {coding.EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
 _TYPES = {width: name for name, width in gltf.VECTORS.items()}
 _MOST, _WHOLE = float(np.finfo(np.float32).max), 2**24
 
@@ -360,10 +324,10 @@ def compress(
 def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
     if component == _FLOAT and values.dtype.kind == "u":
         return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
-    return values.astype(gltf.KINDS[component])
+    return values.astype(coding.KINDS[component])
 
 
-def _length(entry: gltf.Tree) -> int:
+def _length(entry: Tree) -> int:
     return len(json.dumps(_short(entry), separators=(",", ":"))) + 1
 
 
@@ -371,7 +335,7 @@ class _Scene:
     """A tree that is changed, and the parts of its new buffers."""
 
     def __init__(self, document: gltf.Document, fallback: str | None) -> None:
-        self.tree: gltf.Tree = copy.deepcopy(document.tree)
+        self.tree: Tree = copy.deepcopy(document.tree)
         self._document = document
         self._images = {
             number: document.image(number)[1]
@@ -430,28 +394,28 @@ class _Scene:
         return [*found, ("indices", coded.shape.index)]
 
     @staticmethod
-    def _view(stream: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> gltf.Tree:
+    def _view(stream: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> Tree:
         usual = _UINT if name == "indices" else _FLOAT
         component, _ = coded.accessors.get(name, (_UINT, False))
-        extension: gltf.Tree = {"stream": stream, "attribute": name}
+        extension: Tree = {"stream": stream, "attribute": name}
         extension |= {"componentType": component} if component != usual else {}
-        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {gltf.EXTENSION: extension}}
+        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {coding.EXTENSION: extension}}
 
     @staticmethod
-    def _accessor(view: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> gltf.Tree:
+    def _accessor(view: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> Tree:
         component, normalized = coded.accessors[name]
-        accessor: gltf.Tree = {"bufferView": view, "componentType": component, "count": len(array)}
+        accessor: Tree = {"bufferView": view, "componentType": component, "count": len(array)}
         accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {})}
         return accessor | (gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})
 
     @staticmethod
-    def _corners(view: int, piece: tuple[int, int]) -> gltf.Tree:
+    def _corners(view: int, piece: tuple[int, int]) -> Tree:
         start, count = piece
-        accessor: gltf.Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
+        accessor: Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
         return accessor | ({"byteOffset": 4 * start} if start else {})
 
-    def _add(self, kind: str, entry: gltf.Tree) -> int:
-        entries: list[gltf.Tree] = self.tree.setdefault(kind, [])
+    def _add(self, kind: str, entry: Tree) -> int:
+        entries: list[Tree] = self.tree.setdefault(kind, [])
         entries.append(entry)
         return len(entries) - 1
 
@@ -500,7 +464,7 @@ class _Scene:
         virtual = False
         for new, old in enumerate(kept):
             view = tree["bufferViews"][new]
-            if gltf.EXTENSION in view.get("extensions", {}):
+            if coding.EXTENSION in view.get("extensions", {}):
                 view["buffer"], virtual = 1, True
                 continue
             data = self._fresh[old] if old in self._fresh else self._document.view(old)
@@ -509,14 +473,14 @@ class _Scene:
             at += len(parts[-1])
         tree["buffers"] = [{"byteLength": at}] if at else []
         if virtual:
-            filled: gltf.Tree = {"byteLength": self._virtual, "extensions": {gltf.EXTENSION: {"fallback": True}}}
+            filled: Tree = {"byteLength": self._virtual, "extensions": {coding.EXTENSION: {"fallback": True}}}
             tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
-            self._use(gltf.EXTENSION, required=not self._fallback)
+            self._use(coding.EXTENSION, required=not self._fallback)
         return gltf.glb(_short(tree), b"".join(parts))
 
     def _trim(self) -> None:
         """Leave out of bufferViews that accessors share what none of them uses any more."""
-        readers: dict[int, list[gltf.Tree]] = {}
+        readers: dict[int, list[Tree]] = {}
         for accessor in self.tree.get("accessors", []):
             if gltf.is_plain(accessor):
                 readers.setdefault(accessor["bufferView"], []).append(accessor)
@@ -584,7 +548,7 @@ def _short(node: Any) -> Any:
     return int(node) if node.is_integer() and abs(node) < _WHOLE else float(str(np.float32(node)))
 
 
-def _drop_unused(tree: gltf.Tree, kind: str) -> list[int]:
+def _drop_unused(tree: Tree, kind: str) -> list[int]:
     """Drop the entries of a kind that nothing refers to, and number the others anew; which these were."""
     places = list(
         _references({name: value for name, value in tree.items() if name != kind or kind != "accessors"}, kind)

@@ -5,31 +5,24 @@ import json
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
-from bsm.bitstream.limits import Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.files.pipes import Input, file_beside
-from bsm.files.room import require_count
+from bsm.gltf import coding
+from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, Array, Tree
 
-Array = npt.NDArray[Any]
-Tree = dict[str, Any]
-KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-COMPONENTS = {np.dtype(kind).name: number for number, kind in KINDS.items()}
 VECTORS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _WIDTHS = {**VECTORS, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
-EXTENSION, WEBP = "EXT_bsm_compression", "EXT_texture_webp"
+WEBP = "EXT_texture_webp"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
-PER_BLANK = 4  # bytes of a number of an accessor without a buffer, whatever uses it
-MOST_NESTED = 1000
-PER_PAIR = 20.0  # nanoseconds of trimesh, which looks through all nodes so far at each that it climbs
-_COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
 
@@ -48,8 +41,8 @@ def as_format_error() -> Iterator[None]:
 class Document:
     """A glTF as it was read; `folder` is where it lies."""
 
-    def __init__(self, data: bytes, folder: Path | None = None) -> None:
-        self._folder, self._own = folder, len(data)
+    def __init__(self, data: bytes, folder: Path | None = None, limits: Limits = DEFAULT_LIMITS) -> None:
+        self._folder, self._own, self.limits = folder, len(data), limits
         text, self._binary = _chunks(data) if data.startswith(_MAGIC) else (data, b"")
         try:
             tree = json.loads(text)
@@ -59,18 +52,17 @@ class Document:
             raise FormatError("this is no glTF: it says nothing of itself as an asset")
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
-
-    def require_plain(self) -> None:
-        """Raise `UnsupportedError` if its meshes are compressed."""
-        required = [name for name in _COMPRESSED if name in self.tree.get("extensionsRequired", [])]
-        if required:
-            how = "take that out first, for instance with gltf-transform copy"
-            raise UnsupportedError(f"the meshes are compressed with {required[0]}, which is not read here; {how}")
+        self._unpacked: dict[object, Any] = {}  # what compressed bufferViews, streams and primitives of Draco hold
 
     @property
     def received(self) -> int:
         """Bytes of the document, and of what was read so far that lies beside it."""
         return self._own + sum(map(len, self._resources.values()))
+
+    @property
+    def compressed(self) -> list[str]:
+        """The extensions by which geometry is compressed."""
+        return [name for name in (EXTENSION, DRACO, *MESHOPT) if name in self.tree.get("extensionsUsed", [])]
 
     def items(self, name: str) -> list[Tree]:
         found = self.tree.get(name, [])
@@ -104,6 +96,49 @@ class Document:
 
     def _place(self, index: object) -> tuple[bytes, int, int]:
         view = self.item("bufferViews", index)
+        if any(name in view.get("extensions", {}) for name in (EXTENSION, *MESHOPT)):
+            if index not in self._unpacked:
+                self._unpacked[index] = self._unpack(view["extensions"])
+            return self._unpacked[index], 0, len(self._unpacked[index])
+        return self._plain_place(view, index)
+
+    def _unpack(self, extensions: Tree) -> bytes:
+        """The bytes of a bufferView that is compressed."""
+        if EXTENSION in extensions:
+            how = extensions[EXTENSION]
+            source = self.item("bufferViews", how["stream"])
+            key = ("stream", how["stream"])
+            if key not in self._unpacked:
+                data, start, size = self._plain_place(source, how["stream"])
+                self._unpacked[key] = coding.unpack_stream(data[start : start + size], self.limits)
+            return coding.array_of(self._unpacked[key], str(how["attribute"]), how.get("componentType")).tobytes()
+        how = next(extensions[name] for name in MESHOPT if name in extensions)
+        self.limits.check_memory(3 * _count(how, "count") * _count(how, "byteStride"), 0, self.received)
+        data, start, size = self._plain_place(how, "of meshopt")
+        return coding.unpack_meshopt(data[start : start + size], how)
+
+    @cached_property
+    def _draco(self) -> dict[int, tuple[Tree, int]]:
+        """Accessors that Draco holds: the extension of their primitive, and their number there; -1: the indices."""
+        found: dict[int, tuple[Tree, int]] = {}
+        for primitive in self.primitives():
+            if how := primitive.get("extensions", {}).get(DRACO):
+                attributes = primitive["attributes"]
+                found |= {attributes[name]: (how, int(number)) for name, number in how["attributes"].items()}
+                found |= {primitive["indices"]: (how, -1)} if "indices" in primitive else {}
+        return found
+
+    def _of_draco(self, index: int, kind: str, count: int, width: int) -> Array:
+        how, number = self._draco[index]
+        key = (DRACO, how["bufferView"])
+        if key not in self._unpacked:
+            self._unpacked[key] = coding.unpack_draco(self.view(how["bufferView"]))
+        found: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
+        if found.shape != (count, width) and not (number < 0 and found.shape[1] == width):
+            raise FormatError(f"Draco holds {found.shape} numbers for accessor {index} of {count} values")
+        return found.astype(kind)
+
+    def _plain_place(self, view: Tree, index: object) -> tuple[bytes, int, int]:
         data = self.buffer(view.get("buffer"))
         start, size = _count(view, "byteOffset"), _count(view, "byteLength")
         if start + size > len(data):
@@ -125,6 +160,8 @@ class Document:
             raise UnsupportedError(f"accessor {index} of this glTF holds small matrices of small numbers")
         if "bufferView" in accessor:
             found = self._strided(accessor, kind, count, width)
+        elif isinstance(index, int) and index in self._draco:
+            found = self._of_draco(index, kind, count, width)
         else:
             found = np.zeros((count, width), kind)
         if sparse := accessor.get("sparse"):
@@ -133,11 +170,8 @@ class Document:
             return np.maximum(found / np.iinfo(found.dtype).max, -1.0)
         return found
 
-    def array(self, index: object) -> Array | None:
-        """The values of an accessor, shape (n, c), as they are stored; None if it is sparse or without plain bytes."""
-        accessor = self.item("accessors", index)
-        if not is_plain(accessor) or self.item("bufferViews", accessor["bufferView"]).get("extensions"):
-            return None
+    def array(self, index: object) -> Array:
+        """The values of an accessor, shape (n, c), as they are stored."""
         if not self.count(index):
             raise FormatError(f"accessor {index} of this glTF is empty")
         found = self.numbers(index, whole=True)
@@ -182,19 +216,18 @@ class Document:
                 data = base64.b64decode(uri.partition(",")[2], validate=True)
             except ValueError as error:
                 raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
-        elif self._folder is None:
-            raise FormatError(f"this glTF needs the file {uri[:80]} beside it, and did not come from a folder")
         else:
-            data = Input(str(_file(uri, self._folder))).read_all()
+            try:
+                data = Input(str(self.file(uri))).read_all()
+            except FormatError as error:
+                raise FormatError(f"this glTF refers to {uri[:80]}, but {error}") from error
         return self._resources.setdefault(uri, data)
 
-
-def _file(uri: str, folder: Path) -> Path:
-    """The regular file in the folder of a document, or below, that is meant."""
-    try:
-        return file_beside(folder, unquote(uri))
-    except FormatError as error:
-        raise FormatError(f"this glTF refers to {uri[:80]}, but {error}") from error
+    def file(self, uri: str) -> Path:
+        """The regular file in the folder of the document, or below, that is meant."""
+        if self._folder is None:
+            raise FormatError("the mesh did not come from a file")
+        return file_beside(self._folder, unquote(uri))
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:
@@ -248,49 +281,5 @@ def _count(where: Tree, name: str) -> int:
     return value
 
 
-def read_document(path: str) -> Document:
-    return Document(Input(path).read_all(), Path(path).parent)
-
-
-def require_room_for_meshes(data: bytes, limits: Limits, folder: Path | None = None) -> None:
-    """Count what the meshes of a glTF become, before anybody makes them; its buffers must be files of its folder."""
-    document = Document(data)
-    uris = (str(buffer.get("uri", "data:")) for buffer in document.items("buffers") if folder)
-    beside = sum(_file(uri, folder).stat().st_size for uri in uris if folder and not uri.startswith("data:"))
-    with as_format_error():
-        numbers, named = 0, set()
-        for primitive in document.primitives():
-            given = [*primitive["attributes"].values(), primitive.get("indices")]
-            given += [index for target in primitive.get("targets", []) for index in target.values()]
-            numbers += sum(document.claimed(index) for index in given if index is not None)
-            where = primitive["attributes"].get("POSITION")
-            if where is not None and ("bufferView" in document.item("accessors", where) or primitive.get("extensions")):
-                named.add(where)
-        # trimesh makes all accessors, used or not: those without a buffer are zeros.
-        blank = sum(
-            document.claimed(index)
-            for index, accessor in enumerate(document.items("accessors"))
-            if "bufferView" not in accessor
-        )
-        vertices = sum(document.count(index) for index in named)
-        depths = _depths(document.items("nodes"))
-        climbed = sum(depths[number] ** 2 for number, node in enumerate(document.items("nodes")) if "mesh" in node)
-    if (deepest := max(depths.values(), default=0)) > MOST_NESTED:
-        raise LimitError(f"the nodes of this glTF are nested {deepest} deep; the limit is {MOST_NESTED}")
-    require_count("vertices", vertices, limits)
-    limits.check_memory(PER_NUMBER * numbers + PER_BLANK * blank, vertices, len(data) + beside)
-    limits.check_work(PER_PAIR * climbed, vertices, len(data) + beside)
-
-
-def _depths(nodes: list[Tree]) -> dict[int, int]:
-    """How many nodes each is below, itself included; a loop is climbed once."""
-    parents = {child: number for number, node in enumerate(nodes) for child in node.get("children", [])}
-    depths: dict[int, int] = {}
-    for number in range(len(nodes)):
-        path, at = [], number
-        while at in range(len(nodes)) and at not in depths:
-            depths[at] = 0
-            path.append(at)
-            at = parents.get(at, -1)
-        depths.update((node, steps) for steps, node in enumerate(reversed(path), depths.get(at, 0) + 1))
-    return depths
+def read_document(path: str, limits: Limits = DEFAULT_LIMITS) -> Document:
+    return Document(Input(path).read_all(), Path(path).parent, limits)

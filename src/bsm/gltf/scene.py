@@ -1,7 +1,10 @@
-"""The scene of a glTF that moves: curves, nodes, skins and morph targets, at any time of an animation."""
+"""The scene of a glTF: curves, nodes, skins and morph targets, at rest or at any time of an animation."""
 
+from collections import Counter
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 
@@ -12,10 +15,10 @@ from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, painted_like, rate_of_times
+from bsm.files.pipes import is_url
 from bsm.files.room import Doubles, Ints, require_count
-from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Array, Document, Tree, as_format_error, read_document
-
-TRIANGLES = 4
+from bsm.gltf.coding import DRACO, EXTENSION, FAN, MESHOPT, STRIP, TRIANGLES, Array, Tree
+from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,42 +94,57 @@ class Part:
     joints: Ints
     weights: Doubles
     columns: tuple[shapes.Column, ...]
+    normals: Doubles  # of a scene at rest, and what each target adds to them; of no rows where there are none
     material: int
     name: str
 
 
 class Scene:
-    """Everything of a document that is seen, and one animation of it."""
+    """Everything of a document that is seen, and one animation of it; None: at rest, with all vertices as they are."""
 
-    def __init__(self, document: Document, animation: Tree, limits: Limits) -> None:
-        self._document, self._limits = document, limits
+    def __init__(self, document: Document, animation: Tree | None, limits: Limits) -> None:
+        self._document, self._limits, self._still = document, limits, animation is None
         self._made: dict[tuple[int, int, int], Part] = {}
         self._skins: dict[int, Skin] = {}
         self._nodes = document.items("nodes")
         self._parents = self._ordered()
         targets = (target for primitive in document.primitives() for target in primitive.get("targets", []))
         self._painted = any("COLOR_0" in target for target in targets)
+        self._tables = Counter(str(primitive["attributes"]) for primitive in document.primitives())
         self._check_sizes()
-        self._curves = self._animated(animation)
+        self._curves = self._animated(animation or {})
         self.notes: list[str] = []
         self.parts = [part for node in self._parents for part in self._parts(node)]
+        if not self.parts:
+            raise FormatError("this glTF has no triangles in its scene")
 
     def _check_sizes(self) -> None:
-        """Bound what will be allocated: the same bytes may be used many times, and zeros take none."""
-        document, seen = self._document, 0
+        """Bound what every use of every primitive takes before anything is allocated; zeros have no bytes."""
+        document = self._document
+        seen = numbers = characters = 0
+        made = set[tuple[object, int, object]]()
         for node in self._parents:
-            mesh = self._nodes[node].get("mesh")
-            for primitive in [] if mesh is None else document.item("meshes", mesh)["primitives"]:
-                seen += document.count(primitive["attributes"].get("POSITION", 0))
+            tree = self._nodes[node]
+            mesh = document.item("meshes", tree["mesh"]) if "mesh" in tree else {"primitives": []}
+            characters += len(str(tree.get("name") or mesh.get("name", "")))
+            for place, primitive in enumerate(mesh["primitives"]):
+                given = [*primitive["attributes"].values(), primitive.get("indices")]
+                seen += self._rows(primitive)
+                numbers += sum(document.claimed(index) for index in given if index is not None)
+                if (key := (tree["mesh"], place, tree.get("skin"))) not in made:
+                    made.add(key)
+                    moved = [index for target in primitive.get("targets", []) for index in target.values()]
+                    numbers += sum(map(document.claimed, moved))
         require_count("vertices", seen, self._limits)
-        numbers = 0
-        for primitive in document.primitives():
-            given = [*primitive["attributes"].values(), primitive.get("indices")]
-            given += [target.get(n) for target in primitive.get("targets", []) for n in ("POSITION", "COLOR_0")]
-            numbers += sum(document.claimed(index) for index in given if index is not None)
         if numbers > MOST_NUMBERS:
             raise LimitError(f"the meshes of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
-        self._limits.check_memory(PER_NUMBER * numbers, 0, document.received)
+        self._limits.check_memory(PER_NUMBER * numbers + 4 * characters, seen, document.received)
+
+    def _rows(self, primitive: Tree) -> int:
+        """How many vertices a primitive takes: of a table that others share only those that it uses, at most."""
+        count = self._document.count(primitive["attributes"].get("POSITION", 0))
+        shared = self._tables[str(primitive["attributes"])] > 1 and "indices" in primitive
+        return min(count, self._document.count(primitive["indices"])) if shared else count
 
     @property
     def vertices(self) -> int:
@@ -157,27 +175,49 @@ class Scene:
         return np.unique(np.round(np.concatenate([np.empty(0), *times.values()]), 6))
 
     def at(self, time: float) -> Doubles:
-        """The positions of all parts' vertices, one part behind the other."""
-        places: dict[int, Doubles] = {}
+        """The positions of all parts' vertices, one part after the other."""
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
-            for node, parent in self._parents.items():
-                local = self._local(node, time)
-                places[node] = places[parent] @ local if parent >= 0 else local
-            return np.concatenate([self._placed(part, places, time) for part in self.parts])
+            placed = [
+                np.einsum("...ij,...j->...i", matrix[..., :3, :3], points) + matrix[..., :3, 3]
+                for _, matrix, points in self._placed(time)
+            ]
+        return np.concatenate(placed)
 
-    def _placed(self, part: Part, places: dict[int, Doubles], time: float) -> Doubles:
-        points = part.base
-        if len(part.targets):
-            points = points + self._added(part, part.targets, time)
-        if part.skin is None:
+    def _placed(self, time: float) -> Iterator[tuple[Part, Doubles, Doubles]]:
+        """Each part with the matrix, or that of each vertex, which places it, and its vertices before that."""
+        places: dict[int, Doubles] = {}
+        for node, parent in self._parents.items():
+            local = self._local(node, time)
+            places[node] = places[parent] @ local if parent >= 0 else local
+        for part in self.parts:
+            points = part.base
+            if len(part.targets):
+                points = points + self._added(part, part.targets, time)
             matrix = places[part.node]
-            return points @ matrix[:3, :3].T + matrix[:3, 3]
-        bones = np.array([places[joint] for joint in part.skin.joints]) @ part.skin.inverse
-        moved = np.zeros_like(points)
-        for joint, weight in zip(part.joints.T, part.weights.T, strict=True):
-            bone = bones[joint]
-            moved += weight[:, None] * (np.einsum("nij,nj->ni", bone[:, :3, :3], points) + bone[:, :3, 3])
-        return moved
+            if part.skin is not None:
+                bones = np.array([places[joint] for joint in part.skin.joints]) @ part.skin.inverse
+                matrix = np.zeros((len(points), 4, 4))
+                for joint, weight in zip(part.joints.T, part.weights.T, strict=True):
+                    matrix += weight[:, None, None] * bones[joint]
+            yield part, matrix, points
+
+    def turned(self, time: float) -> list[Part]:
+        """The parts with their faces as they are placed, which mirrors turn around, and with their normals."""
+        found = []
+        for part, matrix, _ in self._placed(time):
+            columns, faces = part.columns, part.faces
+            if len(part.normals):
+                normals = part.normals[0] + self._added(part, part.normals[1:], time)
+                turned = shapes.compact(shapes.turned_normals(normals, matrix[..., :3, :3]))
+                columns = (shapes.Column("normal", turned, semantic="normal"), *columns)
+            if np.median(np.linalg.det(matrix[..., :3, :3])) < 0:
+                faces = faces[:, ::-1]
+                columns = tuple(
+                    c if c.indices is None else replace(c, indices=c.indices.reshape(-1, 3)[:, ::-1].reshape(-1))
+                    for c in columns
+                )
+            found.append(replace(part, faces=faces, columns=columns))
+        return found
 
     def colors(self, time: float) -> Doubles:
         """The colours of all parts' vertices, white where a part has none; of no rows if no target changes any."""
@@ -271,8 +311,9 @@ class Scene:
         name = str(tree.get("name") or mesh.get("name") or "")
         found = []
         for number, primitive in enumerate(mesh["primitives"]):
-            if primitive.get("mode", TRIANGLES) != TRIANGLES or "POSITION" not in primitive["attributes"]:
-                self.notes.append("points, lines, strips and fans were left out")
+            mode = primitive.get("mode", TRIANGLES)
+            if mode not in (TRIANGLES, STRIP, FAN) or "POSITION" not in primitive["attributes"]:
+                self.notes.append("points and lines were left out")
                 continue
             made = self._made.get((tree["mesh"], number, bound))  # one that stands in several places is made once
             part = self._part(node, primitive, skin, name) if made is None else replace(made, node=node, name=name)
@@ -292,10 +333,12 @@ class Scene:
             raise FormatError(f"joint {missing[0]} of skin {index} is not in the scene")
         inverse = np.tile(np.eye(4).reshape(16), (len(joints), 1))
         if "inverseBindMatrices" in skin:
+            claimed = self._document.claimed(skin["inverseBindMatrices"])
+            self._limits.check_memory(PER_NUMBER * claimed, 0, self._document.received)
             inverse = self._document.numbers(skin["inverseBindMatrices"]).astype(np.float64)
         if inverse.shape[0] < len(joints) or inverse.shape[1] != 16:
             raise FormatError(f"skin {index} has {len(inverse)} matrices for {len(joints)} joints")
-        self._skins[index] = Skin(joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1))
+        self._skins[index] = Skin(joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).copy())
         return self._skins[index]
 
     def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Part:
@@ -311,16 +354,10 @@ class Scene:
             shades += [self._shade(target.get("COLOR_0"), count, 0.0) for target in primitive.get("targets", [])]
             given = {name: index for name, index in given.items() if name != "COLOR_0"}
         colors = np.array(shades).reshape(-1, count, 4)
-        if "indices" in primitive:
-            corners = document.numbers(primitive["indices"])[:, 0].astype(np.int64)
-        else:
-            corners = np.arange(count)
-        corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
-        if corners.size and corners.max() >= count:
-            raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
+        faces = triangles_of(document, primitive, count)
         joints, weights = np.zeros((count, 0), np.int64), np.zeros((count, 0))
         if skin is not None:
-            sets = [number for number in range(2) if f"JOINTS_{number}" in given and f"WEIGHTS_{number}" in given]
+            sets = [number for number in range(len(given)) if {f"JOINTS_{number}", f"WEIGHTS_{number}"} <= given.keys()]
             if not sets:
                 raise FormatError(f"the mesh of node {node} has a skin, and its vertices name no joints")
             joints = np.hstack([self._of(given[f"JOINTS_{n}"], count, 4, "joints") for n in sets]).astype(np.int64)
@@ -329,19 +366,34 @@ class Scene:
             weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
             if joints.size and joints.max() >= len(skin.joints):
                 raise FormatError(f"a vertex of node {node} hangs on joint {joints.max()} of {len(skin.joints)}")
-        columns = self._columns(given, count, corners.reshape(-1))
-        origin = group_rows(np.column_stack([base, *targets, joints, weights, *colors]))
-        first = first_of(origin)
+        columns = self._columns(given, count)
+        normals = np.zeros((0, count, 3))
+        origin: Ints | None = None
+        if not self._still:
+            corners = faces.reshape(-1)
+            columns = tuple(replace(column, domain="corner", indices=corners) for column in columns)
+            origin = group_rows(np.column_stack([base, *targets, joints, weights, *colors])).astype(np.int64)
+            rows: Any = first_of(origin.astype(np.int32))
+        elif "NORMAL" in given:
+            added = [self._of(target.get("NORMAL"), count, 3, "normals") for target in primitive.get("targets", [])]
+            normals = np.array([self._of(given["NORMAL"], count, 3, "normals"), *added])
+        if origin is None:
+            rows = slice(None)
+            if self._rows(primitive) < count or self._tables[str(primitive["attributes"])] > 1:
+                rows, faces = np.unique(faces, return_inverse=True)
+                columns = tuple(replace(column, values=column.values[rows]) for column in columns)
+                faces = faces.reshape(-1, 3)
         return Part(
             node,
-            base[first],
-            np.array(targets).reshape(len(targets), count, 3)[:, first],
-            colors[:, first],
-            origin[corners].astype(np.int64),
+            base[rows],
+            np.array(targets).reshape(len(targets), count, 3)[:, rows],
+            colors[:, rows],
+            faces if origin is None else origin[faces],
             skin,
-            joints[first],
-            weights[first],
+            joints[rows],
+            weights[rows],
             columns,
+            normals[:, rows],
             int(primitive.get("material", -1)),
             name,
         )
@@ -365,26 +417,51 @@ class Scene:
             found[:, : values.shape[1]] = values
         return found
 
-    def _columns(self, given: Tree, count: int, corners: Ints) -> tuple[shapes.Column, ...]:
+    def _columns(self, given: Tree, count: int) -> tuple[shapes.Column, ...]:
         found: list[shapes.Column] = []
         for name, index in given.items():
             kind, _, number = name.partition("_")
-            if kind not in ("TEXCOORD", "COLOR", ""):
+            if not is_read(name) or kind in ("POSITION", "NORMAL"):
                 continue
             values: Any = self._document.numbers(index, whole=kind == "COLOR")
             if len(values) != count or values.shape[1] > 4:
                 raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
             later = number if number not in ("", "0") else ""
-            if kind == "COLOR":
-                column = shapes.color_column(values, "corner")
-                found.append(replace(column, name=f"color{later}", indices=corners))
+            if kind == "COLOR" and not (values.dtype.kind == "f" and values.size and values.max() > 1):
+                column = shapes.color_column(values, "vertex")
+                found.append(replace(column, name=f"color{later}"))
             elif kind == "TEXCOORD":
-                upright = values.astype(np.float32)
+                upright = values.astype(np.float64)
                 upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
-                found.append(shapes.Column(f"texcoord{later}", upright, "corner", "texcoord", corners))
+                found.append(shapes.Column(f"texcoord{later}", shapes.compact(upright), "vertex", "texcoord"))
             else:
-                found.append(shapes.Column(number.lower(), values, "corner", shapes.meaning_of(number), corners))
+                found.append(shapes.Column(number, shapes.compact(values), "vertex", shapes.meaning_of(number)))
         return tuple(found)
+
+
+def is_read(name: str) -> bool:
+    """Whether a scene at rest has a column of an attribute of glTF."""
+    return name in ("POSITION", "NORMAL") or name.startswith(("TEXCOORD_", "COLOR_", "_"))
+
+
+def triangles_of(document: Document, primitive: Tree, count: int) -> Ints:
+    """The triangles of a primitive over `count` vertices, shape (m, 3), those of strips and fans, too."""
+    listed = document.numbers(primitive["indices"])[:, 0] if "indices" in primitive else np.arange(count)
+    corners: Any = listed.astype(np.int64)
+    mode = TRIANGLES if DRACO in primitive.get("extensions", {}) else primitive.get("mode", TRIANGLES)
+    if mode == TRIANGLES:
+        corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
+    else:
+        step = np.arange(max(len(corners) - 2, 0))
+        odd = step % 2 if mode == STRIP else 0
+        around = [step, step + 1 + odd, step + 2 - odd] if mode == STRIP else [step + 1, step + 2, 0 * step]
+        corners = corners[np.column_stack(around)]
+        a, b, c = corners.T
+        corners = corners[(a != b) & (b != c) & (a != c)]  # not those that only lead to the next piece of a strip
+    if corners.size and not (corners.min() >= 0 and corners.max() < count):
+        raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
+    found: Ints = corners
+    return found
 
 
 # --------------------------------------------------------------------------------------------------------------- frames
@@ -396,17 +473,44 @@ PER_TRIANGLE, PER_PART = 200, 2000
 
 
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
-    document = read_document(path)
+    document = read_document(path, limits)
     with as_format_error(), np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
-        document.require_plain()
         return _frames(path, document, wanted, limits)
+
+
+def read_gltf_mesh(document: Document) -> shapes.MeshFile:
+    """Read a scene at rest as one mesh: vertices and faces in the order of the file."""
+    with as_format_error(), np.errstate(all="ignore"):  # what is not finite is refused later
+        scene = Scene(document, None, document.limits)
+        found = _joined(scene, document, 0.0, document.limits)
+        lost = Counter(scene.notes)
+        counts = [f"{note}: {count}" for note, count in lost.items()]
+        counts += [f"compressed already, by {name}: errors add up" for name in document.compressed]
+        return replace(found, notes=(*found.notes, *counts), dropped=_unread(document)).checked(
+            document.limits, document.received
+        )
+
+
+_READ = (WEBP, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
+
+
+def _unread(document: Document) -> tuple[str, ...]:
+    """What a document holds and a mesh does not."""
+    tree = document.tree
+    names = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
+    found = [names[name] for name in names if tree.get(name)]
+    found += ["other scenes"] if len(document.items("scenes")) > 1 else []
+    found += [str(name) for name in tree.get("extensionsUsed", []) if name not in _READ]
+    for primitive in document.primitives():
+        skinned = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
+        found += [name for name in primitive["attributes"] if not is_read(name) and not name.startswith(skinned or "?")]
+        found += ["morph targets"] if primitive.get("targets") else []
+    return tuple(dict.fromkeys(found))
 
 
 def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Frames:
     number, animation = _chosen(document, wanted.animation)
     scene = Scene(document, animation, limits)
-    if not scene.parts:
-        raise FormatError("this glTF has no triangles in its scene")
     if not scene.moves:
         raise FormatError(
             f"animation {number} of this glTF moves nothing that is seen; leave out --animation for the mesh"
@@ -417,7 +521,7 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     require_count("frames", count, limits)
     limits.check_work(scene.work * count, scene.vertices * count, document.received)
     times = keys[0] + np.arange(count) / rate
-    still = _still(scene, document, float(times[0]), limits)
+    still = _joined(scene, document, float(times[0]), limits).checked(limits)
 
     others = len(document.items("animations")) - 1
     called = str(animation.get("name") or number)
@@ -465,8 +569,9 @@ def _rate(keys: Doubles) -> float:
     return float(fits[0]) if fits else USUAL_RATE
 
 
-def _still(scene: Scene, document: Document, time: float, limits: Limits) -> shapes.MeshFile:
-    parts = scene.parts
+def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> shapes.Polygons:
+    """The parts of a scene as one mesh: what some have and others do not is zero there (white, for colors)."""
+    parts = scene.turned(time)
     begin = np.cumsum([0, *(len(part.base) for part in parts)])
     triangles = sum(len(part.faces) for part in parts)
     require_count("faces", triangles, limits)
@@ -474,53 +579,95 @@ def _still(scene: Scene, document: Document, time: float, limits: Limits) -> sha
     limits.check_memory(PER_TRIANGLE * tables + PER_PART * len(parts), scene.vertices, document.received)
     faces = np.concatenate([part.faces + first for part, first in zip(parts, begin)])
     columns, lacking = shapes.joined_columns(
-        (part.columns for part in parts), [{"corner": 3 * len(part.faces)} for part in parts]
+        (part.columns for part in parts), [{"corner": 3 * len(part.faces), "vertex": len(part.base)} for part in parts]
     )
-    metadata: dict[str, Value] = {"up": "y", "unit": "meters"}
+    metadata: dict[str, Value] = {"up": "y", "unit": "meters", **_extras(document)}
     if len(colors := scene.colors(time)):
         columns.append(shapes.color_column(colors, "vertex"))
     numbers = np.repeat([part.material for part in parts], [len(part.faces) for part in parts])
     used = [int(number) for number in np.unique(numbers)]
+    absent = _absent_images(document)
+    notes = [*lacking, *absent.values()]
     if any(number >= 0 for number in used):
-        words, images = _materials(document, used)
+        places = np.searchsorted(used, numbers)
+        words, images = _materials(document, used, absent)
         metadata |= described(words) | images
         if len(used) > 1:
-            columns.append(shapes.Column("material", np.maximum(numbers, 0)[:, None].astype(np.int32), "face"))
-    notes = lacking
+            columns.append(shapes.Column("material", places[:, None].astype(np.int32), "face"))
     if len(parts) > 1:
         note, column, names = shapes.sorted_into_parts(
             [part.name for part in parts], [len(part.faces) for part in parts]
         )
-        notes, columns, metadata = [*note, *lacking], [*columns, *column], {**metadata, **names}
+        notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
     elif parts[0].name:
         metadata["name"] = parts[0].name
     shape = (scene.at(time), np.full(len(faces), 3), faces.reshape(-1))
-    return shapes.Polygons(*shape, tuple(notes), (), tuple(columns), metadata).checked(limits)
+    return shapes.Polygons(*shape, tuple(notes), (), tuple(columns), metadata)
 
 
-def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material], dict[str, Value]]:
-    """Materials in the words of glTF, and their images as metadata."""
-    words: dict[int, Material] = {}
-    numbers: dict[int, int] = {}
-    for number in used:
-        if number < 0:
+def _extras(document: Document) -> dict[str, Value]:
+    """Plain values among the extras of the scene and of meshes."""
+    scene = document.item("scenes", document.tree.get("scene", 0)) if document.items("scenes") else {}
+    found: dict[str, Value] = {}
+    for extras in (entry.get("extras") for entry in (scene, *document.items("meshes"))):
+        for name, value in (extras if isinstance(extras, dict) else {}).items():
+            if name and isinstance(value, str | int | float):
+                found.setdefault(name, int(value) if isinstance(value, bool) else value)
+    return found
+
+
+def _absent_images(document: Document) -> dict[str, str]:
+    """Notes about images that a document names, and that do not lie in its folder or below, by their addresses."""
+    found: dict[str, str] = {}
+    for image in document.items("images"):
+        if (uri := str(image.get("uri", "data:"))).startswith("data:"):
             continue
-        tree = document.item("materials", number)
-        flat: Tree = {**tree, **tree.get("pbrMetallicRoughness", {})}
-        words[number] = {}
-        for name, value in flat.items():
-            if name.endswith("Texture"):
-                source = document.item("textures", value["index"]).get("source")
-                if isinstance(source, int):
-                    words[number][name] = numbers.setdefault(source, len(numbers))
-            elif isinstance(value, bool):
-                words[number][name] = int(value)
-            elif isinstance(value, str | int | float):
-                words[number][name] = value
-            elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
-                words[number][name] = " ".join(f"{item:.6g}" for item in value)
+        try:
+            document.file(uri)
+        except FormatError as error:
+            why = "it lies at an address" if is_url(uri) else str(error)
+            found[uri] = f"the image {unquote(uri)[:80]} was left out: {why}"
+    return found
+
+
+def _materials(
+    document: Document, used: list[int], absent: Collection[str]
+) -> tuple[dict[int, Material], dict[str, Value]]:
+    """Materials by their places among those used, in the words of glTF, and their images as metadata."""
+    words: dict[int, Material] = {}
+    numbers: dict[str, int] = {}
     images: dict[str, Value] = {}
-    for source, number in numbers.items():
-        name, data = document.image(source)
-        images |= {f"image.{number}.data": data, **({f"image.{number}.name": name} if name else {})}
+    taken = 0
+    for place, index in enumerate(used):
+        found: Material = {}
+        words[place] = found
+        if index < 0:
+            continue
+        tree = document.item("materials", index)
+        for name, value in {**tree, **tree.get("pbrMetallicRoughness", {})}.items():
+            if name.endswith("Texture"):
+                texture = document.item("textures", value["index"])
+                sources = [texture, *texture.get("extensions", {}).values()]
+                source = next((entry["source"] for entry in sources if "source" in entry), None)
+                if source is None:
+                    continue
+                image = document.item("images", source)
+                key = str(image.get("bufferView", image.get("uri")))
+                if key not in numbers:
+                    numbers[key] = len(numbers)
+                    if str(image.get("uri")) in absent:
+                        continue
+                    called, data = document.image(source)
+                    taken += len(data)
+                    document.limits.check_memory(taken, 0, document.received)
+                    images[f"image.{numbers[key]}.data"] = data
+                    images |= {f"image.{numbers[key]}.name": called} if called else {}
+                if f"image.{numbers[key]}.data" in images:
+                    found[name] = numbers[key]
+            elif isinstance(value, bool):
+                found[name] = int(value)
+            elif isinstance(value, str | int | float):
+                found[name] = value
+            elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
+                found[name] = " ".join(f"{item:.6g}" for item in value)
     return words, images

@@ -21,8 +21,8 @@ from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream, numbered, numbers_of
-from bsm.gltf.compress import drawn
-from bsm.gltf.document import COMPONENTS, EXTENSION, VECTORS, WEBP, Array, Tree, bounds_of, head_of_glb
+from bsm.gltf.coding import COMPONENTS, EXTENSION, Array, Tree, drawn
+from bsm.gltf.document import VECTORS, WEBP, bounds_of, head_of_glb
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
@@ -57,10 +57,14 @@ class _Scene:
         self._file.write(data + b"\0" * (-len(data) % 4))
         return self.add("bufferViews", {"buffer": 0, "byteOffset": start, "byteLength": len(data)})
 
-    def numbers(self, values: Array, *, bounds: bool = False, normalized: bool = False) -> int:
+    def numbers(self, values: Array, *, bounds: bool = False, shares: bool = False) -> int:
         kind = {"componentType": COMPONENTS[values.dtype.name], "count": len(values), "type": _TYPES[values.shape[1]]}
-        accessor: Tree = {"bufferView": self.view(values.tobytes()), **kind}
-        accessor |= {"normalized": True} if normalized else {}
+        rows = np.ascontiguousarray(values).view(np.uint8).reshape(len(values), -1)
+        filled = np.pad(rows, ((0, 0), (0, -rows.shape[1] % 4)))  # elements begin at multiples of four bytes
+        accessor: Tree = {"bufferView": self.view(filled.tobytes()), **kind}
+        if filled.shape != rows.shape:
+            self.tree["bufferViews"][-1]["byteStride"] = filled.shape[1]
+        accessor |= {"normalized": True} if shares and values.dtype.kind == "u" else {}
         return self.add("accessors", accessor | (bounds_of(values) if bounds else {}))
 
     def ones(self, places: Ints, count: int) -> int:
@@ -132,7 +136,7 @@ class _Still(_Scene):
             called = next(n for n in (called, *(f"{called}_{i}" for i in range(1, len(kinds) + 1))) if n not in taken)
             taken.add(called)
             given = {
-                name: self.numbers(values[used], bounds=name == "POSITION", normalized=name == "COLOR_0")
+                name: self.numbers(values[used], bounds=name == "POSITION", shares=name == "COLOR_0")
                 for name, values in arrays.items()
             }
             primitive: Tree = {"attributes": given, "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32))}
@@ -187,7 +191,7 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
         arrays["TEXCOORD_0"] = texcoord.values[:, :2].astype(np.float32)
         arrays["TEXCOORD_0"][:, 1] = 1 - arrays["TEXCOORD_0"][:, 1]  # glTF counts from the top, we from the bottom
     if color is not None:
-        arrays["COLOR_0"] = formats.rgba(color)
+        arrays["COLOR_0"] = color.values.astype(np.float32) if color.values.dtype.kind == "f" else color.values
     held = [attribute for attribute in shown if attribute is not None]
     for attribute in mesh.attributes:
         values = attribute.values.astype(np.float32)
@@ -273,7 +277,10 @@ class _Moving(_Still):
 
     def _painted(self, mesh: TriangleMesh) -> list[Array]:
         self.painted = formats.shown_at_vertices(mesh)[1]
-        return [] if self.painted is None else [formats.rgba(self.painted) / 255.0]
+        if self.painted is None:
+            return []
+        values = self.painted.values
+        return [values / np.float64(1 if values.dtype.kind == "f" else np.iinfo(values.dtype).max)]
 
     def add_frame(self, mesh: TriangleMesh) -> None:
         run, frame = self._runs[-1], mesh.positions
@@ -311,7 +318,8 @@ class _Moving(_Still):
                 if any(
                     "COLOR_0" in target for target in primitive["targets"]
                 ):  # then all have to; without bytes it is 0
-                    zeros = self.add("accessors", {"componentType": _FLOAT, "count": len(rows), "type": "VEC4"})
+                    kind = _TYPES[run.first[2].shape[1]]
+                    zeros = self.add("accessors", {"componentType": _FLOAT, "count": len(rows), "type": kind})
                     primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
             if count:
                 weights = self.ones(count + np.arange(count) * (count + 1), (count + 1) * count)

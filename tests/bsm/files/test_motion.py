@@ -12,15 +12,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from bsm.api import decode_frames
-from bsm.bitstream.errors import (
-    BsmError,
-    FormatError,
-    LimitError,
-    MeshError,
-    OptionError,
-    TruncatedError,
-    UnsupportedError,
-)
+from bsm.bitstream.errors import BsmError, FormatError, LimitError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -428,11 +420,6 @@ def test_what_is_no_moving_gltf(tmp_path, capsys):
     with pytest.raises(OptionError, match="there is no animation jump; there are ArmatureAction"):
         frames_of(MOVING / "skinned.glb", animation="jump")
     assert frames_of(MOVING / "skinned.glb", animation="ArmatureAction")[0].count == 25
-    tree, binary = parsed((MOVING / "skinned.glb").read_bytes())
-    tree["extensionsRequired"] = ["KHR_draco_mesh_compression"]
-    (tmp_path / "draco.glb").write_bytes(glb_of(tree, binary))
-    with pytest.raises(UnsupportedError, match="KHR_draco"):
-        frames_of(tmp_path / "draco.glb")
 
 
 def test_hostile_gltf_gives_errors_of_ours(tmp_path):

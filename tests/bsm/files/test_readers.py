@@ -165,9 +165,9 @@ def test_formats_that_nobody_knows(trimesh, tmp_path):
 
 def test_where_trimesh_is_missing_the_way_out_is_reported(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    (tmp_path / "a.glb").write_bytes(b"glTF and more")
-    with pytest.raises(DependencyError, match=r"\.glb files are read with trimesh; run: pip install .*\[form"):
-        read_mesh(tmp_path / "a.glb")
+    (tmp_path / "a.dae").write_bytes(b"<COLLADA/>")
+    with pytest.raises(DependencyError, match=r"\.dae files are read with trimesh; run: pip install .*\[form"):
+        read_mesh(tmp_path / "a.dae")
 
 
 def test_where_openmesh_is_missing_the_way_out_is_reported(monkeypatch):

@@ -93,6 +93,18 @@ def joined_columns(
     return found, notes
 
 
+def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
+    """Normals, shape (n, 3), of what a matrix, or one for each of them, places; mirrors turn the faces, not these."""
+    rows = np.swapaxes(linear, -1, -2)
+    cofactors = np.stack([np.cross(rows[..., (i + 1) % 3, :], rows[..., (i + 2) % 3, :]) for i in range(3)], axis=-1)
+    turned = (
+        np.einsum("...ij,...j->...i", cofactors, normals) * np.where(np.linalg.det(linear) < 0, -1.0, 1.0)[..., None]
+    )
+    lengths = np.linalg.norm(turned, axis=-1, keepdims=True)
+    unit: Doubles = np.divide(turned, lengths, out=np.zeros_like(turned), where=lengths > 0)
+    return unit
+
+
 def sorted_into_parts(names: Sequence[str], faces: Sequence[int]) -> tuple[list[str], list[Column], dict[str, str]]:
     """What says which faces are of which part: a note, a column, and the names of the parts as metadata."""
     owner = np.repeat(np.arange(len(names), dtype=np.int32), faces)

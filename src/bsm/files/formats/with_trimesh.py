@@ -1,17 +1,15 @@
-"""GLB, glTF, 3MF, DAE and whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
+"""3MF, DAE and whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
 
 import importlib.util
 import io
-import json
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-from urllib.parse import unquote
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, MeshError, how_to_install, imported
+from bsm.bitstream.errors import BsmError, FormatError, MeshError, OptionError, how_to_install, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image
@@ -24,17 +22,14 @@ from bsm.files.formats.polygons import (
     joined_columns,
     meaning_of,
     sorted_into_parts,
+    turned_normals,
 )
 from bsm.files.formats.threemf import placed_triangles
-from bsm.files.pipes import file_beside
 from bsm.files.room import Doubles, require_count
 
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
 PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joined: for each triangle, and for each part
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
-_KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
-_READ_BY_TRIMESH = ("EXT_texture_webp", "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization")
-_COMPRESSED = "EXT_bsm_compression"  # of scenes that `bsm glb` wrote
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """What GLB files have behind a PNG or JPEG."""
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
@@ -48,6 +43,8 @@ def import_trimesh(what: str) -> Any:
 
 def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) -> Polygons:
     """Read a file with trimesh, which neither merges vertices nor splits them here."""
+    if kind in ("glb", "gltf"):
+        raise OptionError("trimesh does not read glTF here: leave out the reader")
     if kind in _ARCHIVES:
         raise FormatError(f".{kind} files hold files: unpack it, and read what is in it")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
@@ -56,14 +53,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         more = "" if complete else f" (trimesh reads 3MF, DAE and others after: {how_to_install('formats')})"
         raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}")
     try:
-        tree, up = {}, re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
-        if kind in ("glb", "gltf"):
-            tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")] if kind == "glb" else data)
-            if _COMPRESSED in tree.get("extensionsRequired", []):
-                raise FormatError(
-                    f"its geometry is compressed already, by {_COMPRESSED}; start from the scene before that"
-                )
-        absent, unread = _absent_images(tree, path), _unread(tree)
+        up = re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
         with np.errstate(all="ignore"):  # what is not finite is refused later
             expected = placed_triangles(data, limits) if kind == "3mf" else None
             scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
@@ -74,41 +64,11 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
         raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {str(error)[:200]}") from error
-    axis = {"up": "y"} if tree else {"up": up[1].decode().lower()} if up else {}
+    axis = {"up": up[1].decode().lower()} if up else {}
     metadata = {**axis, **found.metadata}
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file
-    return replace(found, metadata=metadata, notes=(*found.notes, *absent), dropped=(*found.dropped, *unread))
-
-
-def _absent_images(tree: dict[str, Any], path: str | None) -> list[str]:
-    """Notes about images that a glTF names, and that do not lie in its folder or below; buffers must."""
-    notes = []
-    for kind in ("buffer", "image"):
-        # trimesh takes for a name what is not base64.
-        uris = [entry.get("uri", "base64,") for entry in tree.get(f"{kind}s", [])]
-        for name in (unquote(uri) for uri in uris if "base64," not in uri):
-            try:
-                if path is None:
-                    raise FormatError("the mesh did not come from a file")
-                file_beside(Path(path).resolve().parent, name)
-            except FormatError as error:
-                if kind == "buffer":
-                    raise FormatError(f"the buffer {name[:80]} is missing: {error}") from error
-                notes.append(f"the image {name[:80]} was left out: {error}")
-    return notes
-
-
-def _unread(tree: dict[str, Any]) -> list[str]:
-    """What a glTF holds and trimesh does not tell of."""
-    names = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
-    found = [names[name] for name in names if tree.get(name)]
-    found += [name for name in tree.get("extensionsUsed", []) if name not in _READ_BY_TRIMESH]
-    for mesh in tree.get("meshes", []):
-        for primitive in mesh["primitives"]:
-            found += [name for name in primitive["attributes"] if not _KNOWN_TO_TRIMESH.fullmatch(name)]
-            found += ["morph targets"] if primitive.get("targets") else []
-    return list(dict.fromkeys(found))
+    return replace(found, metadata=metadata)
 
 
 def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
@@ -158,7 +118,8 @@ class _Part:
         mesh, visual = self.mesh, self.mesh.visual
         found = []
         if "vertex_normals" in mesh._cache:
-            found.append(Column("normal", compact(self._turned(mesh.vertex_normals)), semantic="normal"))
+            turned = turned_normals(np.asarray(mesh.vertex_normals, np.float64), self.matrix[:3, :3])
+            found.append(Column("normal", compact(turned), semantic="normal"))
         if visual.kind == "texture":
             uv = visual.uv
             if uv is not None and np.shape(uv) == (len(mesh.vertices), 2):
@@ -175,16 +136,6 @@ class _Part:
         for name, values in mesh.face_attributes.items():
             found.append(Column(name, _rows(values), "face", meaning_of(name)))
         return found
-
-    def _turned(self, normals: Array) -> Doubles:
-        """Normals where the part is placed."""
-        if np.array_equal(self.matrix[:3, :3], np.eye(3)):
-            return np.asarray(normals, np.float64)
-        cofactors = np.linalg.inv(self.matrix[:3, :3]).T * np.linalg.det(self.matrix[:3, :3])
-        turned = np.asarray(normals, np.float64) @ cofactors.T
-        lengths = np.linalg.norm(turned, axis=1, keepdims=True)
-        unit: Doubles = np.divide(turned, lengths, out=np.zeros_like(turned), where=lengths > 0)
-        return unit
 
     def materials(self) -> tuple[list[Any], Array]:
         visual = self.mesh.visual

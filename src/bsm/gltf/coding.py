@@ -1,0 +1,120 @@
+"""Arrays of glTF that an extension holds compressed: by BSM streams, Draco, or meshoptimizer."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError, imported
+from bsm.bitstream.limits import Limits
+from bsm.codec.decoding import decode
+from bsm.codec.geometry.mesh import TriangleMesh
+
+Array = npt.NDArray[Any]
+Tree = dict[str, Any]
+KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+COMPONENTS = {np.dtype(kind).name: number for number, kind in KINDS.items()}
+FLOAT, UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
+TRIANGLES, STRIP, FAN = 4, 5, 6
+EXTENSION, DRACO = "EXT_bsm_compression", "KHR_draco_mesh_compression"
+MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+PIECE = "material"  # the attribute of faces by which decoders sort them
+_SEMANTICS = {"TEXCOORD_0": ("texcoord", 0), "TEXCOORD_1": ("texcoord", 1), "COLOR_0": ("color", 0)}
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """Three vertices for each face of a stream, and the arrays of each vertex by their names in glTF."""
+
+    index: npt.NDArray[np.uint32]
+    arrays: dict[str, Array]
+    labels: npt.NDArray[np.integer[Any]]
+
+    @property
+    def pieces(self) -> list[tuple[int, int]]:
+        """For each primitive the first of its corners, and how many these are."""
+        starts = np.searchsorted(self.labels, np.unique(self.labels))
+        return [(int(start), int(end - start)) for start, end in pairwise([*starts, len(self.labels)])]
+
+
+def drawn(mesh: TriangleMesh) -> Drawn:
+    """Draw as the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
+    named = {a.name: a.values[:, 0] for a in mesh.attributes if a.name == PIECE and a.domain == "face"}
+    labels = named.get(PIECE, np.zeros(len(mesh.faces), np.int64))
+    order = np.argsort(labels, kind="stable")
+    corners = mesh.faces[order].ravel()
+    attributes = [a for a in mesh.attributes if a.name not in named]
+    parting = {a.name: a.indices[order].ravel() for a in attributes if a.indices is not None}
+    vertices: npt.NDArray[np.integer[Any]] = np.arange(len(mesh.positions))
+    rows: npt.NDArray[np.integer[Any]] = corners
+    values = {a.name: a.values for a in attributes}
+    if parting:
+        different, rows = np.unique(np.stack([corners, *parting.values()], axis=1), axis=0, return_inverse=True)
+        vertices = different[:, 0]
+        values |= {name: values[name][different[:, column]] for column, name in enumerate(parting, 1)}
+    for name in values.keys() - parting.keys():
+        values[name] = values[name][vertices]
+    arrays = {"POSITION": mesh.positions.astype(np.float32)[vertices], **values}
+    return Drawn(rows.ravel().astype(np.uint32), arrays, np.repeat(labels[order], 3))
+
+
+def stored(name: str, values: Array, component: int) -> Array:
+    """The numbers of an array of a stream in a component type of accessors; integers of colors are shares."""
+    if name == "COLOR_0" and component == FLOAT and values.dtype.kind == "u":
+        return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
+    return values.astype(KINDS[component])
+
+
+def unpack_stream(stream: bytes, limits: Limits) -> tuple[TriangleMesh, Drawn]:
+    mesh = decode(stream, limits=limits)
+    return mesh, drawn(mesh)
+
+
+def array_of(found: tuple[TriangleMesh, Drawn], name: str, component: int | None) -> Array:
+    """The array of a stream that the extension calls so."""
+    mesh, shape = found
+    semantic, place = _SEMANTICS.get(name, ("", 0))
+    alike = [a.name for a in mesh.attributes if a.semantic == semantic]
+    held = name if name in shape.arrays or place >= len(alike) else alike[place]
+    if name == "indices":
+        return stored(name, shape.index, component or UINT)
+    if held not in shape.arrays:
+        raise FormatError(f"a stream of this glTF has no {name[:80]}")
+    return stored(name, shape.arrays[held], component or FLOAT)
+
+
+def unpack_meshopt(data: bytes, how: Tree) -> bytes:
+    """The bytes of a bufferView that meshoptimizer has compressed."""
+    count, stride, mode, filtered = how["count"], how["byteStride"], how["mode"], how.get("filter", "NONE")
+    try:
+        library = imported("meshoptimizer", "", "")
+    except DependencyError:
+        raise DependencyError("the meshes are compressed with meshopt; run: pip install meshoptimizer") from None
+    reader = {
+        "ATTRIBUTES": lambda: library.decode_vertex_buffer(count, stride, data, np.dtype(("V", stride))),
+        "TRIANGLES": lambda: library.decode_index_buffer(count, 4, data),
+        "INDICES": lambda: library.decode_index_sequence(count, 4, data),
+    }.get(mode)
+    filters = {"OCTAHEDRAL": "oct", "QUATERNION": "quat", "EXPONENTIAL": "exp"}
+    if reader is None or filtered not in ("NONE", *filters):
+        raise UnsupportedError(f"meshopt of mode {str(mode)[:20]} with filter {str(filtered)[:20]} is not read here")
+    try:
+        found: Array = reader()
+    except (RuntimeError, ValueError) as error:
+        raise FormatError(f"meshoptimizer cannot decode a bufferView of this glTF: {error}") from error
+    if filtered != "NONE":
+        found = getattr(library, f"decode_filter_{filters[filtered]}")(found, count, stride)
+    return found.astype(f"<u{stride}").tobytes() if mode != "ATTRIBUTES" else found.tobytes()
+
+
+def unpack_draco(data: bytes) -> dict[int, Array]:
+    """The arrays of a primitive that Draco has compressed, by their numbers; -1: its triangles."""
+    draco = imported("DracoPy", "the meshes are compressed with Draco, which DracoPy reads", "formats")
+    try:
+        mesh = draco.decode(data)
+    except Exception as error:  # it promises nothing about what damaged data raise
+        raise FormatError(f"DracoPy cannot decode a primitive of this glTF: {str(error)[:200]}") from error
+    found = {int(attribute["unique_id"]): np.atleast_2d(attribute["data"]) for attribute in mesh.attributes}
+    return found | {-1: np.asarray(mesh.faces).reshape(-1, 1)}

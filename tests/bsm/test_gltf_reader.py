@@ -1,0 +1,393 @@
+"""Scenes of glTF as meshes: what accessors, nodes, skins and compressed views hold, with known answers."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.cli import main
+from bsm.files.mesh import read_mesh
+from bsm.gltf.coding import COMPONENTS
+from bsm.gltf.document import glb
+from tests.bsm.test_gltf import scene
+from tests.shapes import torus
+
+TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+
+
+class Built:
+    """A scene that grows: `array` returns the number of an accessor."""
+
+    def __init__(self, **tree):
+        self.tree = {"asset": {"version": "2.0"}, "accessors": [], "bufferViews": [], **tree}
+        self.data = b""
+
+    def view(self, data, **more):
+        self.tree["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **more})
+        self.data += data + b"\0" * (-len(data) % 4)
+        return len(self.tree["bufferViews"]) - 1
+
+    def array(self, values, **more):
+        values = np.asarray(values)
+        values = values.reshape(len(values), -1)
+        rows = np.ascontiguousarray(values).view(np.uint8).reshape(len(values), -1)
+        padded = np.pad(rows, ((0, 0), (0, -rows.shape[1] % 4 if values.shape[1] > 1 else 0)))
+        stride = {} if padded.shape == rows.shape else {"byteStride": padded.shape[1]}
+        accessor = {
+            "componentType": COMPONENTS[values.dtype.name],
+            "count": len(values),
+            "type": TYPES[values.shape[1]],
+        }
+        self.tree["accessors"].append({"bufferView": self.view(padded.tobytes(), **stride), **accessor, **more})
+        return len(self.tree["accessors"]) - 1
+
+    def mesh(self, *primitives, **more):
+        self.tree.setdefault("meshes", []).append({"primitives": list(primitives), **more})
+        return len(self.tree["meshes"]) - 1
+
+    def nodes(self, *nodes):
+        self.tree |= {"nodes": list(nodes), "scenes": [{"nodes": list(range(len(nodes)))}], "scene": 0}
+        return self
+
+    @property
+    def bytes(self):
+        self.tree["buffers"] = [{"byteLength": max(len(self.data), 4)}]
+        return glb(self.tree, self.data.ljust(4, b"\0"))
+
+    def read(self):
+        return read_mesh(self.bytes, "glb")
+
+
+POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
+CORNERS = np.array([0, 1, 2, 0, 2, 3], np.uint16)
+
+
+def one(attributes=None, node=None, **primitive):
+    """A square with more attributes, in one node."""
+    built = Built()
+    given = {"POSITION": built.array(POINTS)} | {n: built.array(*v) for n, v in (attributes or {}).items()}
+    built.nodes(
+        {"mesh": built.mesh({"attributes": given, "indices": built.array(CORNERS), **primitive}), **(node or {})}
+    )
+    return built
+
+
+def attribute(mesh, name):
+    return next(a for a in mesh.attributes if a.name == name)
+
+
+def test_normalized_integers_are_shares():
+    built = Built()
+    points = built.array(np.rint(POINTS * 32767).astype(np.int16), normalized=True)
+    uv = built.array(np.array([[0, 0], [65535, 0], [65535, 65535], [0, 65535]], np.uint16), normalized=True)
+    plain = built.array(np.array([[0, 0], [3, 0], [3, 3], [0, 3]], np.uint8))
+    given = {"POSITION": points, "TEXCOORD_0": uv, "TEXCOORD_1": plain}
+    built.nodes({"mesh": built.mesh({"attributes": given, "indices": built.array(CORNERS)})})
+    mesh = built.read().mesh
+    np.testing.assert_array_equal(mesh.positions, POINTS)
+    np.testing.assert_array_equal(attribute(mesh, "texcoord").values, [[0, 1], [1, 1], [1, 0], [0, 0]])
+    np.testing.assert_array_equal(attribute(mesh, "texcoord1").values, [[0, 1], [3, 1], [3, -2], [0, -2]])
+
+
+@pytest.mark.parametrize("blank", [False, True])
+def test_sparse_accessors_replace_values(blank):
+    built = one()
+    accessor = built.tree["accessors"][0]
+    if blank:
+        del accessor["bufferView"]
+    places, values = np.array([1, 3], np.uint16), np.array([[0, 0, 9], [2, 2, 2]], np.float32)
+    accessor["sparse"] = {
+        "count": 2,
+        "indices": {"bufferView": built.view(places.tobytes()), "componentType": 5123},
+        "values": {"bufferView": built.view(values.tobytes())},
+    }
+    expected = np.zeros((4, 3)) if blank else POINTS.copy()
+    expected[[1, 3]] = values
+    np.testing.assert_array_equal(built.read().mesh.positions, expected)
+
+
+PLACES = {
+    "mirrored": {"scale": [-1, 1, 1]},
+    "turned inside out": {"scale": [-1, -2, -0.5]},
+    "stretched": {"scale": [3, 1, 0.2], "rotation": [0, 0.6, 0, 0.8]},
+    "sheared": {"matrix": [1, 0, 0, 0, 0.7, 1, 0, 0, 0, -0.4, 2, 0, 5, 6, 7, 1]},
+    "sheared and mirrored": {"matrix": [1, 0, 0, 0, 0.7, -1, 0, 0, 0, -0.4, 2, 0, 5, 6, 7, 1]},
+}
+
+
+def alignment(mesh):
+    """The smallest cosine between the normals of faces and those of their corners."""
+    a, b, c = (mesh.positions[mesh.faces[:, place]] for place in range(3))
+    across = np.cross(b - a, c - a)
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    normals = attribute(mesh, "normal").values[mesh.faces]
+    assert np.abs(np.linalg.norm(normals, axis=2) - 1).max() < 1e-6
+    return (normals * across[:, None]).sum(axis=2).min()
+
+
+@pytest.mark.parametrize("place", PLACES.values(), ids=PLACES)
+def test_normals_of_placed_nodes_agree_with_their_faces(place):
+    shape = torus(20, 12)
+    points = shape.positions[shape.faces]
+    across = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+    across = np.repeat(across / np.linalg.norm(across, axis=1, keepdims=True), 3, axis=0)
+    built = Built()
+    given = {"POSITION": built.array(points.reshape(-1, 3).astype("f4")), "NORMAL": built.array(across.astype("f4"))}
+    mesh = built.mesh({"attributes": given})
+    still, moved = (built.nodes({"mesh": mesh, **more}).read().mesh for more in ({}, place))
+    assert alignment(still) > 0.999 and alignment(moved) > 0.999
+    sides = [np.cross(*np.moveaxis(m.positions[m.faces], 1, 0)[:2]) for m in (still, moved)]
+    volumes = [(side * m.positions[m.faces][:, 2]).sum() for side, m in zip(sides, (still, moved), strict=True)]
+    assert volumes[0] * volumes[1] > 0, "a mirror turns the faces around, too"
+
+
+COLLADA = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 1</float_array><technique_common>
+<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<source id="n"><float_array id="na" count="9">0 -0.70710678 0.70710678 0 -0.70710678 0.70710678 0 -0.70710678 0.70710678
+</float_array><technique_common><accessor source="#na" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#n" offset="1"/>
+<p>0 0 1 1 2 2</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="o"><scale>1 -3 1</scale><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+"""
+
+
+@pytest.mark.parametrize("kind", ["dae", "scene"])
+def test_normals_of_mirrored_parts_of_trimesh_agree_with_their_faces(kind, tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    ball.vertex_normals  # noqa: B018, trimesh keeps them from now on
+    made = trimesh.Scene()
+    made.add_geometry(ball, transform=np.diag([-1.0, 2.0, 1.0, 1.0]))
+    if kind == "dae":
+        pytest.importorskip("collada")
+        (tmp_path / "a.dae").write_text(COLLADA)
+        mesh = read_mesh(tmp_path / "a.dae").mesh
+    else:
+        from bsm.files.formats.with_trimesh import joined
+
+        mesh = joined(made, bsm.Limits()).checked(bsm.Limits()).mesh
+    assert alignment(mesh) > (0.999 if kind == "dae" else 0.97)
+
+
+def test_texture_coordinates_need_no_material():
+    uv = np.array([[0, 0], [1, 0], [1, 1], [0, 0.25]], np.float32)
+    mesh = one({"TEXCOORD_0": (uv,)}).read().mesh
+    np.testing.assert_array_equal(attribute(mesh, "texcoord").values, uv * [1, -1] + [0, 1])
+
+
+@pytest.mark.parametrize("width", [3, 4])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+def test_colors_keep_their_type_there_and_back(dtype, width, tmp_path):
+    values = np.random.default_rng(2).random((4, width)).astype(np.float32)
+    values = values if dtype == np.float32 else np.rint(values * np.iinfo(dtype).max).astype(dtype)
+    built = Built()
+    color = built.array(values, **({} if dtype == np.float32 else {"normalized": True}))
+    given = {"POSITION": built.array(POINTS), "COLOR_0": color}
+    built.nodes({"mesh": built.mesh({"attributes": given, "indices": built.array(CORNERS)})})
+    mesh = built.read().mesh
+    bsm.save(mesh, tmp_path / "a.glb")
+    for found in (mesh, read_mesh(tmp_path / "a.glb").mesh):
+        assert attribute(found, "color").values.dtype == dtype and attribute(found, "color").semantic == "color"
+        np.testing.assert_array_equal(attribute(found, "color").values, values)
+
+
+@pytest.mark.parametrize(
+    ("mode", "corners", "expected"),
+    [
+        (5, [0, 1, 3, 2], [[0, 1, 3], [1, 2, 3]]),
+        (5, [0, 1, 3, 3, 2, 2, 1, 0], [[0, 1, 3], [2, 0, 1]]),
+        (6, [0, 1, 2, 3], [[1, 2, 0], [2, 3, 0]]),
+    ],
+)
+def test_strips_and_fans(mode, corners, expected):
+    built = Built()
+    primitive = {"attributes": {"POSITION": built.array(POINTS)}, "indices": built.array(np.array(corners, np.uint8))}
+    built.nodes({"mesh": built.mesh({**primitive, "mode": mode})})
+    found = built.read()
+    turned = [sorted((row[k:] + row[:k]) for k in range(3))[0] for row in found.mesh.faces.tolist()]
+    assert turned == [sorted((row[k:] + row[:k]) for k in range(3))[0] for row in expected]
+    assert found.notes == ()
+
+
+def test_points_and_lines_are_named():
+    built = one()
+    built.tree["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 0})
+    assert "points and lines were left out: 1" in built.read().notes
+
+
+def test_morph_targets_and_skins_stand_as_at_rest():
+    shift = np.tile(np.array([0, 0, 2], np.float32), (4, 1))
+    built = one()
+    primitive = built.tree["meshes"][0]["primitives"][0]
+    primitive["targets"] = [{"POSITION": built.array(shift)}]
+    built.tree["meshes"][0]["weights"] = [0.25]
+    found = built.read()
+    np.testing.assert_allclose(found.mesh.positions, POINTS + np.array([0, 0, 0.5]))
+    assert "morph targets" in found.dropped
+    built = one({f"JOINTS_{k}": (np.full((4, 4), k, np.uint8),) for k in range(2)})
+    primitive = built.tree["meshes"][0]["primitives"][0]
+    for number, share in enumerate((0.75, 0.25)):
+        weights = np.zeros((4, 4), np.float32)
+        weights[:, 0] = share
+        primitive["attributes"][f"WEIGHTS_{number}"] = built.array(weights)
+    built.tree["skins"] = [{"joints": [1, 2]}]
+    built.nodes({"mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"translation": [0, 0, 4]}, {"scale": [2, 2, 2]})
+    expected = 0.75 * (POINTS + np.array([0, 0, 4])) + 0.25 * 2 * POINTS
+    np.testing.assert_allclose(built.read().mesh.positions, expected, atol=1e-6)
+
+
+def test_primitives_that_share_vertices_take_those_that_they_use():
+    built = one()
+    built.tree["meshes"][0]["primitives"] = [
+        {"attributes": {"POSITION": 0}, "indices": built.array(CORNERS[k : k + 3]), "material": k // 3} for k in (0, 3)
+    ]
+    built.tree["materials"] = [{"name": "same"}, {"name": "same"}]
+    mesh = built.read().mesh
+    assert len(mesh.positions) == 6 and attribute(mesh, "material").values[:, 0].tolist() == [0, 1]
+    np.testing.assert_array_equal(mesh.positions[mesh.faces], POINTS[CORNERS.reshape(2, 3)])
+
+
+def test_images_at_addresses_are_named(tmp_path):
+    built = one({"TEXCOORD_0": (POINTS[:, :2].copy(),)}, material=0)
+    built.tree |= {"images": [{"uri": "https://example.org/a.png"}], "textures": [{"source": 0}]}
+    built.tree["materials"] = [{"name": "m", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    (tmp_path / "a.glb").write_bytes(built.bytes)
+    found = read_mesh(tmp_path / "a.glb")
+    assert "the image https://example.org/a.png was left out: it lies at an address" in found.notes
+    assert found.mesh.metadata["material.0.name"] == "m" and "material.0.baseColorTexture" not in found.mesh.metadata
+
+
+# ------------------------------------------------------------------------------------------------- compressed geometry
+
+
+def test_draco(tmp_path, monkeypatch, capsys):
+    draco = pytest.importorskip("DracoPy")
+    shape = torus(20, 12)
+    uv = np.random.default_rng(0).random((len(shape.positions), 2))
+    data = draco.encode(shape.positions, faces=shape.faces.astype(np.uint32), tex_coord=uv, quantization_bits=16)
+    held = {a["attribute_type"]: a["unique_id"] for a in draco.decode(data).attributes}
+    count = len(draco.decode(data).points)
+    built = Built(extensionsUsed=["KHR_draco_mesh_compression"], extensionsRequired=["KHR_draco_mesh_compression"])
+    numbers = {"POSITION": held[0], "TEXCOORD_0": held[3]}
+    built.tree["accessors"] = [
+        {"componentType": 5126, "count": count, "type": "VEC3"},
+        {"componentType": 5126, "count": count, "type": "VEC2"},
+        {"componentType": 5125, "count": shape.faces.size, "type": "SCALAR"},
+    ]
+    extension = {"KHR_draco_mesh_compression": {"bufferView": built.view(data), "attributes": numbers}}
+    primitive = {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "extensions": extension}
+    built.nodes({"mesh": built.mesh(primitive)})
+    mesh = built.read().mesh
+    middles = [np.sort(m.positions[m.faces].mean(axis=1), axis=0) for m in (mesh, shape)]
+    np.testing.assert_allclose(*middles, atol=1e-3)
+    assert attribute(mesh, "texcoord").values.shape == (count, 2)
+    (tmp_path / "a.glb").write_bytes(built.bytes)
+    monkeypatch.setitem(sys.modules, "DracoPy", None)
+    assert main(["encode", str(tmp_path / "a.glb"), "-o", str(tmp_path / "a.bsm")]) == 8
+    assert "DracoPy" in capsys.readouterr().err and not (tmp_path / "a.bsm").exists()
+
+
+def test_meshopt_without_its_library(tmp_path, monkeypatch, capsys):
+    built = one()
+    view = built.tree["bufferViews"][0]
+    how = {**view, "byteStride": 12, "count": 4, "mode": "ATTRIBUTES"}
+    view["extensions"] = {"EXT_meshopt_compression": how}
+    built.tree["extensionsUsed"] = built.tree["extensionsRequired"] = ["EXT_meshopt_compression"]
+    (tmp_path / "a.glb").write_bytes(built.bytes)
+    monkeypatch.setitem(sys.modules, "meshoptimizer", None)
+    assert main(["encode", str(tmp_path / "a.glb"), "-o", str(tmp_path / "a.bsm")]) == 8
+    assert "pip install meshoptimizer" in capsys.readouterr().err
+    monkeypatch.undo()
+    pytest.importorskip("meshoptimizer")
+    with pytest.raises(bsm.FormatError, match="meshoptimizer cannot decode"):
+        built.read()
+
+
+def test_meshopt():
+    library = pytest.importorskip("meshoptimizer")
+    built = Built(extensionsUsed=["EXT_meshopt_compression"])
+    points = built.array(POINTS)
+    faces = built.array(CORNERS)
+    packed = (library.encode_vertex_buffer(POINTS), library.encode_index_buffer(CORNERS.astype(np.uint32), 6, 4))
+    shapes = ((12, 4, "ATTRIBUTES"), (2, 6, "TRIANGLES"))
+    for place, (data, (stride, count, mode)) in enumerate(zip(packed, shapes, strict=True)):
+        how = {**built.tree["bufferViews"][built.view(bytes(data))], "byteStride": stride, "count": count, "mode": mode}
+        built.tree["bufferViews"][place]["extensions"] = {"EXT_meshopt_compression": how}
+    built.data = bytes(48 + 12) + built.data[60:]  # only the compressed bytes are there
+    mesh = built.nodes({"mesh": built.mesh({"attributes": {"POSITION": points}, "indices": faces})}).read().mesh
+    np.testing.assert_array_equal(mesh.positions, POINTS)
+    np.testing.assert_array_equal(np.sort(mesh.faces, axis=1), [[0, 1, 2], [0, 2, 3]])
+
+
+def test_our_own_scenes_are_read(tmp_path):
+    (tmp_path / "a.glb").write_bytes(glb(*scene()))
+    assert main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb")]) == 0
+    before, after = (read_mesh(tmp_path / name).mesh for name in ("a.glb", "b.glb"))
+    assert len(before.faces) == len(after.faces)
+    middles = [np.sort(mesh.positions[mesh.faces].mean(axis=1), axis=0) for mesh in (before, after)]
+    np.testing.assert_allclose(*middles, atol=2e-3)
+    assert {a.name for a in before.attributes} == {a.name for a in after.attributes}
+
+
+# --------------------------------------------------------------------------------------------------------------- walls
+
+
+@pytest.mark.parametrize("animated", [False, True])
+def test_uses_of_primitives_are_counted_before_any_is_made(animated, tmp_path):
+    """A thousand targets of one primitive, with three hundred skins: each skin would have tables of its own."""
+    count = 300
+    built = one({"JOINTS_0": (np.zeros((4, 4), np.uint8),), "WEIGHTS_0": (np.eye(4, dtype=np.float32),)})
+    primitive = built.tree["meshes"][0]["primitives"][0]
+    points = built.array(np.random.default_rng(0).random((count, 3)).astype(np.float32))
+    primitive["attributes"] = {
+        "POSITION": points,
+        "JOINTS_0": built.array(np.zeros((count, 4), np.uint8)),
+        "WEIGHTS_0": built.array(np.tile(np.eye(4, dtype=np.float32)[:1], (count, 1))),
+    }
+    primitive["targets"] = [{"POSITION": points}] * 1000
+    built.tree["skins"] = [{"joints": [0]} for _ in range(300)]
+    built.nodes({}, *({"mesh": 0, "skin": number} for number in range(300)))
+    times, moves = built.array(np.array([0, 1], np.float32)), built.array(np.array([[0, 0, 0], [1, 0, 0]], np.float32))
+    channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
+    built.tree["animations"] = [{"samplers": [{"input": times, "output": moves}], "channels": [channel]}]
+    (tmp_path / "a.glb").write_bytes(built.bytes)
+    script = """
+import resource, sys
+import bsm
+from bsm.files.motion.frames import Wanted
+from bsm.files.mesh import read_mesh
+from bsm.gltf.scene import read_gltf
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+try:
+    read_gltf(sys.argv[1], Wanted()) if sys.argv[2] == "True" else read_mesh(sys.argv[1])
+except bsm.LimitError as error:
+    print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) // 1024)
+"""
+    command = [sys.executable, "-c", script, str(tmp_path / "a.glb"), str(animated)]
+    taken = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60).stdout
+    assert int(taken) < 60, "megabytes"
+
+
+def test_images_that_share_bytes_are_counted():
+    built = one({"TEXCOORD_0": (POINTS[:, :2].copy(),)})
+    image = built.view(b"\x89PNG\r\n\x1a\n" + bytes((1 << 20) + 3000))
+    start, size = built.tree["bufferViews"][image]["byteOffset"], 1 << 20
+    built.tree["bufferViews"] += [{"buffer": 0, "byteOffset": start + k, "byteLength": size} for k in range(3000)]
+    built.tree["images"] = [{"bufferView": image + 1 + k, "mimeType": "image/png"} for k in range(3000)]
+    built.tree["textures"] = [{"source": k} for k in range(3000)]
+    built.tree["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": k}}} for k in range(3000)]
+    corners = built.array(CORNERS)
+    built.tree["meshes"][0]["primitives"] = [
+        {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": corners, "material": k} for k in range(3000)
+    ]
+    with pytest.raises(bsm.LimitError, match="memory"):
+        built.read()
