@@ -14,6 +14,7 @@ B. Curless, M. Levoy, "A volumetric method for building complex models from rang
 
 from __future__ import annotations
 
+import importlib
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -156,8 +157,7 @@ SAMPLES = 400_000
 
 def fused(positions: Positions, faces: Faces, camera: Camera, seed: int, poses: int = 12, cells: int = 90) -> Scan:
     """Fuse views: average the distances along their rays on a grid, and mesh the surface where they are 0."""
-    from skimage.measure import marching_cubes
-
+    marching_cubes = importlib.import_module("skimage.measure").marching_cubes
     lone = placed(positions, camera, turning(seed)) - [0.0, 0.0, camera.far]
     half = 1.06 * np.abs(lone).max()
     step = 2.0 * half / (cells - 1)

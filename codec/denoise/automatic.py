@@ -12,9 +12,10 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
 from bsm.codec.denoise.learnt.cascade import joined
-from bsm.codec.denoise.noise.finding import Finding, find_grid, weld_seams
+from bsm.codec.denoise.noise.causes import Grid, weld_seams
+from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import NO_OUTLIERS, Outliers, find_outliers
-from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
+from bsm.codec.denoise.noise.ripples import NO_RIPPLES, Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.recipe import RAYS, Patient, Recipe, Step
@@ -67,9 +68,15 @@ SEEN_HERALDS = (*SEEN[:3], *SEEN[7:9])
 FINE = (("patches", 0.35), ("own", 0.25), ("own", 0.4))
 FUSED = tuple(Recipe("positions", keep, *fine) for keep in (0.2, 0.1, 0.3) for fine in FINE)
 """For views that are fused, whose triangles are slivers: their vertices slide."""
+AXIAL = tuple(Recipe("positions", keep, "own", sigma_r) for keep in (0.4, 0.2, 0.1) for sigma_r in (0.4, 0.25, 0.55))
+"""For noise along one axis, along which vertices then go back."""
+GROUPS = {"fused": FUSED, "axis": AXIAL}
 UNEVEN_FUSED, UNEVEN_RATIO, UNEVEN_MOST = Recipe("positions", 0.1, "own", 0.4), 3.0, 150
 """For fused views of a real camera. Their noise is broader than any that is drawn here, so nothing is rehearsed: the
 filter goes on until vertices have moved this many times the fine noise."""
+CELL_KEEP, CELL_CUT, CELL_ITERATIONS = 0.2, 0.18, 16
+"""For binary volumes: what the coarse step keeps, of slices less, while few vertices would leave their cells."""
+STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
 LEFT_UNEVEN = 0.55  # share of the angle that stays then
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
@@ -146,21 +153,23 @@ def denoise_automatically(
     given = np.array(positions, dtype=np.float64)
     welded, faces, index = weld_seams(given, faces)
     patient = Patient(faces, len(welded))
-    calmed, outliers, ripples = calm(welded, patient)
-    finding = find_noise(calmed, patient.probe)
+    calmed, outliers, ripples, finding = calm(welded, patient)
     choice = choose(calmed, finding, patient, goal).after(outliers, ripples)
     result, choice = treat(choice, calmed, finding, patient)
     moved = (result != welded).any(axis=1)[index]
     return np.where(moved[:, None], result[index], given), choice
 
 
-def calm(positions: Positions, patient: Patient) -> tuple[Positions, Outliers, Ripples]:
-    """The positions, shape (n, 3), with outliers and ripples put back, and both."""
-    rounded = find_grid(positions) is not None and find_noise(positions, patient.probe).kind == "grid"
-    outliers = NO_OUTLIERS if rounded else find_outliers(positions, patient.probe)
-    positions = outliers.put_back(positions)
-    ripples = find_ripples(positions, patient.probe)
-    return ripples.put_back(positions), outliers, ripples
+def calm(positions: Positions, patient: Patient) -> tuple[Positions, Outliers, Ripples, Finding]:
+    """The positions, shape (n, 3), with outliers and ripples put back, both, and the noise of the rest."""
+    finding = find_noise(positions, patient.probe)
+    outliers = NO_OUTLIERS if finding.exact else find_outliers(positions, patient.probe)
+    calmed = outliers.put_back(positions)
+    ripples = NO_RIPPLES if finding.exact else find_ripples(calmed, patient.probe)
+    calmed = ripples.put_back(calmed)
+    if len(outliers.vertices) or len(ripples.lengths):
+        finding = find_noise(calmed, patient.probe)
+    return calmed, outliers, ripples, finding
 
 
 def choose(
@@ -171,18 +180,21 @@ def choose(
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
     if finding.kind == "uneven fused":
         return _persist(positions, finding, patient)
+    if finding.kind in ("cells", "steps"):
+        return _bounded(positions, finding, patient)
     members, part = sample(patient.topology.faces, finding.levels)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     if len(members) < patient.topology.n:
         positions, patient = positions[members], Patient(part, len(members))
-    patient.view, patient.grid = finding.view, finding.grid
+    patient.view, patient.bound = finding.view, finding.bound
     base, candidates, heralds = BASE, CANDIDATES, HERALDS
     if finding.view is not None:
         base, candidates, heralds = SEEN[0], SEEN, SEEN_HERALDS
     else:
         patient.expect(LARGEST_KEEP)
-        if finding.kind == "fused":
-            base, candidates, heralds = FUSED[0], FUSED, FUSED
+        if finding.kind in GROUPS:
+            candidates = heralds = GROUPS[finding.kind]
+            base = candidates[0]
     rehearsal = Rehearsal(positions, finding.on(members), patient, base, named("goal", GOALS, goal), progress)
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (candidates, heralds))
     winner = rehearsal.compete(heralds, most, HERALDED)
@@ -216,6 +228,24 @@ def _persist(positions: Positions, finding: Finding, patient: Patient) -> Automa
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, untreated, LEFT_UNEVEN * untreated, 0)
 
 
+def _bounded(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:
+    """Filter as coarsely as the cause asks: nothing is rehearsed, as vertices stay within its bound."""
+    if finding.kind == "steps":
+        step = Step(Recipe(RAYS, STEP_STRENGTH, "own", 0.25), STEP_ITERATIONS)
+    else:
+        assert isinstance(finding.bound, Grid)
+        keep = CELL_KEEP
+        while keep * finding.bound.flatness > 1.01 * CELL_KEEP:
+            smooth = patient.smooth(positions, 0.5 * keep)
+            if (finding.bound.within(positions, smooth) != smooth).any(axis=1).mean() > CELL_CUT:
+                break
+            keep *= 0.5
+        step = Step(Recipe("positions", keep, "own", 0.25), CELL_ITERATIONS)
+    noise = NoiseLevel(finding.level / finding.edge, 0.0)
+    unknown = Forecast(0.0, 0.0, sure=False, known=False)
+    return AutomaticChoice((step,), finding.kind, finding.reason, noise, 0.0, 0.0, 0, forecast=unknown)
+
+
 def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:
     """The recipes to try: those that let vertices slide along the surface only where noise has moved them there, or
     drowns the surface."""
@@ -232,7 +262,7 @@ def treat(
     what of the choice was done, and what to expect if vertices go but a part of the way, `strength`."""
     if not choice.steps:
         return noisy, choice
-    patient.view, patient.grid = finding.view, finding.grid
+    patient.view, patient.bound = finding.view, finding.bound
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
     full, verdict = _judged(treatments.mean(choice.steps), noisy, finding, patient)
@@ -258,6 +288,6 @@ def treat(
 def _judged(result: Positions, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
     """Return the result for a noisy mesh, moved as far as allowed, and its notes."""
     result = keep_good(noisy, result, finding.levels > 0.0)
-    if finding.grid is not None:
-        result = finding.grid.within_cells(noisy, result)
+    if finding.bound is not None:
+        result = finding.bound.within(noisy, result)
     return result, judge(noisy, result, finding, patient.probe)

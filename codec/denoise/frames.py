@@ -13,7 +13,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.noise.finding import Finding, weld_seams
+from bsm.codec.denoise.noise.causes import weld_seams
+from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
@@ -99,8 +100,9 @@ class FrameDenoiser:
                 begun = group[0][1]
                 self._progress("finding noise", 0.0)
                 if remaining is None:
-                    begun, outliers, ripples = calm(begun, self._patient)
-                found = find_noise(begun, self._patient.probe)
+                    begun, outliers, ripples, found = calm(begun, self._patient)
+                else:
+                    found = find_noise(begun, self._patient.probe)
                 if remaining is not None and remaining >= UNSTEADY * found.edge:
                     found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal

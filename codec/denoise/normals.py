@@ -62,8 +62,10 @@ def own_normals(geometry: FaceGeometry, topology: Topology) -> Floats:
 class GuidedFilter:
     """The filter with its neighbourhoods, which are found once, on the mesh that it starts from."""
 
-    def __init__(self, positions: Positions, topology: Topology) -> None:
-        self.positions, self.topology = positions, topology
+    def __init__(
+        self, positions: Positions, topology: Topology, within: Callable[[Positions], Positions] = np.asarray
+    ) -> None:
+        self.positions, self.topology, self._within = positions, topology, within
         centroids = face_geometry(positions, topology.faces).centroids
         self._near = reach(centroids, topology.patches, RADIUS * mean_centroid_distance(centroids, topology.pairs))
 
@@ -72,7 +74,7 @@ class GuidedFilter:
         geometry = face_geometry(positions, self.topology.faces)
         sigma_s = mean_centroid_distance(geometry.centroids, self.topology.pairs)
         normals = filter_normals(geometry, guide(geometry, self.topology), self._near, sigma_s, sigma_r)
-        return follow_normals(positions, self.topology, normals, VERTEX_ITERATIONS)
+        return self._within(follow_normals(positions, self.topology, normals, VERTEX_ITERATIONS))
 
     def iterates(self, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Iterator[Positions]:
         """The start, shape (n, 3), and what the filter makes of it after 1, 2, ... iterations, without end."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 
 import numpy as np
@@ -12,7 +13,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
-from bsm.codec.denoise.noise.finding import Grid
+from bsm.codec.denoise.noise.causes import Bound, Grid
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.normals import Guide, GuidedFilter, filtered_normals, fine_step, own_normals, patch_guidance
@@ -124,9 +125,15 @@ class Treatments:
     """What recipes make of one mesh: where they start is found once for all that start there, and so are results."""
 
     def __init__(
-        self, noisy: Positions, smooth: Callable[[float], Positions], topology: Topology, view: View | None = None
+        self,
+        noisy: Positions,
+        smooth: Callable[[float], Positions],
+        topology: Topology,
+        view: View | None = None,
+        bound: Bound | None = None,
     ) -> None:
         self.noisy, self._smooth, self._topology, self._view = noisy, smooth, topology, view
+        self._within = np.asarray if bound is None else partial(bound.within, noisy)
         self._starts: dict[tuple[str, float], GuidedFilter] = {}
         self._results: dict[Step, Positions] = {}
 
@@ -141,7 +148,7 @@ class Treatments:
             else:
                 smooth = self._smooth(recipe.keep) if recipe.needs_coarse else self.noisy
                 positions = hand_over(recipe.hand_over)(self.noisy, smooth, self._topology)
-            start = self._starts[where] = GuidedFilter(positions, self._topology)
+            start = self._starts[where] = GuidedFilter(self._within(positions), self._topology, self._within)
         if recipe.guide == LOCAL:
             return filtered_normals(start.positions, self._topology, recipe.sigma_r)
         return start.iterates(named("guide", GUIDES, recipe.guide), recipe.sigma_r)
@@ -170,7 +177,7 @@ class Patient:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
         self.view: View | None = None
-        self.grid: Grid | None = None
+        self.bound: Bound | None = None
         self._last: tuple[Positions, Treatments] | None = None
         self._coarse: CoarseFilter | None = None
         self._keep = 0.0
@@ -191,9 +198,9 @@ class Patient:
         return mean_edge_length(positions, self.topology.faces)
 
     def treated(self, positions: Positions) -> Treatments:
-        if self.grid is not None:
-            positions = self.grid.parted(positions, self.probe)
-        return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology, self.view)
+        if isinstance(self.bound, Grid):
+            positions = self.bound.parted(positions, self.probe)
+        return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology, self.view, self.bound)
 
     def treatments(self, positions: Positions) -> Treatments:
         """What `treated` makes of `positions`, shape (n, 3), kept until others are asked for; by any thread."""

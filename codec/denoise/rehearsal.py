@@ -41,7 +41,7 @@ has lost less still has such noise, which looks like shape."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """What is lost of a guess's roughness (a logarithm, within bounds), and how much more has been lost of the mesh."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
-UNSURE, LEAST = ("correlated", "grid", "axis", "impulses"), 0.87
+UNSURE, LEAST = {"correlated": 0.87, "grid": 0.87, "axis": 0.7, "impulses": 0.87}, 0.87
 """Kinds whose rehearsal does not show whether anything is lost, as none does on few vertices; and the least that comes
 there, of what is expected."""
 MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
@@ -171,7 +171,8 @@ class Rehearsal:
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
         few = int(self._patient.probe.windows.valid.sum()) < MANY_WINDOWS
         sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
-        expected = float(after) * gain * winner.error / noisy * (1.0 if sure or scanned else LEAST)
+        least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
+        expected = float(after) * gain * winner.error / noisy * least
         known = self._finding.clear and self._drowned < MOST_DROWNED
         return Forecast(before * self.untreated / noisy, expected, sure, known)
 
@@ -231,6 +232,6 @@ class Rehearsal:
         return Outcome(steps[:1] if len(set(steps)) == 1 else steps, error, result)
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
-        if self._finding.grid is not None:
-            positions = self._finding.grid.within_cells(otherwise, positions)
+        if self._finding.bound is not None:
+            positions = self._finding.bound.within(otherwise, positions)
         return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)

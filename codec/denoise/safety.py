@@ -43,6 +43,8 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     """Compare what was removed with what there was to remove."""
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
+    if finding.kind in ("cells", "steps"):
+        return Verdict(everywhere, 1.0, 0.0, "")  # within the bound of the cause
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
     if not finding.noisy and not unsure:
         # No statistics here: they may be what is missing.

@@ -7,6 +7,7 @@ fields      colours and fields that change in moving meshes, against zstd and Dr
 butteraugli how presets look to Butteraugli, beside Draco at 11 bits
 targets     what a target beside the look takes, over the larger of what both take alone
 same        whether another checkout writes the same bytes
+denoising   how denoising does on noise of known cause, beside Taubin's filter
 house       how large the repository is, beside its limits
 """
 
@@ -22,6 +23,7 @@ COMMANDS = {
     "butteraugli": "butteraugli:main",
     "targets": "targets:main",
     "same": "same:main",
+    "denoising": "denoising:main",
     "house": "house:main",
 }
 """The function that does what a word asks for, and its module."""

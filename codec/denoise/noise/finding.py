@@ -7,85 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec.arrays import Faces, Indices, Positions
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.surface import Floats, Topology
-from bsm.codec.geometry.welding import weld
-
-FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
-NEAR = 0.02  # distance from a multiple, in steps, that the precision of files explains
-SAME = 1e-6  # values closer together, as a share of the extent, are one value
-SPREADS = 3  # averagings that part vertices that rounding has merged
-
-
-@dataclass(frozen=True, eq=False)
-class Grid:
-    """Cells within which positions are indistinguishable."""
-
-    steps: Floats
-
-    def round(self, positions: Positions, offset: Floats) -> Positions:
-        """Positions in the middle of their cells, of which one has its middle at `offset`, shape (3,)."""
-        safe = np.where(self.steps > 0.0, self.steps, 1.0)
-        return np.where(self.steps > 0.0, np.round((positions - offset) / safe) * safe + offset, positions)
-
-    def levels(self, normals: Floats) -> Floats:
-        """Standard deviation along normals, shape (n, 3), of what rounding takes away or adds, shape (n,)."""
-        return np.asarray(np.sqrt(np.square(normals * self.steps).sum(axis=1) / 12.0))
-
-    def within_cells(self, rounded: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back into the cells of the rounded ones."""
-        half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
-        return np.clip(moved, rounded - half, rounded + half)
-
-    def parted(self, rounded: Positions, probe: Probe) -> Positions:
-        """Rounded positions, shape (n, 3); neighbours at one position are drawn to their other neighbours."""
-        starts, members = probe.topology.neighbours
-        owners = np.repeat(np.arange(len(rounded)), np.diff(starts))
-        merged = np.unique(owners[(rounded[owners] == rounded[members]).all(axis=1)])
-        result, around = rounded.copy(), probe.average[merged]
-        for _ in range(SPREADS if len(merged) else 0):
-            result[merged] = self.within_cells(rounded[merged], around @ result)
-        return result
-
-
-def find_grid(positions: Positions) -> Grid | None:
-    """The grid that the positions, shape (n, 3), were rounded to, in all coordinates."""
-    steps = [_step(positions[:, axis]) for axis in range(3)]
-    known = [step for step in steps if step is not None]
-    return Grid(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
-
-
-def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
-    """What `weld` makes of positions, shape (n, 3); but of those that lie on a grid only vertices of the boundary are
-    welded, as those of seams and soups are: others have been merged by rounding."""
-    welded, joined, index = weld(positions, faces)
-    n = len(positions)
-    if len(welded) == n or find_grid(welded) is None:
-        return welded, joined, index
-    index = np.where(Topology(faces, n).boundary, n + index, np.arange(n))
-    index = np.unique(index, return_inverse=True)[1].ravel().astype(np.int32)
-    return positions[np.unique(index, return_index=True)[1]], index[faces], index
-
-
-def _step(coordinate: Floats) -> float | None:
-    """Size of a cell; 0 where there are too few values to tell, None where they are not rounded."""
-    extent = float(np.ptp(coordinate))
-    values = np.unique(coordinate)
-    gaps = np.diff(values)
-    gaps = gaps[gaps > SAME * extent]
-    if len(gaps) < FEWEST_VALUES:
-        return 0.0
-    count = round(extent / float(gaps.min()))
-    # One gap alone is known no better than the file's last digits: all of them together say it.
-    step = extent / count
-    for _ in range(3):
-        numbers = np.round((values - values[0]) / step)
-        step = float(numbers @ (values - values[0]) / (numbers @ numbers))
-    off = np.abs((values - values[0]) / step - np.round((values - values[0]) / step))
-    return step if off.max() < NEAR and len(values) * 8 > count else None
-
+from bsm.codec.denoise.surface import Floats
 
 LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has at least, and over the usual
 LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
@@ -129,10 +55,20 @@ class Finding:
     reason: str
     axis: Floats | None = None
     growth: Floats | None = None
-    grid: Grid | None = None
+    bound: Bound | None = None
     whiteness: float = 1.0
     view: View | None = None
     clear: bool = True  # whether what lies beside the noise has none
+
+    @property
+    def grid(self) -> Grid | None:
+        """The grid of rounded positions."""
+        return self.bound if isinstance(self.bound, Grid) and self.kind == "grid" else None
+
+    @property
+    def exact(self) -> bool:
+        """Whether the coordinates tell the cause, so that nothing has to be guessed."""
+        return self.kind in ("grid", "cells", "steps")
 
     @property
     def noisy(self) -> bool:

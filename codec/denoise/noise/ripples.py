@@ -55,15 +55,17 @@ class Ripples:
         return positions - self.displacements if len(self.lengths) else positions
 
 
+NO_RIPPLES = Ripples(np.zeros(0), 0.0, np.zeros((0, 3)))
+
+
 def find_ripples(positions: Positions, probe: Probe) -> Ripples:
-    none = Ripples(np.zeros(0), 0.0, np.zeros_like(positions))
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions)[probe.counted]
     valid = probe.windows.valid
     if len(normals) < FEWEST or not valid.any() or not edge > 0.0:
-        return none
+        return NO_RIPPLES
     if np.linalg.eigvalsh(normals.T @ normals / len(normals))[0] < ROUND:
-        return none
+        return NO_RIPPLES
     fit = _Fit(positions / edge, probe)
     while fit.count < MOST_WAVES and (begun := fit.peak()) is not None:
         wider = fit.with_wave(begun)
@@ -73,7 +75,7 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
             break
         fit = wider
     if fit.count == 0:
-        return none
+        return NO_RIPPLES
     for _ in range(POLISHING):
         # The surface as it is without the waves: its normals, and where the vertices were.
         fit.look(fit.given - fit.amounts[:, None] * fit.normals, passes=1)
@@ -84,7 +86,7 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
     most = CALMER if int(valid.sum()) >= MANY_WINDOWS else CALMER_OF_FEW
     sound = bool(((lengths > LENGTHS[0]) & (lengths < LENGTHS[1])).all())
     if not sound or not FAINTEST < level < STRONGEST or calmer > most:
-        return none
+        return NO_RIPPLES
     return Ripples(lengths, level, edge * fit.amounts[:, None] * fit.normals)
 
 

@@ -6,14 +6,15 @@ and no value has a preference. Detail and creases are strong in some places and 
 noise in all these ways is taken for noise: the answer for anything else is "none", and "unknown" for small meshes.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, find_grid, is_random, lattice_step, look, spread
+from bsm.codec.denoise.noise.causes import Line, Steps, find_cells, find_grid, find_steps
+from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
-from bsm.codec.denoise.noise.view import find_view, pixel
+from bsm.codec.denoise.noise.view import View, find_view, pixel
 from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -60,7 +61,7 @@ ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
 ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
 """Rounding that is worth a treatment, in mean edges; how much of what is expected has to be there, creases included;
 and the largest share of vertices with nothing of it: shapes that were drawn on a grid have many."""
-HEAVY_LEVEL = 0.3  # from here on normals are taken from a smoother version
+HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # from here on normals are taken from a smoother version
 
 
 def find_noise(positions: Positions, probe: Probe) -> Finding:
@@ -69,8 +70,8 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
         return Finding("unknown", 0.0, np.zeros(probe.topology.n), edge, "too few vertices to tell noise from shape")
     evidence = look(positions, probe, edge, passes=2)
     if np.nanquantile(evidence.levels, 0.75) > HEAVY_LEVEL:
-        evidence = look(positions, probe, edge, passes=8)
-    for test in (_rounded, _seen, _fused, _everywhere, _here_and_there, one_axis):
+        evidence = look(positions, probe, edge, passes=HEAVY_PASSES)
+    for test in (_cells, _rounded, _seen, _fused, one_axis, _everywhere, _here_and_there):
         finding = test(positions, evidence)
         if finding is not None:
             return finding
@@ -79,6 +80,17 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
     if level < FAINTEST:
         reason = f"at most {level:.3f} mean edges of noise, no more than a clean mesh has detail"
     return Finding("none", 0.0, np.zeros(probe.topology.n), edge, reason)
+
+
+def _cells(positions: Positions, evidence: Evidence) -> Finding | None:
+    """On the edges between cells of a volume."""
+    cells = find_cells(positions)
+    if cells is None:
+        return None
+    levels = cells.levels(evidence.normals)
+    sizes = " x ".join(f"{step:.3g}" for step in cells.steps)
+    reason = f"stairs along x, y and z of a binary volume of cells of {sizes}; no vertex leaves its half-cell"
+    return Finding("cells", float(np.median(levels)), levels, evidence.edge, reason, bound=cells)
 
 
 def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
@@ -95,7 +107,7 @@ def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
     if not ROUNDED_SEEN[0] < np.quantile(seen, SHARE) / BOUND < ROUNDED_SEEN[1] or (seen < 0.1).mean() > ROUNDED_ZEROS:
         return None
     reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
-    return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, grid=grid)
+    return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, bound=grid)
 
 
 def _seen(positions: Positions, evidence: Evidence) -> Finding | None:
@@ -107,6 +119,9 @@ def _seen(positions: Positions, evidence: Evidence) -> Finding | None:
     along = probe.fine(view.heights(positions, probe.topology)[:, None])[:, 0]
     levels = probe.levels(along)[probe.windows.valid]
     level = float(np.median(levels))
+    steps = find_steps(view, positions, probe)
+    if steps is not None:
+        return _stepped(steps, replace(view, terraced=True), positions, evidence)
     if level < FAINTEST:
         return Finding("none", 0.0, np.zeros(probe.topology.n), evidence.edge, SMOOTH_VIEW)
     allowed = np.interp(level, [SEEN_FAINT, SEEN_SURE], EVEN_SEEN)
@@ -126,6 +141,18 @@ def _seen(positions: Positions, evidence: Evidence) -> Finding | None:
         reason,
         view=replace(view, level=level, terraced=terraced),
     )
+
+
+def _stepped(steps: Steps, view: View, positions: Positions, evidence: Evidence) -> Finding:
+    depth = (positions - view.eye) @ steps.axis
+    width = pixel(view.plane(positions), evidence.probe.topology) * ((positions - view.eye) @ view.axis)
+    heights = steps.step * (np.square(depth) if steps.inverse else 1.0) * np.ones(len(depth))
+    amount = heights / np.sqrt(12.0)
+    axis = "xyz"[int(np.argmax(np.abs(steps.axis)))]
+    what = "inverse depth" if steps.inverse else "depth"
+    reason = f"steps of {steps.step:.3g} in the {what} of one view, along {axis}; no vertex moves by over half of one"
+    view = replace(view, level=float(np.median(heights / np.abs(width))) ** 2)
+    return Finding("steps", float(np.median(amount)), amount, evidence.edge, reason, view=view, bound=steps)
 
 
 def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
@@ -246,110 +273,52 @@ def _otsu(ordered: Floats) -> float:
     return float(0.5 * (ordered[place] + ordered[place + 1]))
 
 
-AXIS_WINDOWS = 5  # fewest windows that show a direction
-LEAST_REACHED = 0.1  # share of the mesh that it has to reach
-AXIS_LEVEL, AXIS_RANK, AXIS_REACH, AXIS_CALM, AXIS_FEWEST = 0.1, 0.3, 0.4, 0.6, 40
-"""Noise along an axis: how strong at least, how much weaker in the second direction, where it shows and where not."""
-AXIS_TAIL = 2.0  # tails of what an axis explains, over the normal distribution's, that noise does not have: creases do
-DEPTH_FEWEST, DEPTH_WORTH, DEPTH_MOST = 12, 0.7, 3.0
-"""Noise that grows with depth: windows that are needed, what is left of the spread, and the logarithm of the ratio
-between both ends."""
+AXIS_LEVEL, AXIS_ALONE, AXIS_EVEN = 0.1, 1.25, (0.55, 1.7)
+"""Noise along an axis, in mean edges; how much stronger than across; and beside the axis over what it is at its ends:
+noise along normals reads 0 to 0.8 there, triangles that are longer one way 1.8 and more."""
+AXIS_MOST = 5.0  # deviations that a vertex has been moved by at most
+SNAP = 0.995  # cosine from which on it is an axis of the coordinates
+DEPTH_WORTH, DEPTH_MOST = 0.7, 3.0
+"""Noise that grows with depth: what is left of the spread, and the logarithm of the ratio between both ends."""
 
 
 def one_axis(positions: Positions, evidence: Evidence) -> Finding | None:
-    """Noise of `positions`, shape (n, 3), as strong as the direction of the surface says."""
-    chosen = evidence.probe.counted
-    normals, along = evidence.normals[chosen], np.abs(evidence.along[chosen])
-    place = np.arange(48) + 0.5  # directions spread evenly over half a sphere (a Fibonacci lattice)
-    height, turn = 1.0 - place / 48, np.pi * (1.0 + np.sqrt(5.0)) * place
-    radius = np.sqrt(1.0 - height**2)
-    folded = normals @ np.stack([radius * np.cos(turn), radius * np.sin(turn), height])
-    facing = np.abs(folded).argmax(axis=1)
-    order = np.argsort(facing, kind="stable")
-    groups = np.split(order, np.flatnonzero(np.diff(facing[order])) + 1)
-    groups = [group for group in groups if len(group) >= FEWEST_IN_WINDOW]
-    if len(groups) < 6:
+    """Noise of `positions`, shape (n, 3), along one direction, whichever way the surface faces."""
+    probe, chosen = evidence.probe, evidence.probe.counted
+    fine = probe.fine(positions / evidence.edge)
+    length = np.linalg.norm(fine, axis=1)
+    calm = fine * np.minimum(1.0, np.quantile(length[chosen], 0.8) / np.maximum(length, 1e-300))[:, None]
+    values, vectors = np.linalg.eigh(calm[chosen].T @ calm[chosen] / chosen.sum())
+    if values[2] < AXIS_ALONE**2 * values[1]:
         return None
-    levels = np.array([np.quantile(along[group], SHARE) for group in groups]) / BOUND
-    moments = np.stack([normals[group].T @ normals[group] / len(group) for group in groups])
-    weights = np.sqrt([float(len(group)) for group in groups])
-    values, vectors = np.linalg.eigh(_covariance(moments, levels**2, weights))
-    if values[1] > AXIS_RANK * values[2]:
+    axis = vectors[:, 2] * np.sign(vectors[np.abs(vectors[:, 2]).argmax(), 2])
+    near = np.abs(axis).max() > SNAP
+    axis = np.round(axis) if near else axis
+    along, facing = fine @ axis, np.abs(probe.smooth_normals(positions, HEAVY_PASSES) @ axis)
+    beside, ends = (chosen & (facing < 0.35)), (chosen & (facing >= 0.7))
+    if min(beside.sum(), ends.sum()) < FEWEST_IN_WINDOW:
         return None
-    # Cameras look along an axis of their own coordinates, which often are the file's.
-    found = [_along(axis, positions, evidence) for axis in (vectors[:, 2], *np.eye(3))]
-    best = min(found, key=lambda finding: finding.spread)
-    if best.spread > UNEVEN or best.level < AXIS_LEVEL or best.calm > AXIS_CALM * best.level:
+    level = float(np.quantile(np.abs(along[ends]), SHARE)) / BOUND
+    share = float(np.quantile(np.abs(along[beside]), SHARE)) / BOUND / level if level > 0.0 else 0.0
+    if level < AXIS_LEVEL or not AXIS_EVEN[0] < share < AXIS_EVEN[1]:
         return None
-    facing_it = np.abs(evidence.normals @ best.axis)
-    reached = evidence.probe.counted & (facing_it > AXIS_REACH)
-    explained = evidence.along[reached] / (best.level * best.growth * facing_it)[reached]
-    if not is_random(explained) or np.quantile(np.abs(explained), 0.95) > AXIS_TAIL * 1.96:
-        return None
-    amount = best.level * best.growth * facing_it * evidence.edge
-    reason = f"noise along one axis ({', '.join(f'{component:.2f}' for component in best.axis)})"
-    grows = bool((best.growth != 1.0).any())
-    if grows:
-        reason += f", {best.growth.max() / best.growth.min():.1f} times as strong at one end as at the other"
-    growth = best.growth if grows else None
-    return Finding("axis", best.level * evidence.edge, amount, evidence.edge, reason, axis=best.axis, growth=growth)
-
-
-@dataclass(frozen=True, eq=False)
-class _Axis:
-    """How well noise along one axis explains what is there: its level, its spread, and the level where it is not."""
-
-    axis: Floats
-    level: float
-    spread: float
-    calm: float
-    growth: Floats
-
-
-def _along(axis: Floats, positions: Positions, evidence: Evidence) -> _Axis:
-    probe = evidence.probe
-    slope = np.abs(evidence.normals @ axis)
-    reached = probe.counted & (slope > AXIS_REACH)
-    windows = probe.windows.counting(reached, AXIS_FEWEST)
-    growth = np.ones(len(slope))
-    if reached.sum() < LEAST_REACHED * len(reached) or windows.valid.sum() < AXIS_WINDOWS:
-        return _Axis(axis, 0.0, np.inf, 0.0, growth)
-    levels = windows.quantiles(np.abs(evidence.along) / np.maximum(slope, AXIS_REACH), SHARE)[windows.valid] / BOUND
-    uneven = spread(levels, windows)
-    depth = positions @ axis
+    windows = probe.windows
+    levels, depth = probe.levels(along)[windows.valid], positions @ axis
     depth = (depth - depth.min()) / (np.ptp(depth) or 1.0)
-    if len(levels) >= DEPTH_FEWEST and levels.min() > 0.0:
-        rate = _rate(windows.means(depth)[windows.valid], np.log(levels))
-        even = levels / np.exp(rate * (windows.means(depth)[windows.valid] - 0.5))
-        if abs(rate) < DEPTH_MOST and spread(even, windows) < DEPTH_WORTH * uneven:
-            growth, levels, uneven = np.exp(rate * (depth - 0.5)), even, spread(even, windows)
-    still = probe.counted & (slope < 0.5 * AXIS_REACH)
-    calm = float(np.quantile(np.abs(evidence.along[still]), SHARE)) / BOUND if still.sum() >= FEWEST_IN_WINDOW else 0.0
-    return _Axis(axis, float(np.median(levels)), uneven, calm, growth)
-
-
-def _rate(depth: Floats, logarithms: Floats) -> float:
-    weights, line = np.ones(len(depth)), np.zeros(2)
-    for _ in range(8):
-        line = np.polyfit(depth, logarithms, 1, w=np.sqrt(weights))
-        above = np.maximum(logarithms - np.polyval(line, depth), 0.0)
-        weights = 1.0 / (1.0 + np.square(above / 0.2))
-    return float(line[0])
-
-
-def _covariance(moments: Floats, measured: Floats, trust: Floats) -> Floats:
-    """Symmetric positive S with ``tr(S M)`` near the measured squares; large ones (creases) weigh less."""
-    rows, columns = np.triu_indices(3)
-    design = moments[:, rows, columns] * np.where(rows == columns, 1.0, 2.0)
-    weights = trust
-    covariance = np.zeros((3, 3))
-    for _ in range(12):
-        solution = np.linalg.lstsq(design * weights[:, None], measured * weights, rcond=None)[0]
-        covariance = np.zeros((3, 3))
-        covariance[rows, columns] = solution
-        covariance[columns, rows] = solution
-        values, vectors = np.linalg.eigh(covariance)
-        covariance = (vectors * np.maximum(values, 0.0)) @ vectors.T
-        predicted = np.maximum(np.einsum("ijk,jk->i", moments, covariance), 1e-4)
-        weights = trust / (predicted * (1.0 + np.abs(measured - predicted) / (0.2 * predicted)))
-    return covariance
+    uneven, growth = spread(levels, windows), None
+    rate = np.polyfit(windows.means(depth)[windows.valid], np.log(np.maximum(levels, 1e-9)), 1)[0]
+    even = levels / np.exp(rate * (windows.means(depth)[windows.valid] - 0.5))
+    if abs(rate) < DEPTH_MOST and spread(even, windows) < DEPTH_WORTH * uneven:
+        growth, levels, uneven = np.exp(rate * (depth - 0.5)), even, spread(even, windows)
+    level = float(np.sqrt(max(np.median(levels) ** 2 - values[1], 0.0)))  # the shape's own part is as strong across
+    amount = level * evidence.edge * (np.ones(len(depth)) if growth is None else growth)
+    if uneven > UNEVEN or level < AXIS_LEVEL or not is_random(along[chosen] / amount[chosen] * evidence.edge):
+        return None
+    reason = f"noise along one axis ({', '.join(f'{component:.2f}' for component in axis)})"
+    if growth is not None:
+        reason += f", {growth.max() / growth.min():.1f} times as strong at one end as at the other"
+    bound = Line(axis, AXIS_MOST * float(amount.max()))
+    facing = np.abs(evidence.normals @ axis)
+    return Finding(
+        "axis", level * evidence.edge, amount * facing, evidence.edge, reason, axis=axis, growth=growth, bound=bound
+    )

@@ -5,7 +5,8 @@ import pytest
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
-from bsm.codec.denoise.noise.finding import Finding, find_grid
+from bsm.codec.denoise.noise.causes import find_grid
+from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import find_outliers, put_strays_back
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import find_ripples

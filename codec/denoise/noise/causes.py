@@ -1,0 +1,186 @@
+"""Causes that the coordinates tell, and how far each lets a vertex be from the surface.
+
+Rounding to a grid and marching cubes of a binary volume leave a vertex within half a cell, a depth in steps within half
+a step along its ray, and noise along an axis on a line.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from bsm.codec.arrays import Faces, Indices, Positions
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.view import View
+from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.geometry.welding import weld
+
+FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
+NEAR = 0.02  # distance from a multiple, in steps, that the precision of files explains
+SAME = 1e-6  # values closer together, as a share of the extent, are one value
+SPREADS = 3  # averagings that part vertices that rounding has merged
+
+
+FEW_VALUES = 4  # of a coordinate that lies on half-cells, or of a depth in steps
+HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
+SLANTED_EXACT, PEAKS = 0.5, 0.02
+"""Of pure steps: the largest share of straight places on slopes, which shapes drawn on a grid have, and of peaks, which
+noise has."""
+
+
+class Bound(Protocol):
+    """Where a vertex may be."""
+
+    def within(self, given: Positions, moved: Positions) -> Positions:
+        """Moved positions, shape (n, 3), brought back to where those that were `given` may be."""
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Cells within which positions are indistinguishable."""
+
+    steps: Floats
+
+    @property
+    def flatness(self) -> float:
+        """The largest step over the smallest."""
+        return float(self.steps.max() / self.steps.min())
+
+    def round(self, positions: Positions, offset: Floats) -> Positions:
+        """Positions in the middle of their cells, of which one has its middle at `offset`, shape (3,)."""
+        safe = np.where(self.steps > 0.0, self.steps, 1.0)
+        return np.where(self.steps > 0.0, np.round((positions - offset) / safe) * safe + offset, positions)
+
+    def levels(self, normals: Floats) -> Floats:
+        """Standard deviation along normals, shape (n, 3), of what rounding takes away or adds, shape (n,)."""
+        return np.asarray(np.sqrt(np.square(normals * self.steps).sum(axis=1) / 12.0))
+
+    def within(self, rounded: Positions, moved: Positions) -> Positions:
+        """Moved positions, shape (n, 3), brought back into the cells of the rounded ones."""
+        half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
+        return np.clip(moved, rounded - half, rounded + half)
+
+    def parted(self, rounded: Positions, probe: Probe) -> Positions:
+        """Rounded positions, shape (n, 3); neighbours at one position are drawn to their other neighbours."""
+        starts, members = probe.topology.neighbours
+        owners = np.repeat(np.arange(len(rounded)), np.diff(starts))
+        merged = np.unique(owners[(rounded[owners] == rounded[members]).all(axis=1)])
+        result, around = rounded.copy(), probe.average[merged]
+        for _ in range(SPREADS if len(merged) else 0):
+            result[merged] = self.within(rounded[merged], around @ result)
+        return result
+
+
+def find_grid(positions: Positions) -> Grid | None:
+    """The grid that the positions, shape (n, 3), were rounded to, in all coordinates."""
+    steps = [_step(positions[:, axis]) for axis in range(3)]
+    known = [step for step in steps if step is not None]
+    return Grid(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
+
+
+def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
+    """What `weld` makes of positions, shape (n, 3); but of those that lie on a grid only vertices of the boundary are
+    welded, as those of seams and soups are: others have been merged by rounding."""
+    welded, joined, index = weld(positions, faces)
+    n = len(positions)
+    if len(welded) == n or find_grid(welded) is None:
+        return welded, joined, index
+    index = np.where(Topology(faces, n).boundary, n + index, np.arange(n))
+    index = np.unique(index, return_inverse=True)[1].ravel().astype(np.int32)
+    return positions[np.unique(index, return_index=True)[1]], index[faces], index
+
+
+def _step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | None:
+    """Size of a cell; 0 where there are too few values to tell, None where they are not rounded."""
+    extent = float(np.ptp(coordinate))
+    values = np.unique(coordinate)
+    gaps = np.diff(values)
+    gaps = gaps[gaps > SAME * extent]
+    if len(gaps) < fewest:
+        return 0.0
+    count = round(extent / float(gaps.min()))
+    # One gap alone is known no better than the file's last digits: all of them together say it.
+    step = extent / count
+    for _ in range(3):
+        numbers = np.round((values - values[0]) / step)
+        step = float(numbers @ (values - values[0]) / (numbers @ numbers))
+    off = np.abs((values - values[0]) / step - np.round((values - values[0]) / step))
+    return step if off.max() < NEAR and len(values) * 8 > count else None
+
+
+def find_cells(positions: Positions) -> Grid | None:
+    """The cells of a binary volume whose surface by marching cubes the positions, shape (n, 3), are: every vertex lies
+    halfway between two cells along one axis, and on a cell along both others."""
+    halves = np.array([_step(column, FEW_VALUES) or 0.0 for column in positions.T])
+    if not halves.all():
+        return None
+    odd = np.round((positions - positions.min(axis=0)) / halves).astype(np.int64) & 1
+    counts = np.bincount(odd @ [1, 2, 4], minlength=8)
+    axes = np.array([1, 2, 4])
+    share = max(counts[axes ^ offset].sum() for offset in range(8)) / len(positions)
+    return Grid(2.0 * halves) if share > HALFWAY else None
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """An axis along which vertices were moved, and how far at most."""
+
+    axis: Floats
+    most: float
+
+    def within(self, given: Positions, moved: Positions) -> Positions:
+        """Moved positions, shape (n, 3), brought back to the lines through the given ones."""
+        along = np.clip((moved - given) @ self.axis, -self.most, self.most)
+        return np.asarray(given + along[:, None] * self.axis)
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Depths along an axis, or inverse ones, that come in steps."""
+
+    view: View
+    axis: Floats
+    step: float
+    inverse: bool
+
+    def depths(self, positions: Positions) -> Floats:
+        """Depths, or inverse ones, shape (n,)."""
+        depth = (positions - self.view.eye) @ self.axis
+        return np.asarray(1.0 / depth if self.inverse else depth)
+
+    def within(self, given: Positions, moved: Positions) -> Positions:
+        """Moved positions, shape (n, 3), brought back to half a step of the given ones along their rays."""
+        rays = given - self.view.eye
+        share = np.einsum("ij,ij->i", moved - self.view.eye, rays) / np.einsum("ij,ij->i", rays, rays)
+        half = 0.5 * self.step / np.abs(self.depths(given))
+        least, most = 1.0 - half, 1.0 + half
+        if self.inverse:
+            least, most = 1.0 / most, 1.0 / np.maximum(least, 1e-3)
+        return np.asarray(self.view.eye + np.clip(share, least, most)[:, None] * rays)
+
+
+def find_steps(view: View, positions: Positions, probe: Probe) -> Steps | None:
+    """Steps of the depths of a view without noise: on slopes they are uneven, and nowhere a vertex stands out alone."""
+    starts, members = probe.topology.neighbours
+    owners = np.repeat(np.arange(len(positions)), np.diff(starts))
+    for axis in np.eye(3):
+        depth = (positions - view.eye) @ axis
+        if depth.min() * depth.max() <= 0.0:
+            continue
+        for inverse in (False, True):
+            steps = Steps(view, axis, 1.0, inverse)
+            values = steps.depths(positions)
+            step = _step(values, FEW_VALUES)
+            if not step:
+                continue
+            apart = np.round((values[members] - values[owners]) / step)
+            signs, sums, sizes = (
+                np.bincount(owners, each, len(positions)) for each in (np.sign(apart), apart, apart != 0.0)
+            )
+            slopes, peaks = probe.counted & (sizes > 0), np.abs(signs) == np.diff(starts)
+            if not slopes.any() or (sums[slopes] == 0.0).mean() > SLANTED_EXACT:
+                continue
+            return Steps(view, axis, step, inverse) if peaks[probe.counted].mean() < PEAKS else None
+    return None

@@ -1,0 +1,100 @@
+"""Causes that the coordinates tell: binary volumes, depths in steps, noise along an axis; and their bounds."""
+
+import numpy as np
+import pytest
+
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise import denoise_automatically
+from bsm.codec.denoise.noise.causes import find_cells
+from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.surface import Topology
+from bsm.codec.geometry.metrics import theta
+from tests.codec.denoise.denoise_shapes import cube, grid, sphere
+from tools.noise import gaussian_along_axis
+from tools.sampled import THICK, ball, box, in_steps, torus, voxelized
+
+
+def find(positions: Positions, faces: Faces) -> Finding:
+    return find_noise(positions, Probe(Topology(faces, len(positions))))
+
+
+def volume(positions: Positions, faces: Faces) -> float:
+    return float(np.linalg.det(positions[faces]).sum()) / 6.0
+
+
+@pytest.mark.parametrize(
+    ("field", "cells", "thick", "most"),
+    [(ball, 40, 1.0, 2.5), (ball, 64, 1.0, 2.0), (torus, 60, 1.0, 3.0), (ball, 60, THICK, 9.0)],
+)
+def test_stairs_of_a_binary_volume_go_and_no_vertex_leaves_its_half_cell(field, cells, thick, most) -> None:  # type: ignore[no-untyped-def]
+    pytest.importorskip("skimage")
+    made = voxelized(field, cells, thick)
+    step = 2.0 / (cells - 6)
+    for goal in ("shading", "shape"):
+        result, choice = denoise_automatically(made.positions, made.faces, goal)
+        assert choice.kind == "cells" and "along x, y and z" in choice.reason and not choice.reliable
+        assert (np.abs(result - made.positions) <= 0.5 * step * np.array([1.0, 1.0, thick]) * (1.0 + 1e-9)).all()
+        assert made.angle(made.positions) > 19.0 and made.angle(result) < most
+        assert made.rms(result) < 0.6 * made.rms(made.positions)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_plate_of_five_cells_keeps_its_volume_and_its_edges(turned: bool) -> None:
+    pytest.importorskip("skimage")
+    sides = np.array([24.5, 16.5, 2.5])
+    flat = lambda places: (np.abs(places) - sides).max(axis=-1)  # noqa: E731
+    made = voxelized(box(*sides) if turned else flat, 63, reach=28.5)
+    result, choice = denoise_automatically(made.positions, made.faces)
+    assert choice.kind == "cells"
+    assert volume(result, made.faces) == pytest.approx(8.0 * sides.prod(), rel=0.03)
+    assert made.angle(result) < 5.0
+
+
+def test_cells_are_known_from_vertices_halfway_between_them_only() -> None:
+    random = np.random.default_rng(4)
+    halfway = random.integers(0, 20, (4000, 3)).astype(np.float64)
+    halfway[np.arange(4000), random.integers(0, 3, 4000)] += 0.5
+    cells = find_cells(halfway * [0.3, 0.3, 1.2] + [1.0, 2.0, 3.0])
+    assert cells is not None and cells.steps == pytest.approx([0.3, 0.3, 1.2])
+    assert find_cells(np.round(halfway)) is None
+    assert find_cells(halfway + random.normal(0.0, 0.1, halfway.shape)) is None
+    assert find_cells(np.round(2.0 * random.random((4000, 3)) * 20.0) / 2.0) is None
+    for clean, _ in (cube(30), sphere(20), grid(40)):
+        assert find_cells(clean) is None
+
+
+@pytest.mark.parametrize("inverse", [False, True])
+@pytest.mark.parametrize(("step", "most"), [(0.5, 3.0), (1.0, 3.5), (2.0, 4.5), (3.0, 6.0)])
+def test_depths_in_steps_are_smoothed_within_half_a_step(step: float, most: float, inverse: bool) -> None:
+    made = in_steps(*sphere(30), step, inverse, pixels=110)
+    result, choice = denoise_automatically(made.positions, made.faces)
+    assert choice.kind == "steps" and f"{'inverse ' if inverse else ''}depth of one view, along z" in choice.reason
+    assert made.angle(result) < most < 0.6 * made.angle(made.positions)
+    depths = [1.0 / positions[:, 2] if inverse else positions[:, 2] for positions in (made.positions, result)]
+    exact = np.diff(np.unique(depths[0])).min()
+    assert np.abs(depths[1] - depths[0]).max() <= 0.5 * exact * (1.0 + 1e-6)
+    assert np.abs(np.cross(made.positions, result)).max() < 1e-12
+
+
+def test_steps_of_a_height_map_are_smoothed_and_stairs_of_planes_stay() -> None:
+    hill, faces = grid(60)
+    across = hill[:, :2] - 30.0
+    hill[:, 2] = np.round(8.0 * np.cos(across[:, 0] / 15.0) * np.cos(across[:, 1] / 11.0) / 0.7) * 0.7
+    result, choice = denoise_automatically(hill, faces)
+    assert choice.kind == "steps" and "steps of 0.7 in the depth" in choice.reason
+    assert np.abs(result - hill).max(axis=0) == pytest.approx([0.0, 0.0, 0.35], abs=1e-2)
+    roof = np.stack([hill[:, 0], hill[:, 1], 30.0 - np.abs(hill[:, 0] - 30.0)], axis=1)
+    assert (denoise_automatically(roof, faces)[0] == roof).all()
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_noise_along_an_axis_goes_along_it(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(20)
+    axis = np.array([0.0, 1.0, 0.0])
+    noisy = gaussian_along_axis(clean, faces, 0.3, 5, tuple(axis))
+    result, choice = denoise_automatically(noisy, faces)
+    assert choice.kind == "axis" and "(0.00, 1.00, 0.00)" in choice.reason
+    assert np.abs((result - noisy)[:, [0, 2]]).max() < 1e-12
+    assert theta(clean, result, faces) < 0.3 * theta(clean, noisy, faces)

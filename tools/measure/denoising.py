@@ -1,0 +1,109 @@
+"""Angles to the truth after `bsm denoise` and after Taubin's filter, on noise of known cause.
+
+    python -m tools.measure denoising MESHES [ROWS ...]
+
+MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts of their names.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.automatic import denoise_automatically
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.surface import Topology, face_geometry
+from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.files.mesh import read_mesh
+from tools.noise import correlated_along_normals, gaussian_along_axis
+from tools.sampled import THICK, ball, box, in_steps, torus, voxelized, voxelized_mesh
+from tools.scans import Scan
+
+TAUBIN = (10, 30, 100)
+PLATE = (30.0, 20.0, 2.5)  # half sides, in cells
+SCANS = ("c3d_spot", "armadillo_12502", "fr_casting", "gargoyle_10002")
+STEPS = (0.5, 1.0, 2.0, 3.0)
+
+
+def taubin(positions: Positions, faces: Faces, steps: int) -> Positions:
+    """The filter of MeshLab: each step shrinks by 0.5 and swells by 0.53."""
+    average = Probe(Topology(faces, len(positions))).average
+    for _ in range(steps):
+        positions = positions + 0.5 * (average @ positions - positions)
+        positions = positions - 0.53 * (average @ positions - positions)
+    return positions
+
+
+def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
+    """Names of rows, and functions that make them."""
+
+    def mesh(name: str) -> tuple[Positions, Faces]:
+        found = read_mesh(folder / "static" / f"{name}.ply").mesh
+        return found.positions.astype(np.float64), found.faces
+
+    for cells in (40, 64, 100, 160):
+        yield f"binary ball, {cells} cells", partial(voxelized, ball, cells)
+    yield "binary torus, 100 cells", partial(voxelized, torus, 100)
+    yield "binary box, 80 cells", partial(voxelized, box(0.6, 0.5, 0.4), 80)
+    yield "binary plate, 5 cells", partial(voxelized, box(*PLATE), 80, reach=37.0)
+    yield "thick slices, ball, 100 cells", partial(voxelized, ball, 100, THICK)
+    for name in SCANS:
+        yield f"binary {name}, 110 cells", partial(_made, mesh, name, voxelized_mesh, 110)
+        yield f"thick slices, {name}, 110 cells", partial(_made, mesh, name, voxelized_mesh, 110, THICK)
+    for name in (*SCANS, "horse_48485"):
+        yield f"one axis, {name}", partial(_made, mesh, name, _moved, 0.3, gaussian_along_axis)
+    for name, step, inverse in product(SCANS[:2], STEPS, (False, True)):
+        row = f"{'disparity' if inverse else 'depth'} steps of {step:g}, {name}"
+        yield row, partial(_made, mesh, name, in_steps, step, inverse)
+    for name in SCANS:
+        yield (
+            f"correlated, {name}",
+            partial(_made, mesh, name, _moved, 0.2, partial(correlated_along_normals, rounds=4)),
+        )
+
+
+def _made(mesh: Callable[[str], tuple[Positions, Faces]], name: str, make: Callable[..., Scan], *how: Any) -> Scan:
+    return make(*mesh(name), *how)
+
+
+def _moved(clean: Positions, faces: Faces, sigma: float, noise: Callable[..., Positions]) -> Scan:
+    noisy = noise(clean, faces, sigma, 3)
+    normals = face_geometry(clean, faces).normals
+    return Scan(noisy, faces, normals, lambda moved: np.linalg.norm(moved - clean, axis=1))
+
+
+def main() -> int:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("meshes", type=Path)
+    parser.add_argument("rows", nargs="*")
+    parser.add_argument("--for", dest="goal", default="shading")
+    args = parser.parse_args()
+    heads = ("row", "vertices", "noisy", *(f"T{steps}" for steps in TAUBIN), "ours", "says", "off", "seconds", "found")
+    print("{:40}{:>9}{:>8}{:>7}{:>7}{:>7}{:>7}  {:>10}{:>14}{:>9}  {}".format(*heads))
+    for name, make in inputs(args.meshes):
+        if args.rows and not any(part in name for part in args.rows):
+            continue
+        scan = make()
+        begin = time.perf_counter()
+        result, choice = denoise_automatically(scan.positions, scan.faces, args.goal)
+        seconds = time.perf_counter() - begin
+        rivals = [scan.angle(taubin(scan.positions, scan.faces, steps)) for steps in TAUBIN]
+        says = f"{choice.expected:.1f}-{choice.at_most:.1f}" if choice.steps and choice.reliable else "-"
+        edge = mean_edge_length(scan.positions, scan.faces)
+        before, after = (scan.rms(positions) / edge for positions in (scan.positions, result))
+        angles = (scan.angle(scan.positions), *rivals, scan.angle(result))
+        print(
+            f"{name:40}{len(result):9}{angles[0]:8.2f}" + "".join(f"{angle:7.2f}" for angle in angles[1:]) + "  "
+            f"{says:>10}{f'{before:.3f}->{after:.3f}':>14}{seconds:9.1f}  {choice.kind}: {choice.reason}",
+            flush=True,
+        )
+    return 0
