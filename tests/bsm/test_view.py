@@ -7,6 +7,7 @@ import json
 import multiprocessing
 import os
 import re
+import select
 import shutil
 import socket
 import subprocess
@@ -15,6 +16,7 @@ import threading
 import time
 import urllib.error
 import urllib.request
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +27,7 @@ import bsm
 from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.viewer.contents import DRACO_LEVEL, Content, compared, uploaded
+from bsm.viewer.contents import DRACO_LEVEL, Content, Layer, compared, uploaded
 from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Tiled, written_to
 from tests.bitstream.streams import frame_ends
 from tests.shapes import curved, torus
@@ -121,15 +123,14 @@ def test_server_has_the_page_and_its_streams():
                 assert len(data) == int(answer.headers["Content-Length"])
                 data = gzip.decompress(data) if packed else data
                 assert data == ((WEB / "built" / path).read_bytes() if path else page.encode())
-            assert (
-                urllib.request.urlopen(address + entries[1]["layers"][0]["url"].lstrip("/")).read()
-                == stream.read_bytes()
-            )
+            assert urllib.request.urlopen(address + entries[1]["layers"][0]["url"]).read() == stream.read_bytes()
             with pytest.raises(urllib.error.HTTPError, match="404"):
                 urllib.request.urlopen(address + "2")
             elsewhere = urllib.request.Request(address, headers={"Host": "example.org"})
-            with pytest.raises(urllib.error.HTTPError, match="403"):
-                urllib.request.urlopen(elsewhere)
+            root = address[: address.index("/", 8) + 1]
+            for strange in (elsewhere, root, f"{root}0", f"{root}%C3%A4/", address.rstrip("/")[:-1] + "/"):
+                with pytest.raises(urllib.error.HTTPError, match="403"):
+                    urllib.request.urlopen(strange)
         finally:
             server.terminate()
 
@@ -179,7 +180,7 @@ def test_pages_that_have_gone_are_let_go_of(monkeypatch):
         before = threading.active_count()
         pages = [socket.create_connection(server.server_address) for _ in range(5)]
         for page in pages:
-            page.sendall(f"GET /0 HTTP/1.0\r\nHost: {server.host}\r\n\r\n".encode())
+            page.sendall(f"GET /{server.token}/0 HTTP/1.0\r\nHost: {server.host}\r\n\r\n".encode())
             assert page.recv(15) == b"HTTP/1.0 200 OK"
         assert threading.active_count() == before + 5
         for page in pages[1:]:
@@ -285,7 +286,7 @@ def test_files_are_sent_by_ranges(tmp_path, asked, code):
     files = {"manifest.json": b"{}", "a": Ranged(str(tmp_path), "a", 16)}
     with PageServer([Tiled("some", files)]) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        request = urllib.request.Request(f"http://{server.host}/0/a", headers={"Range": asked} if asked else {})
+        request = urllib.request.Request(f"{server.address}0/a", headers={"Range": asked} if asked else {})
         try:
             with urllib.request.urlopen(request) as answer:
                 assert (answer.status, answer.read()) == (code, b"0123456789")
@@ -377,7 +378,12 @@ def test_an_upload_ends_with_its_page(tmp_path):
 
 def sent(server: PageServer, head: dict[str, str], body: bytes = b"", query: str = "?preset=small&name=a.ply") -> bytes:
     """What a server answers to an upload."""
-    lines = [f"POST {UPLOAD}{query} HTTP/1.0", *(f"{name}: {value}" for name, value in head.items()), "", ""]
+    lines = [
+        f"POST /{server.token}{UPLOAD}{query} HTTP/1.0",
+        *(f"{name}: {value}" for name, value in head.items()),
+        "",
+        "",
+    ]
     with socket.create_connection(server.server_address) as page:
         page.sendall("\r\n".join(lines).encode() + body)
         return b"".join(iter(lambda: page.recv(1 << 16), b""))
@@ -405,9 +411,34 @@ def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypat
         answer = sent(server, ours, data)
         lines = [json.loads(line) for line in answer.partition(b"\r\n\r\n")[2].splitlines()]
         paths = [layer["url"] for layer in lines[-1]["entry"]["layers"]]
-        stream = urllib.request.urlopen(f"http://{server.host}{paths[1]}").read()
+        stream = urllib.request.urlopen(server.address + paths[1]).read()
         assert stream == bsm.encode(tmp_path / "ball.ply", preset="small")
         assert "error" in json.loads(sent(server, ours | {"Content-Length": "9"}, b"no mesh, ").splitlines()[-1])
+        server.shutdown()
+
+
+def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monkeypatch):
+    monkeypatch.setattr("bsm.viewer.page._UPLOAD_TIME", 1.5)
+    bsm.save(torus(), tmp_path / "ball.ply")
+    data = (tmp_path / "ball.ply").read_bytes()
+    with PageServer([]) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        ours = {"Host": server.host, "Origin": f"http://{server.host}"}
+        head = [f"POST /{server.token}{UPLOAD}?preset=small&name=a.ply HTTP/1.0", "Content-Length: 1000"]
+        lines = [*head, *(f"{name}: {text}" for name, text in ours.items()), "", "ply"]
+        slow = [socket.create_connection(server.server_address) for _ in range(3)]
+        for page in slow:
+            page.sendall("\r\n".join(lines).encode())
+        answer = sent(server, ours | {"Content-Length": str(len(data))}, data)
+        assert "entry" in json.loads(answer.splitlines()[-1])
+        for page in slow:  # a byte now and then does not keep it alive
+            page.settimeout(20)
+            with suppress(OSError):
+                while page.send(b".") and not select.select([page], [], [], 0.2)[0]:
+                    pass
+            assert page.recv(1) == b""
+            page.close()
+        assert server.receiving.acquire(blocking=False)
         server.shutdown()
 
 
@@ -417,8 +448,18 @@ def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
     bsm.save(torus(), tmp_path / "ball.ply")
     with PageServer([]) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        given = {"address": f"http://{server.host}/", "mesh": str(tmp_path / "ball.ply")}
+        given = {"address": server.address, "mesh": str(tmp_path / "ball.ply")}
         javascript("drop", BSM_DROP=json.dumps(given))
+        server.shutdown()
+
+
+@pytest.mark.slow
+@needs_packages
+def test_a_foreign_page_reads_and_encodes_nothing():
+    with PageServer([Content("a.bsm", (Layer("BSM", "", 1, (VECTORS / "good-keys.bsm").read_bytes()),))]) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        javascript("foreign", BSM_FOREIGN=server.address)
+        assert not [path for path in server.content if path.startswith(UPLOAD)]
         server.shutdown()
 
 

@@ -119,9 +119,7 @@ async function products() {
     return [
         ...(await Promise.all(Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]))),
         [join(WEB, "built/LICENSES.txt"), `${licenses(BUNDLED)}\n`],
-        [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
         [join(VIEWER, "viewer.js"), script],
-        ...["kernels", "kernels-scalar", "small"].map((name) => [join(VIEWER, `${name}.wasm`), readFileSync(join(WEB, `built/${name}.wasm`))]),
     ];
 }
 

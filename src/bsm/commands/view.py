@@ -52,10 +52,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.note(f"{args.save}: open it in a browser")
         return 0
     with PageServer(served, args.port) as server:
-        address = f"http://{server.host}/"
-        print(address, flush=True)
+        print(server.address, flush=True)
         if not args.no_open:
-            webbrowser.open(address)
+            webbrowser.open(server.address)
         console.note("press Ctrl-C to stop")
         try:
             server.serve_forever()

@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import re
+import secrets
 import select
 import socket
 import time
@@ -16,7 +17,7 @@ from functools import lru_cache
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from threading import Condition, Lock
+from threading import BoundedSemaphore, Condition, Lock
 from typing import Any, BinaryIO
 from urllib.parse import parse_qs, urlsplit
 
@@ -152,6 +153,8 @@ class Tiled:
 
 LOOPBACK = "127.0.0.1"
 UPLOAD = "/upload"
+_MOST_UPLOADS = 4  # that arrive at a time
+_UPLOAD_TIME, _SLOWEST = 10.0, 1e6  # seconds that any upload has, and bytes per second that give it more
 MOST_BYTES = 64 << 20
 
 _SLOT = '<script type="application/json" id="bsm-streams">'
@@ -218,6 +221,8 @@ class PageServer(ThreadingHTTPServer):
         super().__init__((LOOPBACK, port), _Handler)
         self.content: dict[str, tuple[str, bytes | Growing | Ranged]] = {}
         self.encoding = Lock()
+        self.receiving = BoundedSemaphore(_MOST_UPLOADS)
+        self.token = secrets.token_urlsafe(16)  # another user of this machine may reach the port, and does not know it
         entries = []
         for number, content in enumerate(contents):
             path = f"/{number}"
@@ -226,7 +231,7 @@ class PageServer(ThreadingHTTPServer):
                 entries.append({"name": content.name, "main": 0, "facts": {}, "live": True, "layers": [layer]})
             elif isinstance(content, Tiled):
                 self.content |= {f"{path}/{name}": (_BYTES, data) for name, data in content.files.items()}
-                entries.append({"name": content.name, "main": 0, "facts": {}, "tiles": path, "layers": []})
+                entries.append({"name": content.name, "main": 0, "facts": {}, "tiles": path[1:], "layers": []})
             else:
                 entries.append(listed(content, path, self.place))
         module = script(self.place, "small")
@@ -234,9 +239,9 @@ class PageServer(ThreadingHTTPServer):
         self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
 
     def place(self, path: str, data: bytes | Growing) -> dict[str, str]:
-        """Have the page fetch these bytes."""
+        """Have the page fetch these bytes, at an address relative to its own."""
         self.content[path] = ("application/wasm" if path.endswith(".wasm") else _BYTES, data)
-        return {"url": path}
+        return {"url": path[1:]}
 
     def dropped(self, content: Content) -> dict[str, Any]:
         """Have the page fetch the result of an upload, in place of the previous one."""
@@ -248,20 +253,34 @@ class PageServer(ThreadingHTTPServer):
     def host(self) -> str:
         return f"{LOOPBACK}:{self.server_address[1]}"
 
+    @property
+    def address(self) -> str:
+        return f"http://{self.host}/{self.token}/"
+
 
 class _Handler(BaseHTTPRequestHandler):
     server: PageServer
     timeout = 60.0  # seconds that a page may take to send or receive anything
 
+    def _asked(self) -> str | None:
+        """Return the path after the token; None, and an error to the client, if the request is not from our page."""
+        token, _, path = self.path.removeprefix("/").partition("/")
+        # With another name for this machine, a page of someone else looks for its servers.
+        is_ours = secrets.compare_digest(token.encode(), self.server.token.encode())
+        if is_ours and self.headers.get("Host") == self.server.host:
+            return f"/{path}"
+        self.send_error(HTTPStatus.FORBIDDEN, explain="Open the whole address that bsm view printed.")
+        return None
+
     def do_GET(self) -> None:
-        """Answer with what is at a path."""
-        # Another name for this machine is a page of someone else that looks for its servers.
-        if self.headers.get("Host") != self.server.host:
-            self.send_error(HTTPStatus.FORBIDDEN)
-        elif self.path not in self.server.content:
+        """Answer with the content of a path."""
+        path = self._asked()
+        if path is None:
+            return
+        if path not in self.server.content:
             self.send_error(HTTPStatus.NOT_FOUND)
         else:
-            kind, data = self.server.content[self.path]
+            kind, data = self.server.content[path]
             status = HTTPStatus.OK
             if isinstance(data, Ranged):
                 asked = _RANGE.fullmatch(self.headers.get("Range", ""))
@@ -279,11 +298,14 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_POST(self) -> None:
         """Encode the mesh of an upload, and say line by line in JSON how far that is."""
-        url = urlsplit(self.path)
+        path = self._asked()
+        if path is None:
+            return
+        url = urlsplit(path)
         asked = parse_qs(url.query)
         length = self.headers.get("Content-Length", "")
         # Pages of others may send here, too, but not in our name.
-        if self.headers.get("Host") != self.server.host or self.headers.get("Origin") != f"http://{self.server.host}":
+        if self.headers.get("Origin") != f"http://{self.server.host}":
             self.send_error(HTTPStatus.FORBIDDEN)
         elif url.path != UPLOAD or asked.get("preset", [""])[0] not in PRESETS:
             self.send_error(HTTPStatus.NOT_FOUND)
@@ -291,17 +313,36 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.LENGTH_REQUIRED)
         elif int(length) > MOST_BYTES:
             self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
-        elif not self.server.encoding.acquire(timeout=10 * _PATIENCE):  # one that was cancelled ends soon
-            self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
+        elif not self.server.receiving.acquire(blocking=False):
+            self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "Too many uploads at a time")
         else:
             try:
-                data = self.rfile.read(int(length))
-                if len(data) == int(length):
-                    self._answer(self._reported(asked.get("name", ["mesh"])[0], data, asked["preset"][0]), "text/plain")
+                self._encode(asked.get("name", ["mesh"])[0], self._body(int(length)), asked["preset"][0])
             except OSError:
-                pass  # the page is gone
+                pass  # the page is gone, or too slow
             finally:
-                self.server.encoding.release()
+                self.server.receiving.release()
+
+    def _encode(self, name: str, data: bytes, preset: str) -> None:
+        if not self.server.encoding.acquire(timeout=10 * _PATIENCE):  # one that was cancelled ends soon
+            self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
+            return
+        try:
+            self._answer(self._reported(name, data, preset), "text/plain")
+        finally:
+            self.server.encoding.release()
+
+    def _body(self, length: int) -> bytes:
+        """Read the body; an upload that is slower than a slow link is an error, and nothing waits for it meanwhile."""
+        data, end = bytearray(), time.monotonic() + _UPLOAD_TIME + length / _SLOWEST
+        while len(data) < length:
+            self.connection.settimeout(max(end - time.monotonic(), 1e-3))
+            piece = self.rfile.read1(length - len(data))
+            if not piece or time.monotonic() > end:
+                raise ConnectionError("the upload did not arrive")
+            data += piece
+        self.connection.settimeout(self.timeout)
+        return bytes(data)
 
     def _reported(self, name: str, data: bytes, preset: str) -> Iterator[bytes]:
         """Lines of JSON: stage and share, at last an entry or an error."""
@@ -322,6 +363,7 @@ class _Handler(BaseHTTPRequestHandler):
         self.send_header("Content-Type", kind)
         self.send_header("X-Content-Type-Options", "nosniff")
         self.send_header("X-Frame-Options", "DENY")
+        self.send_header("Referrer-Policy", "no-referrer")
         self.send_header("Content-Security-Policy", self.server.policy)
         if isinstance(data, bytes):
             self.send_header("Content-Length", str(len(data)))

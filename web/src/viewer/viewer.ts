@@ -30,7 +30,7 @@ const encode: Encode = async (file, preset, report, signal) => {
     const query = new URLSearchParams({ name: file.name, preset });
     const decoder = new TextDecoder();
     let text = "";
-    for await (const piece of piecesOf(await fetched(`/upload?${query}`, { method: "POST", body: file, signal }))) {
+    for await (const piece of piecesOf(await fetched(`upload?${query}`, { method: "POST", body: file, signal }))) {
         text += decoder.decode(piece, { stream: true });
         for (let end; (end = text.indexOf("\n")) >= 0; text = text.slice(end + 1)) {
             const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as { stage: string; share: number; error?: string; entry?: Content };
