@@ -1,7 +1,7 @@
 """What a stream consists of, once it is no longer bytes; and the payload of each packet, as twins side by side."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -131,13 +131,13 @@ def write_header(header: Header) -> bytes:
     return write_map(entries_of(header))
 
 
+def metadata_of(entries: Sequence[tuple[str, MetadataValue]]) -> tuple[Metadata, ...]:
+    """Metadata packets of at most as many entries as a map may have."""
+    return tuple(Metadata(dict(entries[i : i + MAX_ENTRIES])) for i in range(0, len(entries), MAX_ENTRIES))
+
+
 def write_metadata(metadata: Metadata) -> bytes:
     """A map from names to values; raises `OptionError` for what a stream cannot hold."""
-    if len(metadata.entries) > MAX_ENTRIES:
-        raise OptionError(
-            f"{len(metadata.entries)} entries of metadata are more than the {MAX_ENTRIES} that a stream holds; "
-            "leave some out, or put several into one text"
-        )
     for name, value in metadata.entries.items():
         if isinstance(value, float) and not math.isfinite(value):
             raise OptionError(f"metadata {name!r} is {value}; only finite numbers can be stored")

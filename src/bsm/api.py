@@ -443,7 +443,7 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
     limits : Limits
         Largest memory and work that the file may take.
     reader : str, optional
-        "openmesh" or "trimesh": use this library. None: trimesh only for formats that bsm does not know.
+        "bsm" or "trimesh": use this reader. None: trimesh only for formats that bsm does not know.
 
     Returns
     -------

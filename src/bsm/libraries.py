@@ -54,17 +54,31 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         return mesh.mesh
     if isinstance(mesh, (str, os.PathLike, Input)):
         return read_any(mesh if isinstance(mesh, Input) else Input(mesh))
+    return told(_of_library(mesh))
+
+
+def told(found: MeshFile) -> TriangleMesh:
+    """The mesh, after warnings about what was changed or left out."""
+    warn(found.notes)
+    return found.mesh
+
+
+def _of_library(mesh: Any) -> MeshFile:
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
-        return _mesh_of_arrays(*mesh)
+        return _of_arrays(*mesh)
     if hasattr(mesh, "visual") and hasattr(mesh, "vertex_attributes"):
-        return polygons_of(mesh).checked(DEFAULT_LIMITS).mesh
+        return polygons_of(mesh).checked(DEFAULT_LIMITS)
     points, faces = _attribute(mesh, _POINTS), _attribute(mesh, _FACES)
-    if points is not None and faces is not None:
-        return _mesh_of_arrays(points, faces, columns_of(mesh, _SURFACES), metadata_of(mesh))
-    if points is not None and hasattr(mesh, "cells_dict"):
-        return _mesh_of_cells(points, mesh.cells_dict, columns_of(mesh, _SURFACES))
+    if points is not None and (faces is not None or hasattr(mesh, "cells_dict")):
+        if faces is None and hasattr(mesh, "extract_surface"):
+            raise MeshError("this is a mesh of cells: give its surface, mesh.extract_surface()")
+        left: list[str] = []
+        columns, metadata = columns_of(mesh, left), metadata_of(mesh, left)
+        if faces is not None:
+            return _of_arrays(points, faces, columns, metadata, left)
+        return _of_cells(points, mesh.cells_dict, columns, left)
     if hasattr(mesh, "graph") and hasattr(mesh, "geometry"):
-        return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS).mesh
+        return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS)
     raise ArgumentError(
         "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), or a "
         f"path; not {type(mesh).__name__}"
@@ -108,45 +122,53 @@ def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
     return next((value for value in values if value is not None and not callable(value)), None)
 
 
-def _mesh_of_arrays(
-    positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING
-) -> TriangleMesh:
-    more = (columns, metadata)
+def _of_arrays(
+    positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING, left: Sequence[str] = ()
+) -> MeshFile:
+    more: Any = (columns, metadata, left)
     try:
         table = np.asarray(faces)
     except ValueError:  # lists of different lengths
         rows = [as_array(face, f"face {number}").reshape(-1) for number, face in enumerate(faces)]
-        return _mesh_of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows), *more)
+        return _of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows), *more)
     if table.ndim == 1 and table.size and table.dtype.kind in "iu":
-        return _mesh_of_polygons(positions, *_split(table.astype(np.int64)), *more)
+        return _of_polygons(positions, *_split(table.astype(np.int64)), *more)
     if table.ndim == 2 and (table.shape[1] > 3 or (table.shape[1] == 3 and len(table) and any(more))):
-        return _mesh_of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1), *more)
-    return TriangleMesh(positions, table)
+        return _of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1), *more)
+    return MeshFile(TriangleMesh(positions, table))
 
 
-def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]], columns: Sequence[Column]) -> TriangleMesh:
-    """The surface of a meshio mesh; its lines and single vertices are left out."""
+def _of_cells(
+    points: Any, cells: dict[str, npt.NDArray[Any]], columns: Sequence[Column], left: Sequence[str]
+) -> MeshFile:
+    """The surface of a meshio mesh."""
     solid = [name for name in cells if name not in (*_SURFACES, *_NO_SURFACES)]
     if solid:
         raise MeshError(f"cells of the type {solid[0]} are not triangles or polygons; take the surface of the mesh")
+    others = [f"cells of the type {name}" for name in _NO_SURFACES if name in cells]
     tables = [np.asarray(cells[name]) for name in _SURFACES if name in cells]
     sizes = [np.full(len(table), table.shape[1]) for table in tables]
     nothing = np.empty(0, np.int64)
-    corners = [table.reshape(-1) for table in tables]
-    return _mesh_of_polygons(points, np.concatenate([nothing, *sizes]), np.concatenate([nothing, *corners]), columns)
+    corners = np.concatenate([nothing, *(table.reshape(-1) for table in tables)])
+    return _of_polygons(points, np.concatenate([nothing, *sizes]), corners, columns, left=[*left, *others])
 
 
-def _mesh_of_polygons(
-    positions: Any, sizes: Ints, corners: Array, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING
-) -> TriangleMesh:
+def _of_polygons(
+    positions: Any,
+    sizes: Ints,
+    corners: Array,
+    columns: Sequence[Column] = (),
+    metadata: Metadata = _NOTHING,
+    left: Sequence[str] = (),
+) -> MeshFile:
     points = as_array(positions, "positions", np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     if corners.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {corners.dtype}")
     flat = corners.astype(np.int64)
-    polygons = Polygons(points, sizes.astype(np.int64), flat, columns=tuple(columns), metadata=metadata)
-    return polygons.checked(DEFAULT_LIMITS).mesh
+    polygons = Polygons(points, sizes.astype(np.int64), flat, (), tuple(left), tuple(columns), metadata)
+    return polygons.checked(DEFAULT_LIMITS)
 
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:
@@ -167,26 +189,33 @@ def _split(flat: Ints) -> tuple[Ints, Ints]:
 # ------------------------------------------------------------------------------------------- beside points and faces
 
 
-def columns_of(mesh: Any, surfaces: tuple[str, ...]) -> list[Column]:
-    """The values of vertices, corners and polygons; `surfaces` are the kinds of meshio's cells that are polygons."""
+def columns_of(mesh: Any, left: list[str]) -> list[Column]:
+    """The values of vertices, corners and polygons; `left` takes the names of those that a mesh cannot have."""
     if hasattr(mesh, "cells_dict") and hasattr(mesh, "cell_data_dict"):
-        found = list(_of_points(mesh.point_data, ""))
+        found = list(_of_points(mesh.point_data, left, ""))
         for name, by_kind in mesh.cell_data_dict.items():
-            tables = [np.asarray(by_kind[kind]) for kind in surfaces if kind in by_kind]
+            tables = [np.asarray(by_kind[kind]) for kind in _SURFACES if kind in by_kind]
             if tables and all(table.shape[1:] == tables[0].shape[1:] for table in tables):
-                found += _columns({name: np.concatenate(tables)}, "face")
+                found += _columns({name: np.concatenate(tables)}, "face", left)
+            else:
+                left.append(name)
+        for what in ("point_sets", "cell_sets", "field_data"):
+            named = ", ".join(map(str, getattr(mesh, what, None) or ()))
+            left += [f"{what.replace('_', ' ')} ({named})"] if named else []
         return found
     if hasattr(mesh, "point_data") and hasattr(mesh, "cell_data") and hasattr(mesh, "n_lines"):
+        left += [name for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")]
         first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
         cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
         names = (mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name)
-        return [*_of_points(mesh.point_data, *names), *_columns(cells, "face")]
+        return [*_of_points(mesh.point_data, left, *names), *_columns(cells, "face", left)]
     if hasattr(mesh, "triangle_uvs") and hasattr(mesh, "vertex_colors"):
+        left += ["textures"] if len(getattr(mesh, "textures", ())) else []
         return list(_of_open3d(mesh))
     return []
 
 
-def metadata_of(mesh: Any) -> Metadata:
+def metadata_of(mesh: Any, left: list[str]) -> Metadata:
     """The field data of pyvista: one text, one number, or bytes each."""
     found: dict[str, str | int | float | bytes] = {}
     for name, given in getattr(mesh, "field_data", {}).items() if hasattr(mesh, "n_lines") else ():
@@ -195,21 +224,26 @@ def metadata_of(mesh: Any) -> Metadata:
             found[name] = values.tobytes()
         elif values.size == 1 and isinstance(value := values.reshape(-1)[0].item(), str | int | float):
             found[name] = value
+        else:
+            left.append(f"field data {name}")
     return found
 
 
-def _of_points(data: Mapping[str, Any], normals: str | None, texcoords: str | None = None) -> Iterator[Column]:
+def _of_points(
+    data: Mapping[str, Any], left: list[str], normals: str | None, texcoords: str | None = None
+) -> Iterator[Column]:
     active: dict[str | None, Semantic] = {normals: "normal", texcoords: "texcoord"}
-    for column in _columns(data, "vertex"):
+    for column in _columns(data, "vertex", left):
         yield Column(column.name, column.values, "vertex", active.get(column.name, column.semantic))
 
 
-def _columns(data: Mapping[str, Any], domain: Domain) -> Iterator[Column]:
-    """Arrays by name, those of more than four columns left aside."""
+def _columns(data: Mapping[str, Any], domain: Domain, left: list[str]) -> Iterator[Column]:
+    """Arrays of numbers by name."""
     for name, given in data.items():
         values = np.array(given)
-        values = values[:, None] if values.ndim == 1 else values
-        if values.ndim != 2 or values.dtype.kind not in "biuf":
+        values = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
+        if values.dtype.kind not in "biuf":
+            left.append(f"{name} ({values.dtype.name} values)")
             continue
         yield named_column(name, values, domain)
 

@@ -190,9 +190,9 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
     shape = packets.Connectivity | packets.Partition | packets.Order
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
     head, body = draft.body[:before], draft.body[before:]
-    late = {name: value for name, value in metadata.items() if isinstance(value, bytes)}
-    early = {name: value for name, value in metadata.items() if name not in late}
-    early_metadata, images = (((packets.Metadata(entries),) if entries else ()) for entries in (early, late))
+    entries = sorted(metadata.items(), key=lambda entry: isinstance(entry[1], bytes))
+    texts = sum(not isinstance(value, bytes) for value in metadata.values())
+    early_metadata, images = map(packets.metadata_of, (entries[:texts], entries[texts:]))
     declared: list[Packet] = []
     values: list[Packet] = []
     header = draft.header

@@ -9,18 +9,12 @@ import codecs
 import importlib
 import os
 import re
-import sys
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import FormatError, OptionError, imported
+from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import Written, fetched, images_in
@@ -35,7 +29,7 @@ USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
 WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")  # what we write
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
-READERS = ("bsm", "openmesh", "trimesh")  # who can be asked to read a file: ourselves, or a library
+READERS = ("bsm", "trimesh")  # that can be asked to read a file
 
 
 _ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
@@ -100,7 +94,7 @@ def read_mesh(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
-    if (reader == "openmesh" and kind not in _PLAIN) or (reader == "bsm" and kind not in (*MESH_FORMATS, *GLTF)):
+    if reader == "bsm" and kind not in (*MESH_FORMATS, *GLTF):
         raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
     if kind in USD_FORMATS and path and reader is None:
         usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
@@ -121,10 +115,7 @@ def read_mesh(
     if kind in _PLAIN:
         metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
-    ours = polygons.checked(limits, len(data))
-    if reader == "openmesh":
-        return read_with_openmesh(data, kind, ours.mesh, limits)
-    return ours
+    return polygons.checked(limits, len(data))
 
 
 def format_mesh(mesh: TriangleMesh, file_format: str) -> bytes:
@@ -151,8 +142,8 @@ def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> W
     """The bytes of a mesh file, and, unless they go to its own folder, those of the files there that it names."""
     folder, beside, lost = Path(source).resolve().parent, dict[str, bytes](), list[str]()
     if not can_be_replaced(output) or Path(output).resolve().parent != folder:
-        library, images = str(mesh.metadata.get("mtllib", "")), images_in(mesh.metadata).values()
-        for name in filter(None, (library, *(name for name, _ in images))):
+        libraries, images = str(mesh.metadata.get("mtllib", "")).split("\n"), images_in(mesh.metadata).values()
+        for name in filter(None, (*libraries, *(name for name, _ in images))):
             try:
                 beside[Path(name).name] = file_beside(folder, Path(name).name).read_bytes()
             except FormatError:
@@ -203,45 +194,3 @@ def format_of_bytes(data: bytes) -> str | None:
     if re.search(rb"(?:\A|[\r\n])[ \t]*v[ \t]", data[: 1 << 16]):
         return "obj"
     return None
-
-
-# ------------------------------------------------------------------------------------------------------------- openmesh
-
-
-def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh, limits: Limits) -> MeshFile:
-    openmesh = imported("openmesh", "openmesh is not installed", "openmesh")
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder, f"mesh.{kind}")
-        copy.write_bytes(data)
-        try:
-            with _native_stderr_closed():
-                mesh = openmesh.read_polymesh(str(copy))
-        except RuntimeError:
-            raise FormatError("openmesh cannot read this file; leave out --reader openmesh") from None
-    points = mesh.points().astype(np.float64)
-    table = mesh.fv_indices() if mesh.n_faces() else np.empty((0, 3), np.int64)
-    present = table >= 0
-    notes = []
-    if len(points) != len(ours.positions) or (present.sum(axis=1) - 2).sum() != len(ours.faces):
-        notes.append(f"openmesh has made {len(points)} vertices of the {len(ours.positions)} of the file")
-    names = tuple(attribute.name for attribute in ours.attributes)
-    if len(points) != len(ours.positions) or not np.array_equal(table, ours.faces):
-        corners = table[present].astype(np.int64)
-        theirs = Polygons(points, present.sum(axis=1), corners, tuple(notes), names, metadata=ours.metadata)
-        return theirs.checked(limits)
-    return MeshFile(replace(ours, positions=points), tuple(notes))
-
-
-@contextmanager
-def _native_stderr_closed() -> Iterator[None]:
-    """Keep openmesh, which prints a line for each edge it dislikes, from writing to the terminal."""
-    sys.stderr.flush()
-    saved = os.dup(2)
-    sink = os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(sink, 2)
-        yield
-    finally:
-        os.dup2(saved, 2)
-        os.close(saved)
-        os.close(sink)

@@ -145,8 +145,9 @@ def require_counts_of_head(kind: str | None, head: bytes, limits: Limits) -> Non
         found = _PLY_COUNTS.findall(head.partition(b"end_header")[0])
     elif kind == "off" and (match := _OFF_COUNTS.match(without_comments(head))):
         found = list(zip(_COUNTED, match.groups()))
-    elif kind == "stl" and len(head) >= 84 and not head.lstrip().startswith(b"solid"):
-        found = [(b"face", str(int.from_bytes(head[80:84], "little")).encode())]
+    elif kind == "stl" and len(head) >= 84 and head.lstrip()[:5].lower() != b"solid":
+        claimed = int.from_bytes(head[80:84], "little")
+        found = [(b"face", str(claimed).encode())] if claimed < (1 << 32) - 1 else []  # by who did not know it
     for name, count in found:
         require_count(_COUNTED[name], int(count), limits)
 

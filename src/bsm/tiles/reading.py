@@ -1,5 +1,6 @@
 """Mesh files of any size, piece by piece: positions, faces, colours and normals as plain arrays on the disk."""
 
+import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
@@ -10,14 +11,16 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.console import Console
 from bsm.files.formats.npz import NpzArray, opened_archive
-from bsm.files.formats.obj import ObjPieces
-from bsm.files.formats.ply import IMAGE, Element, parse_header
-from bsm.files.formats.polygons import meaning_of
+from bsm.files.formats.obj import read_obj
+from bsm.files.formats.ply import IMAGE, MOST_HEADER, Element, parse_header
+from bsm.files.formats.polygons import CROSSING, Polygons, meaning_of, triangulate
+from bsm.files.formats.stl import HEAD, RECORD, binary_triangles, is_text
 from bsm.files.mesh import format_of_bytes, format_of_name
 from bsm.files.output import by_its_own_name
-from bsm.files.pipes import Input
+from bsm.files.pipes import Input, size_of
 
 Array: TypeAlias = npt.NDArray[Any]
 Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color" or "normal"
@@ -29,7 +32,9 @@ _TEXTURES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texcoord",), 
 ROWS = 1 << 18  # that are in memory at a time
 _HEAD = 1 << 16
 _TEXT = 1 << 23
+_TEXT_END = 1 << 6  # bytes in which a line that goes on ends
 _MOST_INDEX = (1 << 32) - 1
+_POINT = np.dtype([("xyz", "<f8", 3)])
 
 
 @dataclass(frozen=True)
@@ -92,6 +97,10 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
             if what not in files:
                 files[what] = opened.enter_context(table_file(folder / what))
                 raw.kinds[what] = piece.dtype.newbyteorder("<").str, piece.shape[1]
+            if raw.kinds[what][1] != piece.shape[1]:
+                raise MeshError(
+                    f"from {what} {raw.rows[what]} on, they have {piece.shape[1]} numbers each, not as before"
+                )
             with by_its_own_name(folder / what):
                 files[what].write(np.ascontiguousarray(piece, raw.kinds[what][0]).data)
             raw.rows[what] = raw.rows.get(what, 0) + len(piece)
@@ -143,7 +152,7 @@ def _refuse_textures(names: set[str]) -> None:
 
 
 def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
-    header = parse_header(given.peek(_HEAD))
+    header = parse_header(given.peek(MOST_HEADER))
     if not header.order:
         raise FormatError("this PLY file is text; tiles are made of binary ones")
     given.read(header.size)
@@ -198,20 +207,21 @@ def _row_of(element: Element, order: str) -> np.dtype[Any]:
 
 
 def _read_stl(given: Input, left_out: LeftOut) -> Pieces:
-    head = given.peek(1024)
-    if head.lstrip().startswith(b"solid") and b"facet" in head:
+    head = given.peek(_HEAD)
+    size = size_of(given.name) if given.is_file else None
+    if is_text(head, size):
         raise FormatError("this STL file is text; tiles are made of binary ones")
-    head = given.read(84)
-    if len(head) < 84:
-        raise FormatError("this is not an STL file: it is shorter than the header of one")
-    count = int.from_bytes(head[80:], "little")
-    record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    count, note = binary_triangles(head, size)
+    left_out |= dict.fromkeys([note] if note else ())
+    given.read(HEAD)
     for first in range(0, count, ROWS):
         rows = min(ROWS, count - first)
-        data = given.read(50 * rows)
-        if len(data) < 50 * rows:
-            raise TruncatedError(f"the STL file is cut short: triangle {first} and those behind it are missing")
-        yield "positions", np.frombuffer(data, record)["corners"].reshape(-1, 3)
+        data = given.read(RECORD.itemsize * rows)
+        if len(data) < RECORD.itemsize * rows:
+            raise TruncatedError(f"the STL file is cut short: triangle {first} and those after it are missing")
+        records = np.frombuffer(data, RECORD)
+        left_out |= dict.fromkeys(["attribute"] if records["attribute"].any() else ())
+        yield "positions", records["corners"].reshape(-1, 3)
         yield "faces", np.arange(3 * first, 3 * (first + rows)).reshape(-1, 3)
 
 
@@ -236,27 +246,42 @@ def _read_npz(given: Input, left_out: LeftOut) -> Pieces:
 
 
 def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
-    pieces, rest = ObjPieces(), b""
-    while data := given.read(_TEXT):
-        text, newline, rest = (rest + data).rpartition(b"\n")
-        if not newline and len(rest) > _TEXT:
-            raise FormatError("this is not an OBJ file: it has no lines")
-        yield from _triangles(*pieces.take(text))
-    yield from _triangles(*pieces.take(rest))
-    _refuse_textures(pieces.left_out & {"texcoord"})
-    left_out |= dict.fromkeys(sorted(pieces.left_out))
+    rest, seen = b"", 0
+    with tempfile.TemporaryFile() as file:
+        while data := given.read(_TEXT):
+            text = rest + data
+            end = text.rfind(b"\n")
+            while end > 0 and text[max(end - _TEXT_END, 0) : end].rstrip().endswith(b"\\"):  # the line goes on
+                end = text.rfind(b"\n", 0, end)
+            if end < 0 and len(text) > _TEXT:
+                raise FormatError("this is not an OBJ file: it has no lines")
+            text, rest = text[: end + 1], text[end + 1 :]
+            yield from _of_obj(read_obj(text, DEFAULT_LIMITS, seen), file, left_out)
+            seen = file.tell() // _POINT.itemsize
+        yield from _of_obj(read_obj(rest, DEFAULT_LIMITS, seen), file, left_out)
 
 
-def _triangles(positions: Array, colors: Array, sizes: Array, corners: Array) -> Pieces:
-    if (sizes < 3).any():
+def _of_obj(piece: Polygons, file: BinaryIO, left_out: LeftOut) -> Pieces:
+    """The tables of some lines; `file` holds the points of all lines so far, for the polygons that are cut."""
+    names = {*(column.name for column in piece.columns), *(key.partition(".")[0] for key in piece.metadata)}
+    _refuse_textures(names & {"texcoord"})
+    left_out |= dict.fromkeys((*sorted(names - {"color"}), *piece.dropped))
+    if (piece.sizes < 3).any():
         raise MeshError("a face has fewer than three corners")
-    starts = np.cumsum(sizes) - sizes
-    owner = np.repeat(np.arange(len(sizes)), sizes - 2)
-    turn = np.arange(len(owner)) - (np.cumsum(sizes - 2) - (sizes - 2))[owner]
-    first = starts[owner]
-    yield "positions", positions
-    yield "color", colors
-    yield "faces", np.stack([corners[first], corners[first + turn + 1], corners[first + turn + 2]], axis=1)
+    file.write(piece.positions.tobytes())
+    yield "positions", piece.positions
+    yield from (("color", column.values) for column in piece.columns if column.name == "color")
+    faces = piece.corners.reshape(-1, 3) if (piece.sizes == 3).all() else None
+    if faces is None:
+        file.flush()
+        points = np.memmap(file, _POINT, "r")["xyz"]
+        used, corners = np.unique(piece.corners, return_inverse=True)
+        if used[0] < 0 or used[-1] >= len(points):
+            raise MeshError(f"a face refers to vertex {used[0] if used[0] < 0 else used[-1]}, which comes later")
+        places, _, crossing = triangulate(points[used], piece.sizes, corners)
+        left_out |= dict.fromkeys([CROSSING] if crossing else ())
+        faces = piece.corners[places]
+    yield "faces", faces
 
 
 _READERS = {"ply": _read_ply, "stl": _read_stl, "npz": _read_npz, "obj": _read_obj}

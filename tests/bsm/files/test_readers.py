@@ -5,21 +5,11 @@ import json
 import struct
 import sys
 
-import numpy as np
 import pytest
 
-from bsm.bitstream.errors import (
-    CorruptError,
-    DependencyError,
-    FormatError,
-    LimitError,
-    MeshError,
-    OptionError,
-    TruncatedError,
-)
+from bsm.bitstream.errors import CorruptError, DependencyError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.mesh import format_mesh, read_mesh, write_mesh
+from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.sequence import open_sequence
 from tests.shapes import tetrahedron, torus
 
@@ -58,35 +48,6 @@ def test_damaged_compressed_files():
         read_mesh(whole[:-20])
     with pytest.raises(CorruptError, match="damaged"):
         read_mesh(whole[:-6] + bytes(6))
-
-
-# ----------------------------------------------------------------------------------------------------------- openmesh
-
-
-@pytest.fixture
-def openmesh():
-    return pytest.importorskip("openmesh")
-
-
-@pytest.mark.parametrize("kind", OURS)
-def test_openmesh_reads_what_we_read(openmesh, kind, tmp_path):
-    write_mesh(tmp_path / f"a.{kind}", torus())
-    ours, theirs = (read_mesh(tmp_path / f"a.{kind}", reader=reader).mesh for reader in (None, "openmesh"))
-    assert np.array_equal(ours.faces, theirs.faces)
-    assert np.array_equal(ours.positions.astype(np.float32), theirs.positions)
-
-
-def test_what_openmesh_changes_is_reported(openmesh):
-    fin = TriangleMesh(np.eye(5)[:, :3], [[0, 1, 2], [0, 1, 3], [0, 1, 4]])
-    source = read_mesh(format_mesh(fin, "ply"), reader="openmesh")
-    assert len(source.mesh.positions) > 5
-    assert "vertices of the 5 of the file" in source.notes[0]
-
-
-def test_openmesh_reads_only_its_formats(openmesh):
-    for data in (b"glTF", format_mesh(tetrahedron(), "npz")):
-        with pytest.raises(OptionError, match="openmesh does not read"):
-            read_mesh(data, reader="openmesh")
 
 
 # ------------------------------------------------------------------------------------------------------------ trimesh
@@ -168,9 +129,3 @@ def test_where_trimesh_is_missing_the_way_out_is_reported(tmp_path, monkeypatch)
     (tmp_path / "a.dae").write_bytes(b"<COLLADA/>")
     with pytest.raises(DependencyError, match=r"\.dae files are read with trimesh; run: pip install .*\[form"):
         read_mesh(tmp_path / "a.dae")
-
-
-def test_where_openmesh_is_missing_the_way_out_is_reported(monkeypatch):
-    monkeypatch.setitem(sys.modules, "openmesh", None)
-    with pytest.raises(DependencyError, match=r"pip install .*\[openmesh\]'"):
-        read_mesh(format_mesh(tetrahedron(), "ply"), reader="openmesh")

@@ -10,17 +10,17 @@ import json
 import math
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.container.wire import MAX_ENTRIES
 from bsm.bitstream.errors import FormatError
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.pipes import file_beside
 
 Value: TypeAlias = "str | int | float | bytes"
@@ -177,25 +177,28 @@ def _is_mtl(name: str) -> bool:
     )
 
 
-def parse_mtl(text: str) -> tuple[dict[str, Material], list[str]]:
-    """The materials of a library by name, and the names of the files of their images, by number."""
+def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
+    """Return the materials of a library by name; `images` numbers the files of their images."""
     materials: dict[str, Material] = {}
-    images: dict[str, int] = {}
     current: Material = {}
-    for line in text.splitlines():
-        keyword, _, rest = line.split("#")[0].strip().partition(" ")
-        rest = rest.strip()
+    for line in data.splitlines():
+        words = line.split(None, 1)
+        if len(words) < 2 or words[0].startswith(b"#"):
+            if words == [b"newmtl"]:
+                current = materials.setdefault("", {})
+            continue
+        keyword, rest = map(text_of, words)
         if keyword == "newmtl":
             current = materials.setdefault(rest, {})
-        elif rest and _MTL_IMAGES.fullmatch(keyword):
+        elif _MTL_IMAGES.fullmatch(keyword):
             match = _MTL_OPTIONS.fullmatch(rest)
             options, name = (match[1].strip(), match[2]) if match else ("", rest)
             current[keyword] = images.setdefault(name, len(images))
             if options:
                 current[f"{keyword}.options"] = options
-        elif rest:
-            current[keyword] = rest
-    return materials, list(images)
+        elif value := rest.partition("#")[0].strip():
+            current[keyword] = value
+    return materials
 
 
 def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]) -> bytes:
@@ -213,6 +216,14 @@ def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], image
     return "".join(one_line(line) + "\n" for line in lines).encode()
 
 
+def text_of(data: bytes) -> str:
+    """Return a name in UTF-8, or else in Latin-1, in which any bytes are a name, and others are another one."""
+    try:
+        return data.strip().decode()
+    except UnicodeDecodeError:
+        return data.strip().decode("latin-1")
+
+
 def one_line(text: str) -> str:
     """Text without what would end a line or hide in it."""
     return re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", " ", text)
@@ -222,23 +233,26 @@ def one_line(text: str) -> str:
 
 
 def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[str, Value], list[str]]:
-    """Metadata with what stands in the files they name, and notes on those that are not there."""
+    """Return metadata with the contents of the files that they name, `most` bytes at most, and notes on the others."""
     found = dict(metadata)
     notes: list[str] = []
-    library = found.get("mtllib")
-    if isinstance(library, str):
-        text = _beside(folder, library, most)
-        if isinstance(text, bytes):
-            _add_library(found, text.decode(errors="replace"))
-        else:
-            notes.append(f"the materials in {library} were left out: {text}")
+    beside = _Beside(folder, most)
+    libraries: list[bytes] = []
+    for line in str(found.get("mtllib", "")).split("\n"):
+        whole = beside.read(line)
+        for name in [line] if isinstance(whole, bytes) or len(line.split()) < 2 else line.split():
+            if isinstance(library := beside.read(name), bytes):
+                libraries.append(library)
+            elif name:
+                notes.append(f"the materials in {name} were left out: {library}")
+    _add_libraries(found, libraries)
     for key in [key for key in found if key.startswith("image.") and key.endswith(".name")]:
         name, place = str(found[key]), key.removesuffix("name") + "data"
         if place in found:
             continue
-        image = _beside(folder, name, most)
+        image = beside.read(name)
         if isinstance(image, bytes) and kind_of_image(image) is None:
-            image = "it is no image"
+            image = "it is not an image"
         if isinstance(image, bytes):
             found[place] = image
         else:
@@ -246,37 +260,55 @@ def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[st
     return found, notes
 
 
-def _add_library(found: dict[str, Value], text: str) -> None:
-    """Add the materials of a library: definitions of those that are named already, then the others."""
-    library, images = parse_mtl(text)
+def _add_libraries(found: dict[str, Value], libraries: Iterable[bytes]) -> None:
+    """Add the materials of libraries, the first of each name: those that faces name, then the others."""
+    images: dict[str, int] = {}
     numbers = {material.get("name", ""): number for number, material in materials_in(found).items()}
+    materials: dict[str, Material] = {}
+    for library in libraries:
+        materials = {**parse_mtl(library, images), **materials}
     free = max(numbers.values(), default=-1) + 1
-    for name, material in library.items():
+    for name, material in materials.items():
         if name not in numbers:
             numbers[name] = free
             free += 1
         found |= described({numbers[name]: {"name": name, **material}})
-    found |= {f"image.{number}.name": name for number, name in enumerate(images)}
+    found |= {f"image.{number}.name": name for name, number in images.items()}
 
 
-def _beside(folder: Path | None, name: str, most: int) -> bytes | str:
-    """The bytes of a file beside the mesh, or why there are none."""
-    if folder is None:
-        return "the mesh did not come from a file"
-    relative, reason = name.replace("\\", "/"), ""
-    for candidate in (relative, relative.rpartition("/")[2]):
-        try:
-            path = file_beside(folder, candidate)
-        except FormatError as error:
-            reason = str(error)
-            continue
-        size = path.stat().st_size
-        return path.read_bytes() if size <= most else f"its {size} bytes are more than the {most} of all metadata"
-    return reason
+_READ = 4  # times the bytes that metadata may have that are read before the largest images are left out
+
+
+class _Beside:
+    """The files in the folder of a mesh, each read once, and no more of them than metadata may have, and some."""
+
+    def __init__(self, folder: Path | None, most: int) -> None:
+        self._folder, self._most, self._left = folder, most, _READ * most
+        self._read: dict[Path, bytes | str] = {}
+
+    def read(self, name: str) -> bytes | str:
+        """Return the bytes of a file, or why there are none."""
+        if self._folder is None:
+            return "the mesh did not come from a file"
+        relative, reason = name.replace("\\", "/"), ""
+        for candidate in (relative, relative.rpartition("/")[2]):
+            try:
+                path = file_beside(self._folder, candidate)
+            except FormatError as error:
+                reason = str(error)
+                continue
+            if path not in self._read:
+                size = path.stat().st_size
+                fits = size <= min(self._most, self._left)
+                self._left -= size if fits else 0
+                why = f"its {size} bytes, or those of all files, are more than the {self._most} of all metadata"
+                self._read[path] = path.read_bytes() if fits else why
+            return self._read[path]
+        return reason
 
 
 _MOST_BYTES = 1 << 15  # of the remarks of one file
-_MOST_ENTRIES = MAX_ENTRIES - 16  # that are taken from a file: some may be added
+_MOST_ENTRIES = 1 << 15  # that are taken from a file: a decoder charges work for each
 _ENTRY_BYTES = 16
 _REMARK = re.compile(r"meta ([\w.-]{1,255}): (.+)")
 
@@ -320,10 +352,11 @@ def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, str | int | float
     sizes = {name: _size(name, value) for name, value in metadata.items()}
     total = sum(sizes.values())
     refused: dict[str, str] = {}
-    for name in list(sizes)[_MOST_ENTRIES:]:
+    images_first = sorted(sizes, key=lambda name: not isinstance(metadata[name], bytes))
+    if beyond := images_first[_MOST_ENTRIES:]:
+        refused[f"{len(beyond)} entries of metadata, {beyond[0]} and others"] = f"there can be {_MOST_ENTRIES}"
+    for name in beyond:
         total -= sizes.pop(name)
-    if len(sizes) < len(metadata):
-        refused[f"{len(metadata) - len(sizes)} entries of metadata"] = f"there can be {MAX_ENTRIES}"
     for name in sorted(sizes, key=lambda name: -sizes[name]):
         if total <= limit:
             break
@@ -357,6 +390,19 @@ def first(mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *
     """The first attribute of a meaning that is of one of the domains, and has one of the numbers of components."""
     fits = (a for a in mesh.attributes if a.semantic == semantic and a.domain in domains and a.components in components)
     return next(fits, None)
+
+
+def without_seams(attribute: Attribute, mesh: TriangleMesh) -> Attribute:
+    """An attribute of corners with each value once, or of vertices if all corners of each have the same value."""
+    if attribute.indices is None:
+        return attribute
+    same = group_rows(attribute.values.astype(np.float64).view(np.int64))
+    first, corners = first_of(same), same[attribute.indices]
+    by_vertex = np.zeros(len(mesh.positions), np.int64)
+    by_vertex[mesh.faces] = corners
+    if np.array_equal(by_vertex[mesh.faces], corners):
+        return replace(attribute, values=attribute.values[first[by_vertex]], domain="vertex", indices=None)
+    return replace(attribute, values=attribute.values[first], indices=corners.astype(np.int32))
 
 
 def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:

@@ -12,28 +12,27 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import metadata as materials
-from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact
-from bsm.files.room import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
+from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped
+from bsm.files.room import Ints, Rows, as_integers, point_row, text_table
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """What holds for all faces behind a keyword, and the keyword."""
 _OF_CORNERS: dict[bytes, Literal["texcoord", "normal"]] = {b"vt": "texcoord", b"vn": "normal"}
+_NUMBERS = (b"v", b"vt", b"vn", b"f")
 _DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
+_KNOWN = {b"", b"mtllib", *_NUMBERS, *_DROPPED, *(keyword.encode() for keyword in STATES.values())}
 _COLORS = 3  # numbers of a colour that every reader takes; some count a fourth as a coordinate
 _FEW = 8
+_MOST_NAME = 1 << 10  # characters: a name is repeated wherever a group of faces begins
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 
 
-def read_obj(data: bytes, limits: Limits) -> Polygons:
-    """Read an OBJ: points and their colours, faces, texture coordinates, normals, materials and groups."""
-    text = without_comments(data)
-    if b"\0" in text:
+def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
+    """Read an OBJ, or lines of one after `seen` vertices; values of their corners may be elsewhere."""
+    if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
-    if b"\\" in text:
-        text = re.sub(rb"\\[ \t]*\r?\n", b" ", text)
-    lines = _Lines(text)
+    lines = _Lines(re.sub(rb"\\[ \t]*\r?\n", b" ", data) if b"\\" in data else data)
     points = Rows(lines.of(b"v"), "vertex")
     is_face = lines.are(b"f")
     polygons = lines.of(b"f")
@@ -43,15 +42,20 @@ def read_obj(data: bytes, limits: Limits) -> Polygons:
 
     def placed(which: int, keyword: bytes) -> Ints:
         """Indices from 0 on; a negative one counts back from the last line before the face."""
-        seen = np.repeat(np.cumsum(lines.are(keyword))[before], sizes)
+        present = np.repeat(np.cumsum(lines.are(keyword))[before], sizes) + (0 if which else seen)
         written = references.of(which)
-        return np.where(written > 0, written - 1, written + seen)
+        return np.where(written > 0, written - 1, written + present)
 
     if (references.of(0) == 0).any():
         raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
-    numbers = points.counts.min(initial=100)
-    colored = 6 <= numbers <= 7 and points.counts.max() == numbers
-    columns = [color_column(points.columns(3, int(numbers) - 3), "vertex")] if colored else []
+    numbers, most = int(points.counts.min(initial=100)), int(points.counts.max(initial=0))
+    colored = 6 <= numbers == most <= 7
+    columns = [color_column(points.columns(3, numbers - 3), "vertex")] if colored else []
+    dropped = [name for key, name in _DROPPED.items() if lines.are(key).any()]
+    if unknown := sorted(lines.keywords - _KNOWN):
+        dropped.append(f"lines that begin with {b', '.join(unknown[:_FEW]).decode(errors='replace')}")
+    if most > 3 and not colored and (most > 4 or (points.values[(points.starts + 3)[points.counts > 3]] != 1).any()):
+        dropped.append(f"numbers after the coordinates ({int((points.counts > 3).sum())} vertices have some)")
     notes: list[str] = []
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
         if rows := lines.of(keyword):
@@ -60,56 +64,33 @@ def read_obj(data: bytes, limits: Limits) -> Polygons:
             notes += note
     states, names = _states(lines, is_face)
     metadata: dict[str, materials.Value] = {**names}
-    metadata |= {"mtllib": library[0].strip().decode(errors="replace")} if (library := lines.of(b"mtllib")) else {}
+    libraries = dict.fromkeys(materials.text_of(library) for library in lines.of(b"mtllib"))
+    metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
     metadata |= materials.parse_remarks(
         comment.decode(errors="replace") for comment in re.findall(rb"^#([^\r\n]*)", data, re.M)
     )
-    return Polygons(
-        points.columns(0, 3),
-        sizes,
-        placed(0, b"v"),
-        tuple(notes),
-        tuple(name for key, name in _DROPPED.items() if lines.are(key).any()),
-        (*columns, *states),
-        metadata,
-    )
-
-
-class ObjPieces:
-    """Points and faces of a text that comes in pieces of whole lines; nothing else of it."""
-
-    def __init__(self) -> None:
-        self._seen = 0
-        self.left_out: set[str] = set()
-
-    def take(self, text: bytes) -> tuple[Doubles, Doubles, Ints, Ints]:
-        """Points, shape (k, 3), colours, if they have some, and of faces how many corners they have, and these."""
-        lines = _Lines(without_comments(text))
-        polygons, are_points = lines.of(b"f"), lines.are(b"v")
-        sizes = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
-        self.left_out |= {name for keyword, name in _OF_CORNERS.items() if lines.are(keyword).any()}
-        written = _References(polygons).of(0)[: int(sizes.sum())]
-        if (written == 0).any():
-            raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
-        seen = np.repeat(self._seen + np.cumsum(are_points)[np.flatnonzero(lines.are(b"f"))], sizes)
-        self._seen += int(are_points.sum())
-        points = Rows(lines.of(b"v"), "vertex")
-        colored = len(points.counts) and 6 <= points.counts.min() == points.counts.max() <= 7
-        colors = points.columns(3, 3) if colored else np.zeros((0, 3))
-        return points.columns(0, 3), colors, sizes, np.where(written > 0, written - 1, written + seen)
+    found = (*columns, *states)
+    return Polygons(points.columns(0, 3), sizes, placed(0, b"v"), tuple(notes), tuple(dropped), found, metadata)
 
 
 class _Lines:
+    """The lines of a text by their keywords; # begins a comment at the start of a line, and after numbers."""
+
     def __init__(self, text: bytes) -> None:
         self._lines = text.splitlines()
-        self._keywords = np.array([(line.split(None, 1) or [b""])[0] for line in self._lines] or [b""], dtype="S8")
+        keywords = [(line.split(None, 1) or [b""])[0] for line in self._lines] or [b""]
+        self.keywords = {word for word in set(keywords) if not word.startswith(b"#")}
+        self._keywords = np.array(keywords, dtype="S8")
+        self._commented = b"#" in text
 
     def are(self, keyword: bytes) -> Mask:
         found: Mask = self._keywords == keyword
         return found
 
     def of(self, keyword: bytes) -> list[bytes]:
-        return [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self.are(keyword)).tolist()]
+        found = [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self.are(keyword)).tolist()]
+        numbers = self._commented and keyword in _NUMBERS
+        return [line.partition(b"#")[0] for line in found] if numbers else [line.strip() for line in found]
 
 
 class _References:
@@ -162,15 +143,10 @@ def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]
     columns: list[Column] = []
     metadata: dict[str, str] = {}
     for what, keyword in STATES.items():
-        names = ["", *(name.strip().decode(errors="replace") for name in lines.of(keyword.encode()))]
-        changes, of_face = np.unique(np.cumsum(lines.are(keyword.encode()))[is_face], return_inverse=True)
-        used = [names[i] for i in changes.tolist()]
-        numbers = {name: number for number, name in enumerate(dict.fromkeys(used))}
-        if len(numbers) > 1:
-            of_change = np.array([numbers[name] for name in used], np.int32)
-            columns.append(Column(what, of_change[of_face], "face"))
-        if any(numbers):
-            metadata |= materials.named(list(numbers), what)
+        names = ["", *map(materials.text_of, lines.of(keyword.encode()))]
+        column, known = grouped(what, names, np.cumsum(lines.are(keyword.encode()), dtype=np.int64)[is_face])
+        columns += column
+        metadata |= known
     return columns, metadata
 
 
@@ -188,10 +164,10 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     mtl = materials.write_mtl(
         {n: m for n, m in library.materials.items() if len(m) > 1}, names["material"], library.images
     )
-    library_name = mesh.metadata.get("mtllib")
+    libraries = str(mesh.metadata.get("mtllib", "")).split("\n")
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
-        library_name = f"{stem}.mtl"
+        libraries = [f"{stem}.mtl"]
         library.written |= {
             f"material.{n}.{key}" for n, m in library.materials.items() for key in materials.mtl_keywords(m)
         }
@@ -199,21 +175,14 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     library.written |= {f"{what}.names" for what in STATES if names[what]}
     lines, omitted = materials.remarks(mesh.metadata, library.written | {"mtllib"})
     parts = [*(f"# {line}\n" for line in lines)]
-    parts += [f"mtllib {materials.one_line(str(library_name))}\n"] if library_name else []
+    parts += [f"mtllib {materials.one_line(name)}\n" for name in libraries if name]
     parts.append(_points(mesh, color))
     indices = [mesh.faces]
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
         if attribute is not None:
             number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
-            rows, corners = attribute.values, mesh.faces
-            if attribute.indices is not None:  # seams part rows that are the same
-                same = group_rows(rows.astype(np.float64).view(np.int64))
-                first, corners = first_of(same), same[attribute.indices]
-                by_vertex = np.zeros(len(mesh.positions), np.int64)
-                by_vertex[mesh.faces] = corners
-                if np.array_equal(by_vertex[mesh.faces], corners):  # without seams: VTK shades only these smoothly
-                    first, corners = first[by_vertex], mesh.faces
-                rows = rows[first]
+            joined = materials.without_seams(attribute, mesh)  # VTK shades only these smoothly
+            rows, corners = joined.values, mesh.faces if joined.indices is None else joined.indices
             parts.append(text_table(f"{keyword}{number * attribute.components}\n", rows).decode())
             indices.append(corners)
     corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"
@@ -228,7 +197,9 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
         before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[order[changes]].tolist()]
     parts += chain.from_iterable(zip(before.tolist(), faces))
     held = (color, texcoord, normal, *numbers.values())
-    lost = materials.left_out(mesh, held, omitted)
+    called = {f"{what}.{number}.name": name for what in STATES for number, name in names[what].items()}
+    renamed = [key for key, name in called.items() if mesh.metadata.get(key, name) != name]
+    lost = materials.left_out(mesh, held, (*omitted, *renamed))
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return materials.Written("".join(parts).encode(), lost, library.beside)
@@ -259,9 +230,16 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
     )
     if not spoken_of:
         return {}
-    return {
-        number: materials.one_line(str(f"{what}_{number}" if name is None else name)) for number, name in known.items()
-    }
+    found: dict[int, str] = {}
+    taken: dict[str, int] = {}
+    for number, name in known.items():
+        text = unique = materials.one_line(str(f"{what}_{number}" if name is None else name))[:_MOST_NAME]
+        while unique in taken:
+            taken[text] += 1
+            unique = f"{text}_{taken[text]}"
+        taken[unique] = 1
+        found[number] = unique
+    return found
 
 
 def _points(mesh: TriangleMesh, color: Attribute | None) -> str:

@@ -47,18 +47,21 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
 
 
 def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tuple[list[Column], list[str]]:
-    """Normals, colours and texture coordinates, in this order behind the coordinates; and what is not known."""
+    """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and what is not known."""
     found: list[Column] = []
-    place = 3
-    if b"N" in extras:
-        found.append(Column("normal", compact(points.columns(3, 3)), semantic="normal"))
-        place = 6
-    texcoords = 2 if b"ST" in extras else 0
-    if b"C" in extras.replace(b"ST", b""):
-        least = int(points.counts.min(initial=100))
-        colors = points.columns(place, 4 if least - place - texcoords >= 4 else 3)
-        found.append(color_column(colors, "vertex", written_whole=_are_whole(colors, lines)))
-        place += colors.shape[1]
+    place, texcoords = 3, 2 if b"ST" in extras else 0
+    behind = 3 * (b"NC" in extras) + texcoords
+    for kind in (b"C", b"N") if b"NC" in extras else (b"N", b"C"):
+        if kind not in extras:
+            continue
+        width = 4 if kind == b"C" and int(points.counts.min(initial=100)) - place - behind >= 4 else 3
+        values = points.columns(place, width)
+        if kind == b"C":
+            written_whole = _are_whole(values, [b" ".join(line.split()[place : place + width]) for line in lines])
+            found.append(color_column(values, "vertex", written_whole=written_whole))
+        else:
+            found.append(Column("normal", compact(values), semantic="normal"))
+        place += width
     if texcoords:
         found.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
         place += 2

@@ -14,7 +14,6 @@ from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedEr
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import (
     Library,
     Written,
@@ -24,16 +23,18 @@ from bsm.files.formats.metadata import (
     parse_remarks,
     refers_to_image,
     remarks,
+    without_seams,
 )
-from bsm.files.formats.polygons import Array, Column, Polygons, color_column, unused_name
+from bsm.files.formats.polygons import Array, Column, Polygons, color_column, meaning_of, unused_name
 from bsm.files.room import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 
 _TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
     "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
-    "double": "f8", "float32": "f4", "float64": "f8",
+    "double": "f8", "float32": "f4", "float64": "f8", "int64": "i8", "uint64": "u8", "long": "i8", "ulong": "u8",
 }  # fmt: skip
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+MOST_HEADER = 1 << 20
 _MAX_ELEMENTS = 64
 _MAX_PROPERTIES = 256  # of one element: rows are walked once for each list
 COMMENTS = ("comment", "obj_info")  # what a line begins with that anybody may write anything in
@@ -90,13 +91,14 @@ class Header:
 
 
 def parse_header(data: bytes) -> Header:
-    begin = re.match(rb"ply[ \t]*(\r\n|\n|\r)", data)
+    begin = re.match(rb"ply[ \t]*[\r\n]", data)
     if begin is None:
         raise FormatError("this is not a PLY file: it does not begin with ply")
-    line_end = begin[1]  # old Macintosh files have \r alone
-    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:" + line_end + rb"|\Z)").search(data, begin.end() - 1, 1 << 16)
+    # A line that ends in \r\n may be the first of the header to do so; old Macintosh files have only \r.
+    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:\r?\n|\r|\Z)").search(data, begin.end() - 1, MOST_HEADER)
     if end is None:
-        raise TruncatedError("the PLY header has no end_header")
+        raise TruncatedError(f"the PLY header has no end_header in its first {MOST_HEADER} bytes")
+    ends = end.end() - 1 if _ends_in_return(data, end) else end.end()
     order: str | None = None
     elements: list[Element] = []
     comments: list[tuple[str, str]] = []
@@ -127,7 +129,12 @@ def parse_header(data: bytes) -> Header:
             raise FormatError(f"the PLY header has an invalid line: {line[:80]!r}") from None
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
-    return Header(order, tuple(elements), end.end(), tuple(comments))
+    return Header(order, tuple(elements), ends, tuple(comments))
+
+
+def _ends_in_return(data: bytes, end: re.Match[bytes]) -> bool:
+    """Return whether all lines before end in \r, so that \n after the last one is the first byte of the body."""
+    return end[0].endswith(b"\r\n") and b"\n" not in data[: end.start() + 1]
 
 
 def _extend(elements: list[Element], column: Property) -> None:
@@ -343,8 +350,8 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     vertex, face = tables["vertex"], tables["face"]
     with np.errstate(invalid="ignore"):  # what is not a number is refused later
         places = [vertex.element.index(name) for name in "xyz"]
-        if min(places) < 0 or any(column.length for column in vertex.element.properties):
-            raise MeshError("the vertices of this PLY file are not made of numbers with an x, a y and a z")
+        if min(places) < 0 or any(vertex.element.properties[place].length for place in places):
+            raise MeshError("the vertices of this PLY file have no numbers x, y and z")
         positions = np.column_stack([vertex.numbers(place).astype(np.float64) for place in places])
     corners = face.element.index("vertex_indices", "vertex_index")
     if corners < 0 or face.element.properties[corners].length is None:
@@ -352,6 +359,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     sizes, items = face.lists(corners)
     wedges, dropped = _wedges(face, corners, sizes)
     columns = (*_columns(vertex, "vertex", "xyz"), *_columns(face, "face", ()), *wedges)
+    dropped += [f"the list {column.name} of vertices" for column in vertex.element.properties if column.length]
     others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
     flat = as_integers(items, "a vertex index")
     return Polygons(positions, sizes, flat, (), (*dropped, *others), columns, header.metadata)
@@ -386,19 +394,20 @@ def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
 
 
 def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str]]:
-    """Texture coordinates of corners, in a list beside that of the vertices; and the lists that mean nothing known."""
+    """Values of corners: lists as long as that of the vertices, or twice, ...; and the lists that are not."""
     found, dropped = [], []
     for place, column in enumerate(table.element.properties):
         if column.length is None or place == corners:
             continue
         lengths, values = table.lists(place)
-        present = lengths == 2 * sizes
-        if column.name != "texcoord" or not (present | (lengths == 0)).all() or not present.any():
+        width = 2 if column.name == "texcoord" else int(lengths.max(initial=0)) // max(int(sizes.max(initial=0)), 1)
+        present = lengths == width * sizes
+        if not 1 <= width <= MOST_COMPONENTS or not (present | (lengths == 0)).all() or not present.any():
             dropped.append(column.name)
             continue
-        pairs = np.zeros((int(sizes.sum()), 2), values.dtype)  # a face without any gets zeros
-        pairs[np.repeat(present, sizes)] = values.reshape(-1, 2)
-        found.append(Column("texcoord", pairs, "corner", "texcoord"))
+        rows = np.zeros((int(sizes.sum()), width), values.dtype)  # a face without any gets zeros
+        rows[np.repeat(present, sizes)] = values.reshape(-1, width)
+        found.append(Column(column.name, rows, "corner", meaning_of(column.name)))
     return found, dropped
 
 
@@ -419,9 +428,11 @@ _PROPERTIES = {
 
 
 def write_ply(mesh: TriangleMesh, stem: str) -> Written:
-    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double."""
+    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double.
+
+    Values of corners are values of vertices where the corners of each have the same, and else lists of the faces.
+    """
     library = Library(mesh, stem)
-    mesh = split_by_attributes(mesh)
     images = [f"{IMAGE} {name}" for name in library.images.values()]
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
     texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
@@ -432,7 +443,12 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
         "vertex": list(zip("xyz", mesh.positions.astype(single).T)),
         "face": [("vertex_indices", mesh.faces)],
     }
-    for attribute in mesh.attributes:
+    for attribute in (without_seams(attribute, mesh) for attribute in mesh.attributes):
+        if attribute.domain == "corner":
+            known = [name for name, _ in columns["face"]]
+            name = unused_name(re.sub(r"\s", "_", attribute.name), "corner", known)
+            columns["face"].append((name, attribute.values[attribute.indices].reshape(len(mesh.faces), -1)))
+            continue
         fields = columns[attribute.domain]
         names = _property_names(attribute, [name for name, _ in fields])
         fields += zip(names, attribute.values.T)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError, public
+from bsm.bitstream.errors import MeshError, imported, public
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
@@ -112,6 +112,16 @@ def sorted_into_parts(names: Sequence[str], faces: Sequence[int]) -> tuple[list[
     return notes, [Column("part", owner[:, None], "face")], named(names, "part")
 
 
+def grouped(what: str, names: Sequence[str], of_face: Ints) -> tuple[list[Column], dict[str, str]]:
+    """The faces by the names of what they belong to: numbers if there are several, and the names as metadata."""
+    changes, places = np.unique(of_face, return_inverse=True)
+    used = [names[i] for i in changes.tolist()]
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(used))}
+    of_change = np.array([numbers[name] for name in used], np.int32)
+    columns = [Column(what, of_change[places], "face")] if len(numbers) > 1 else []
+    return columns, named(list(numbers), what) if any(numbers) else {}
+
+
 def unused_name(name: str, domain: str, taken: Collection[str]) -> str:
     longer = name if name.startswith(domain) else f"{domain}_{name}"
     candidates = chain((name, longer), (f"{name}{number}" for number in count(2)))
@@ -152,7 +162,9 @@ def meaning_of(name: str) -> Semantic:
     return next((meaning for meaning in meanings if bare.startswith(meaning)), "generic")
 
 
-_MOST_TURNS = 64
+CROSSING = "polygons whose sides cross, so that their triangles overlap"
+_MOST_TURNS = 16  # fans that are tried for a polygon
+_MOST_CORNERS = 1 << 15  # of a polygon whose ears are clipped: that can take the square of it
 PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24  # bytes of a triangle, of one that a polygon is cut into, of a corner
 
 
@@ -216,8 +228,9 @@ class Polygons:
             notes.append(f"polygons were cut into triangles: {int((sizes > 3).sum())}")
         places, owner, folded = triangulate(positions, sizes, corners)
         if folded:
-            notes.append(f"polygons so far from convex that their triangles overlap: {folded}")
-        attributes, refused = attributes_of(self.columns, len(positions), len(sizes), places, owner)
+            notes.append(f"{CROSSING}: {folded}")
+        finite = [_finite(column, notes) for column in self.columns]
+        attributes, refused = attributes_of(finite, len(positions), len(sizes), places, owner)
         metadata, too_large = fitting(self.metadata, limits.metadata_bytes)
         dropped = (*self.dropped, *refused, *too_large)
         if self.dropped:
@@ -225,6 +238,16 @@ class Polygons:
         notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
         faces = corners[places].astype(np.int32)
         return MeshFile(TriangleMesh(positions, faces, attributes, metadata), tuple(notes), dropped)
+
+
+def _finite(column: Column, notes: list[str]) -> Column:
+    """A field with zeros for values that are not finite, where others are."""
+    field = column.semantic == "generic" and column.values.dtype.kind == "f"
+    lost = ~np.isfinite(column.values) if field else np.zeros(0, np.bool_)
+    if not lost.any() or lost.all():
+        return column
+    notes.append(f"values of {column.name} that are not finite were set to zero: {int(lost.sum())}")
+    return replace(column, values=np.where(lost, column.values.dtype.type(0), column.values))
 
 
 def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:
@@ -260,7 +283,41 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         good = ~np.isin(owner[rows], folded(rows, candidates))
         places[rows[good]] = candidates[good]
         bad = np.setdiff1d(bad, owner[rows[good]])
-    return places, owner, len(bad)
+    crossing = 0
+    starts = np.cumsum(pieces) - pieces
+    for polygon in bad.tolist():
+        corner, size = first[polygon], sizes[polygon]
+        cut = _ears(scaled[corners[corner : corner + size]], normals[polygon])
+        if cut is None:
+            crossing += 1
+        else:
+            places[starts[polygon] : starts[polygon] + size - 2] = corner + cut
+    return places, owner, crossing
+
+
+def _ears(points: Doubles, normal: Doubles) -> Ints | None:
+    """Cut a polygon that is not convex into triangles by clipping ears; None: its sides cross."""
+    if len(points) > _MOST_CORNERS:
+        raise MeshError(f"a polygon that is not convex has {len(points)} corners; cut it into triangles before")
+    library = imported("mapbox_earcut", "polygons that are not convex are cut with mapbox-earcut", "formats")
+    axis = int(np.argmax(np.abs(normal)))
+    flat = np.ascontiguousarray(
+        np.delete(points, axis, axis=1) * (-1.0 if (normal[axis] < 0) != (axis == 1) else 1.0, 1.0)
+    )
+    found = library.triangulate_float64(flat, np.array([len(points)], np.uint32)).reshape(-1, 3).astype(np.int64)
+    a, b, c = (flat[found[:, i]] for i in range(3))
+    areas = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    found = found[:, ::-1] if areas.sum() < 0 else found
+    # It leaves out corners on a straight line between others: faces beside it may have them.
+    sides = {(int(i), int(j)) for triangle in found for i, j in zip(triangle, np.roll(triangle, -1))}
+    shortcuts = [(i, j) for i, j in sides if (j, i) not in sides and (j - i) % len(points) != 1]
+    filled = [
+        (i, (i + k) % len(points), (i + k + 1) % len(points))
+        for i, j in shortcuts
+        for k in range(1, (j - i) % len(points))
+    ]
+    whole = np.concatenate([found, np.array(filled, np.int64).reshape(-1, 3)])
+    return whole if len(whole) == len(points) - 2 else None
 
 
 def _area_vectors(positions: Doubles, triangles: Ints) -> Doubles:

@@ -8,53 +8,85 @@ from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.files.formats.metadata import Written, face_numbers, left_out
-from bsm.files.formats.polygons import Column, Polygons
+from bsm.files.formats.metadata import Written, face_numbers, left_out, text_of
+from bsm.files.formats.polygons import Column, Polygons, grouped
 from bsm.files.room import Doubles, Rows, single_suffices
 
-_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+HEAD = 84  # bytes before the first record, the last four of them the number of triangles
 _ATTRIBUTE = "attribute"
 """The number of 16 bits that a triangle has beside its corners; some programs keep colours in it."""
+_UNKNOWN = (0, 0xFFFFFFFF)  # numbers of triangles by programs that did not know it yet
+
+
+def is_text(head: bytes, size: int | None) -> bool:
+    """Return whether an STL is text; binary files that begin with "solid" have zeros or the right size."""
+    claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little") if len(head) >= HEAD else -1
+    if size == HEAD + RECORD.itemsize * claimed or head.lstrip()[:5].lower() != b"solid":
+        return False
+    return b"\0" not in head[:1024]
+
+
+def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
+    """Return the number of triangles of a binary STL, by its size where that is known, and a note if they disagree."""
+    if len(head) < HEAD:
+        raise FormatError(f"this is not an STL file: it has {len(head)} bytes, and the header alone has {HEAD}")
+    claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little")
+    if size is None:
+        return claimed, ""
+    held, rest = divmod(size - HEAD, RECORD.itemsize)
+    if held < claimed and claimed not in _UNKNOWN:
+        raise TruncatedError(
+            f"the STL file is cut short (or not an STL file): its header claims {claimed} triangles, {held} are there"
+        )
+    if held == claimed or (claimed not in _UNKNOWN and rest):
+        beyond = size - HEAD - RECORD.itemsize * claimed
+        return claimed, f"{beyond} bytes after the last triangle" if beyond else ""
+    return held, f"the number of triangles in the header ({claimed}; by its size, the file has {held})"
 
 
 def read_stl(data: bytes, limits: Limits) -> Polygons:
     """Read a binary or a text STL; corners with exactly equal coordinates are one vertex, in order of appearance."""
-    # Binary files may begin with "solid" too; their length tells.
-    claimed = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
-    binary = len(data) == 84 + 50 * claimed or not data.lstrip().startswith(b"solid")
-    soup = _soup_binary(data) if binary else _soup_text(data)
+    columns: list[Column] = []
+    metadata: dict[str, str] = {}
+    wrong = ""
+    if is_text(data, len(data)):
+        soup, columns, metadata = _of_text(data)
+    else:
+        count, wrong = binary_triangles(data, len(data))
+        records = np.frombuffer(data, RECORD, count, HEAD)
+        with np.errstate(invalid="ignore"):  # what is not a number is refused later
+            soup = records["corners"].reshape(-1, 3).astype(np.float64)
+        if records["attribute"].any():
+            columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
     corners = group_rows(soup)
     first = first_of(corners)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
-    records = np.frombuffer(data, _RECORD, len(soup) // 3, 84)["attribute"] if binary else np.zeros(0, np.uint16)
-    columns = (Column(_ATTRIBUTE, records[:, None], "face"),) if records.any() else ()
-    return Polygons(soup[first], np.full(len(soup) // 3, 3), corners.astype(np.int64), (note,), (), columns)
+    sizes, dropped = np.full(len(soup) // 3, 3), (wrong,) if wrong else ()
+    return Polygons(soup[first], sizes, corners.astype(np.int64), (note,), dropped, tuple(columns), metadata)
 
 
-def _soup_binary(data: bytes) -> Doubles:
-    if len(data) < 84:
-        raise FormatError("this is not an STL file: it is shorter than the header of one")
-    claimed = int.from_bytes(data[80:84], "little")
-    if len(data) < 84 + 50 * claimed:
-        raise TruncatedError(
-            f"the STL file is cut short (or is not an STL file): {claimed} triangles need {84 + 50 * claimed} bytes"
-        )
-    with np.errstate(invalid="ignore"):  # what is not a number is refused later
-        return np.frombuffer(data, _RECORD, claimed, 84)["corners"].reshape(-1, 3).astype(np.float64)
-
-
-def _soup_text(data: bytes) -> Doubles:
+def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
+    """The corners of a text, and its solids as groups."""
     lines = re.findall(rb"^[ \t]*vertex[ \t]+([^\r\n]*)", data, re.MULTILINE | re.IGNORECASE)
-    facets = len(re.findall(rb"^[ \t]*endfacet", data, re.MULTILINE | re.IGNORECASE))
-    if len(lines) != 3 * facets or (not re.search(rb"endsolid", data, re.IGNORECASE)):
-        raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {facets} finished triangles")
-    return Rows(lines, "corner").columns(0, 3)
+    marks = re.finditer(rb"^[ \t]*(?:(endfacet)|solid\b([^\r\n]*))", data, re.MULTILINE | re.IGNORECASE)
+    names: list[str] = []
+    facets: list[int] = []
+    for mark in marks:
+        if mark[1]:
+            facets.append(len(names))
+        else:
+            names.append(text_of(mark[2]))
+    if len(lines) != 3 * len(facets) or (not re.search(rb"endsolid", data, re.IGNORECASE)):
+        raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {len(facets)} finished triangles")
+    columns, metadata = grouped("group", ["", *names], np.array(facets, np.int64))
+    return Rows(lines, "corner").columns(0, 3), columns, metadata
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     if not single_suffices(mesh.positions):
         raise MeshError("the coordinates need double precision, which STL does not have; write PLY, OBJ or OFF")
-    triangles = np.zeros(len(mesh.faces), _RECORD)
+    triangles = np.zeros(len(mesh.faces), RECORD)
     corners = mesh.positions[mesh.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -65,5 +97,5 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
         triangles["attribute"] = attribute.values[:, 0]
     else:
         attribute = None
-    data = bytes(80) + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    data = bytes(HEAD - 4) + len(triangles).to_bytes(4, "little") + triangles.tobytes()
     return Written(data, left_out(mesh, [attribute], tuple(mesh.metadata)))

@@ -161,7 +161,7 @@ def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
     faces = [np.empty((0, 3), np.int64), *(part.faces + first for part, first in zip(parts, begin))]
     triangles = np.concatenate(faces)
     columns, notes = joined_columns((part.columns() for part in parts), [part.rows for part in parts])
-    metadata = _metadata(parts, of_scene)
+    metadata, left = _metadata(parts, of_scene)
     of_materials, numbers = _materials(parts)
     metadata |= of_materials
     if len(np.unique(numbers)) > 1:
@@ -170,22 +170,26 @@ def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
         note, column, names = sorted_into_parts([part.name for part in parts], [len(part.mesh.faces) for part in parts])
         notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
     sizes = np.full(len(triangles), 3)
-    return Polygons(positions, sizes, triangles.reshape(-1), tuple(notes), (), tuple(columns), metadata)
+    return Polygons(positions, sizes, triangles.reshape(-1), tuple(notes), tuple(left), tuple(columns), metadata)
 
 
-def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:
+def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> tuple[dict[str, Value], dict[str, None]]:
+    """What trimesh knows of a scene and its parts, and the names of what metadata cannot hold."""
     found: dict[str, Value] = {}
+    left: dict[str, None] = {}
     for source in (of_scene, *(part.mesh.metadata for part in parts)):
         for name, value in source.items():
             plain = isinstance(value, str | int | float | bytes)
             if name and name not in _OF_TRIMESH and plain and not (isinstance(value, str) and not value.strip("\0 ")):
                 found.setdefault(str(name), int(value) if isinstance(value, bool) else value)
+            elif name and name not in _OF_TRIMESH and not plain and value is not None:
+                left[f"metadata {name}"] = None
     units = dict.fromkeys(part.mesh.units for part in parts)
     if len(units) == 1 and isinstance(unit := next(iter(units)), str):
         found.setdefault("unit", unit)
     if len(parts) == 1 and parts[0].name and not _NO_NAMES.fullmatch(parts[0].name):
         found.setdefault("name", parts[0].name)
-    return found
+    return found, left
 
 
 def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:

@@ -1,0 +1,388 @@
+"""What a file says comes back, or a note names what does not: names, groups, polygons, headers, and other libraries."""
+
+import struct
+import warnings
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.bitstream.errors import BsmWarning, FormatError, LimitError, MeshError, TruncatedError
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.metadata import images_in, materials_in
+from bsm.files.mesh import format_mesh, read_mesh, write_mesh
+from bsm.libraries import as_mesh
+from tests.bsm.files.test_file_attributes import at_corners, attribute, png
+from tests.bsm.program import bsm as program
+from tests.shapes import torus
+
+
+def run(*arguments):
+    return program(*arguments, text=True)
+
+
+THREE = "v 0 0 0\nv 1 0 0\nv 1 1 0\n"
+SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+
+
+def area(mesh):
+    a, b, c = (mesh.positions[mesh.faces[:, corner]] for corner in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+
+
+def names(mesh, what):
+    return [value for key, value in mesh.metadata.items() if key.startswith(f"{what}.") and key.endswith(".name")]
+
+
+# ---------------------------------------------------------------------------------------------------------- OBJ and MTL
+
+
+def test_a_number_sign_begins_a_comment_at_the_start_of_a_line_and_after_numbers(tmp_path):
+    (tmp_path / "a.mtl").write_text("newmtl M #1\nKd 1 0 0 # red\n # map_Kd no.png\nmap_Kd h#1.png\nnewmtl M #2\n")
+    (tmp_path / "h#1.png").write_bytes(png())
+    (tmp_path / "a.obj").write_text(
+        f"  # f 9 9 9\nmtllib a.mtl\n{THREE}v 0 0 1 # top\ng left #1\nusemtl M #1\nf 1 2 3 # 1\nusemtl M #2\nf 1 2 4\n"
+    )
+    read = read_mesh(tmp_path / "a.obj")
+    assert read.notes == () and read.mesh.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
+    assert names(read.mesh, "material") == ["M #1", "M #2"] and names(read.mesh, "group") == ["left #1"]
+    assert materials_in(read.mesh.metadata)[0] == {"name": "M #1", "Kd": "1 0 0", "map_Kd": 0}
+    assert images_in(read.mesh.metadata) == {0: ("h#1.png", png())}
+
+
+def test_several_libraries_of_several_lines_and_with_spaces(tmp_path):
+    (tmp_path / "a b.mtl").write_text("newmtl A\nKd 1 0 0\nmap_Kd one.png\n")
+    (tmp_path / "c.mtl").write_text("newmtl A\nKd 0 0 0\nnewmtl C\nKd\t0 1 0\nmap_Kd\ttwo.png\n")
+    (tmp_path / "d.mtl").write_text("newmtl\tD\nKd 0 0 1\n")
+    for name in ("one.png", "two.png"):
+        (tmp_path / name).write_bytes(png())
+    faces = "".join(f"usemtl\t{name}\nf 1 2 3\n" for name in "ACD")
+    (tmp_path / "a.obj").write_text(f"mtllib a b.mtl\nmtllib c.mtl\td.mtl\nmtllib away.mtl\n{THREE}{faces}")
+    read = read_mesh(tmp_path / "a.obj")
+    words = materials_in(read.mesh.metadata).values()
+    assert [(m["name"], m["Kd"]) for m in words] == [("A", "1 0 0"), ("C", "0 1 0"), ("D", "0 0 1")]
+    images = images_in(read.mesh.metadata)
+    assert [images[m["map_Kd"]][0] for m in words if "map_Kd" in m] == ["one.png", "two.png"]
+    assert [note for note in read.notes if "materials" in note] == [
+        "the materials in away.mtl were left out: there is no such file beside the mesh"
+    ]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "gbk", "cp1251"])
+def test_names_in_any_encoding_stay_different(encoding, tmp_path):
+    called = {"gbk": ("\u7ea2", "\u7eff"), "cp1251": ("\u0436", "\u0437")}.get(encoding, ("Gr\u00fcn", "Gr\u00e4n"))
+    (tmp_path / "a.mtl").write_bytes(
+        "".join(f"newmtl {name}\nKd {i} 0 0\n" for i, name in enumerate(called)).encode(encoding)
+    )
+    faces = "".join(f"g {name}\nusemtl {name}\nf 1 2 3\n" for name in called)
+    (tmp_path / "a.obj").write_bytes(f"mtllib a.mtl\n{THREE}{faces}".encode(encoding))
+    mesh = read_mesh(tmp_path / "a.obj").mesh
+    assert [m["Kd"] for m in materials_in(mesh.metadata).values()] == ["0 0 0", "1 0 0"]
+    assert len(set(names(mesh, "group"))) == 2
+    if encoding != "gbk" and encoding != "cp1251":
+        assert tuple(names(mesh, "material")) == called
+
+
+def test_materials_of_one_name_are_written_with_different_names(tmp_path):
+    material = Attribute("material", np.array([0, 1, 2], np.int32), "face")
+    metadata = {f"material.{i}.name": name for i, name in enumerate(("red", "red", "red_2"))}
+    metadata |= {f"material.{i}.Kd": f"{i} 0 0" for i in range(3)}
+    mesh = TriangleMesh(SQUARE, [[0, 1, 2], [0, 2, 3], [1, 2, 3]], [material], metadata)
+    left = write_mesh(tmp_path / "a.obj", mesh)
+    again = read_mesh(tmp_path / "a.obj").mesh
+    assert [m["Kd"] for m in materials_in(again.metadata).values()] == ["0 0 0", "1 0 0", "2 0 0"]
+    assert len(set(names(again, "material"))) == 3 and "material.1.name" in left
+
+
+def test_two_hundred_materials_with_an_image_each_come_back(tmp_path):
+    library, lines = "", ["mtllib a.mtl", THREE]
+    for i in range(200):
+        library += f"newmtl m{i}\nKd 0 {i / 200} 0\nNs {i}\nmap_Kd {i}.png\n"
+        lines += [f"usemtl m{i}", "f 1 2 3"]
+        (tmp_path / f"{i}.png").write_bytes(png() + bytes([i]))
+    (tmp_path / "a.mtl").write_text(library)
+    (tmp_path / "a.obj").write_text("\n".join(lines))
+    read = read_mesh(tmp_path / "a.obj")
+    data = bsm.encode(read.mesh, preset="grid14")
+    decoded = bsm.decode(data, limits=Limits.service())
+    assert read.notes == () and dict(decoded.metadata) == dict(read.mesh.metadata)
+    assert write_mesh(tmp_path / "out.obj", decoded) == ()
+    again = read_mesh(tmp_path / "out.obj").mesh
+    assert [data for _, data in images_in(again.metadata).values()] == [png() + bytes([i]) for i in range(200)]
+    assert [m["Ns"] for m in materials_in(again.metadata).values()] == [str(i) for i in range(200)]
+
+
+def test_one_image_under_many_names_is_read_once_and_images_never_exceed_some_times_the_limit(tmp_path):
+    (tmp_path / "a.png").write_bytes(png() + bytes(5000))
+    for i in range(20):
+        (tmp_path / f"{i}.png").write_bytes(png() + bytes(5000))
+    many = "".join(f"newmtl m{i}\nmap_Kd {'./' * i}a.png\nmap_Ke {i}.png\n" for i in range(20))
+    (tmp_path / "a.mtl").write_text(many)
+    (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{THREE}f 1 2 3\n")
+    read = read_mesh(tmp_path / "a.obj", limits=Limits(metadata_bytes=10_000))
+    assert sum(map(len, (data for _, data in images_in(read.mesh.metadata).values()))) <= 10_000
+    assert sum("was left out, its name was kept" in note for note in read.notes) >= 12
+
+
+def test_numbers_and_lines_of_an_obj_that_mean_nothing_to_a_mesh_are_named():
+    read = read_mesh(b"v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nbevel on\ncstype bezier\n")
+    assert read.mesh.attributes == ()
+    assert read.notes == (
+        "left out: lines that begin with bevel, cstype, numbers after the coordinates (1 vertices have some)",
+    )
+    assert read_mesh(b"v 0 0 0 1.0\nv 1 0 0 1.0\nv 1 1 0 1.0\nf 1 2 3\n").notes == ()
+
+
+# ------------------------------------------------------------------------------------------------------------- polygons
+
+
+def comb(teeth):
+    """A comb of `teeth` slots, 1 wide and 2 deep, in a plate 3 high; its area, too."""
+    top = [point for i in range(teeth) for point in ((2 * i + 1, 3), (2 * i + 1, 1), (2 * i + 2, 1), (2 * i + 2, 3))]
+    width = 2 * teeth + 1
+    outline = np.array([(0, 0), (0, 3), *top, (width, 3), (width, 0)], float)[::-1]
+    return np.column_stack([outline, 0.3 * outline @ [1, 2]]), (3 * width - 2 * teeth) * np.sqrt(1 + 0.09 + 0.36)
+
+
+@pytest.mark.parametrize("turn", [np.eye(3), -np.eye(3), np.eye(3)[[1, 2, 0]], np.eye(3)[[2, 1, 0]]])
+@pytest.mark.parametrize("teeth", [1, 2, 9])
+def test_polygons_that_are_not_convex_are_cut_without_overlaps(teeth, turn):
+    pytest.importorskip("mapbox_earcut")
+    points, expected = comb(teeth)
+    points = points @ turn
+    polygon = np.arange(len(points))
+    normal = sum(np.cross(points[i], points[(i + 1) % len(points)]) for i in range(len(points)))
+    flat = np.concatenate([[len(points)], polygon])
+    text = "".join(f"v {x} {y} {z}\n" for x, y, z in points.tolist()) + f"f {' '.join(map(str, polygon + 1))}\n"
+    meshes = [as_mesh((points, faces)) for faces in (polygon[None], [polygon], flat)]
+    for mesh in (*meshes, read_mesh(text.encode()).mesh):
+        assert len(mesh.faces) == len(points) - 2 and area(mesh) == pytest.approx(expected)
+        a, b, c = (mesh.positions[mesh.faces[:, corner]] for corner in range(3))
+        assert (np.cross(b - a, c - a) @ normal >= -1e-9).all(), "all triangles face the same side"
+
+
+def test_a_corner_on_a_side_of_a_polygon_stays_connected():
+    pytest.importorskip("mapbox_earcut")
+    outline = [(0, 0), (2, 0), (4, 0), (4, 3), (3, 3), (3, 1), (2, 1), (1, 1), (1, 3), (0, 3), (0, 2), (0, 1)]
+    points = np.column_stack([np.array(outline, float), np.zeros(len(outline))])
+    mesh = as_mesh((points, np.arange(len(points))[None]))
+    sides = {tuple(side) for face in mesh.faces for side in zip(face.tolist(), np.roll(face, -1).tolist())}
+    open_sides = {side for side in sides if side[::-1] not in sides}
+    assert open_sides == {(i, (i + 1) % 12) for i in range(12)} and area(mesh) == pytest.approx(8)
+
+
+def test_a_polygon_whose_sides_cross_is_reported_and_a_huge_one_refused():
+    pytest.importorskip("mapbox_earcut")
+    with pytest.warns(BsmWarning, match="polygons whose sides cross"):
+        turns = np.arange(5) * 4 * np.pi / 5 + 0.1
+        as_mesh((np.column_stack([np.cos(turns), np.sin(turns), turns]) * [1, 1, 0], [[0, 1, 2, 3, 4]]))
+    points, _ = comb(9000)
+    with pytest.raises(MeshError, match="cut it into triangles"):
+        as_mesh((points, np.arange(len(points))[None]))
+
+
+# ------------------------------------------------------------------------------------------------------------------ PLY
+
+
+def seamed(*more):
+    mesh = torus(8, 6)
+    uv = np.tile(np.linspace(0, 1, 2 * len(mesh.positions), dtype=np.float32)[:, None], (1, 2))
+    seam = mesh.faces + np.where(np.arange(len(mesh.faces)) % 2, len(mesh.positions), 0)[:, None]
+    smooth = Attribute("smooth", np.arange(len(mesh.positions), dtype=np.float32), "corner", indices=mesh.faces)
+    return TriangleMesh(
+        mesh.positions, mesh.faces, [Attribute("texcoord", uv, "corner", "texcoord", seam), smooth, *more]
+    )
+
+
+def test_a_ply_with_seams_keeps_its_vertices(tmp_path):
+    mesh = seamed(Attribute("paint", np.arange(36 * 8, dtype=np.uint8)[:, None].repeat(3, 1), "corner", "generic"))
+    again = read_mesh(format_mesh(mesh, "ply")).mesh
+    assert again.positions == pytest.approx(mesh.positions) and np.array_equal(again.faces, mesh.faces)
+    for name in ("texcoord", "paint"):
+        assert attribute(again, name).domain == "corner"
+        assert np.array_equal(at_corners(again, attribute(again, name)), at_corners(mesh, attribute(mesh, name)))
+    assert attribute(again, "smooth").domain == "vertex"
+    assert np.array_equal(attribute(again, "smooth").values[:, 0], np.arange(len(mesh.positions)))
+    bsm.save(mesh, tmp_path / "a.bsm", preset="grid14", keep_order=True)
+    done = run("decode", tmp_path / "a.bsm", "-o", tmp_path / "b.ply")
+    assert done.returncode == 0, done.stderr
+    assert np.array_equal(read_mesh(tmp_path / "b.ply").mesh.faces, mesh.faces)
+
+
+def test_other_programs_read_the_seams_of_a_ply(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    mesh = seamed()
+    write_mesh(tmp_path / "a.ply", mesh)
+    theirs = trimesh.load_mesh(tmp_path / "a.ply", process=False)
+    assert theirs.triangles == pytest.approx(mesh.positions[mesh.faces])
+    assert theirs.visual.uv[theirs.faces] == pytest.approx(at_corners(mesh, attribute(mesh, "texcoord")))
+
+
+def test_a_ply_with_whole_numbers_of_64_bits_and_lists_of_vertices():
+    head = (
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    )
+    head += "property list uchar float weights\nproperty int64 id\nelement face 1\n"
+    head += "property list uchar uint64 vertex_indices\nend_header\n"
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0)]
+    body = b"".join(struct.pack("<3fB", *p, i) + bytes(4 * i) + struct.pack("<q", -i) for i, p in enumerate(points))
+    read = read_mesh(head.encode() + body + struct.pack("<B3Q", 3, 0, 1, 2))
+    assert read.mesh.faces.tolist() == [[0, 1, 2]] and attribute(read.mesh, "id").values[:, 0].tolist() == [0, -1, -2]
+    assert read.notes == ("left out: the list weights of vertices",)
+    text = head.replace("binary_little_endian", "ascii") + "0 0 0 0 0\n1 0 0 1 9 -1\n1 1 0 2 9 9 -2\n3 0 1 2\n"
+    assert attribute(read_mesh(text.encode()).mesh, "id").values[:, 0].tolist() == [0, -1, -2]
+
+
+@pytest.mark.parametrize("ends", [("\n", "\n"), ("\r\n", "\r\n"), ("\r", "\r"), ("\n", "\r\n"), ("\r\n", "\n")])
+@pytest.mark.parametrize("comment", ["short", "c" * 70_000])
+def test_line_ends_and_lengths_of_ply_headers(ends, comment):
+    data = format_mesh(torus(5, 4), "ply")
+    head, body = data.split(b"end_header\n")
+    lines = head.decode().splitlines()
+    lines.insert(2, f"comment {comment}")
+    mixed = "".join(line + ends[i % 2] for i, line in enumerate([*lines, "end_header"])).encode()
+    for first in (b"", b"\n"):  # of the body
+        whole = mixed + (first + body[1:] if first else body)
+        read = read_mesh(whole)
+        assert read.mesh.faces.tolist() == torus(5, 4).faces.tolist()
+
+
+# ---------------------------------------------------------------------------------------------------------- STL and OFF
+
+
+def solid(name, moved, word="solid"):
+    loop = "".join(f"vertex {x + moved} {y} 0\n" for x, y in ((0, 0), (1, 0), (1, 1)))
+    return f"{word} {name}\nfacet normal 0 0 1\nouter loop\n{loop}endloop\nendfacet\nend{word} {name}\n"
+
+
+def test_solids_of_a_text_are_groups(tmp_path):
+    text = solid("Inlet A", 0) + solid("wall #2", 5) + solid("Inlet A", 9)
+    (tmp_path / "a.stl").write_text(text)
+    mesh = read_mesh(tmp_path / "a.stl").mesh
+    assert names(mesh, "group") == ["Inlet A", "wall #2"] and attribute(mesh, "group").values[:, 0].tolist() == [
+        0,
+        1,
+        0,
+    ]
+    write_mesh(tmp_path / "b.obj", mesh)
+    assert names(read_mesh(tmp_path / "b.obj").mesh, "group") == ["Inlet A", "wall #2"]
+    assert read_mesh(solid("one", 0, "SOLID").upper().encode(), "stl").mesh.faces.tolist() == [[0, 1, 2]]
+    bsm.save(mesh, tmp_path / "a.bsm", preset="grid14")
+    done = run("decode", tmp_path / "a.bsm", "-o", tmp_path / "c.stl")
+    assert done.returncode == 0 and "group" in done.stderr, "an STL that we write has no groups"
+
+
+def binary(head, count, triangles, tail=b""):
+    corners = np.random.default_rng(1).random((triangles, 3, 3)).astype("<f4")
+    records = b"".join(bytes(12) + triangle.tobytes() + b"\0\0" for triangle in corners)
+    return head.ljust(80, b" ") + struct.pack("<I", count) + records + tail
+
+
+@pytest.mark.parametrize(
+    ("data", "faces", "note"),
+    [
+        (binary(b"solid", 12, 12), 12, ""),
+        (binary(b"SOLID of bytes", 12, 12), 12, ""),
+        (binary(b"x", 0, 12), 12, "in the header (0; by its size, the file has 12)"),
+        (binary(b"x", 6, 12), 12, "in the header (6; by its size, the file has 12)"),
+        (binary(b"x", 0xFFFFFFFF, 12), 12, "in the header (4294967295; by its size, the file has 12)"),
+        (binary(b"solid", 12, 12, b"more"), 12, "4 bytes after the last triangle"),
+    ],
+)
+def test_the_size_of_a_binary_stl_decides(data, faces, note, tmp_path):
+    read = read_mesh(data, "stl")
+    assert len(read.mesh.faces) == faces and any(note in line for line in read.notes)
+    assert len(read.notes) == 1 + bool(note)
+    (tmp_path / "a.stl").write_bytes(data)
+    assert len(read_mesh(tmp_path / "a.stl").mesh.faces) == faces
+    done = run("tile", tmp_path / "a.stl", "-o", tmp_path / "tiles", "--grid-cell", 0.001)
+    assert done.returncode == 0 and note in done.stderr, done.stderr
+
+
+def test_an_stl_that_is_cut_short_is_refused():
+    for data in (binary(b"x", 12, 12)[:-1], binary(b"x", 12, 11)):
+        with pytest.raises(TruncatedError, match="claims 12 triangles, 11 are there"):
+            read_mesh(data, "stl")
+    with pytest.raises((TruncatedError, FormatError, LimitError)):
+        read_mesh(b"SOLID of something else " + b"\1" * 100, "stl")
+
+
+def test_an_off_as_meshlab_writes_it_has_colors_before_normals():
+    row = "{} {} 0 255 128 0 255 0 0 1"
+    rows = "\n".join(row.format(x, y) for x, y in ((0, 0), (1, 0), (1, 1)))
+    mesh = read_mesh(f"NCOFF\n3 1 0\n{rows}\n3 0 1 2\n".encode()).mesh
+    assert attribute(mesh, "normal").values.tolist() == [[0, 0, 1]] * 3
+    assert attribute(mesh, "color").values.tolist() == [[255, 128, 0, 255]] * 3
+
+
+# ----------------------------------------------------------------------------------------------------- other libraries
+
+
+def notes_of(mesh):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        bsm.encode(mesh, preset="grid14")
+    return " | ".join(str(warning.message) for warning in caught if warning.category is BsmWarning)
+
+
+def test_what_meshio_has_and_a_mesh_cannot_have_is_a_warning():
+    meshio = pytest.importorskip("meshio")
+    theirs = meshio.Mesh(
+        SQUARE,
+        [("triangle", [[0, 1, 2], [0, 2, 3]]), ("line", [[0, 1]])],
+        point_data={"wide": np.ones((4, 9)), "gaps": np.array([0, np.nan, 1, 2]), "words": np.array(["a"] * 4)},
+        cell_data={"tensor": [np.ones((2, 3, 3)), np.ones((1, 3, 3))]},
+        point_sets={"fixed": np.array([0])},
+        cell_sets={"inlet": [np.array([0]), np.array([])]},
+        field_data={"gmsh name": np.array([1, 2])},
+    )
+    told = notes_of(theirs)
+    for name in ("wide", "gaps that are not finite were set to zero: 1", "words", "tensor", "line", "fixed", "inlet"):
+        assert name in told, told
+    assert "gmsh name" in told
+
+
+def test_what_trimesh_has_and_a_mesh_cannot_have_is_a_warning():
+    trimesh = pytest.importorskip("trimesh")
+    wide = {"wide": np.ones((4, 9))}
+    theirs = trimesh.Trimesh(
+        SQUARE, [[0, 1, 2], [0, 2, 3]], vertex_attributes=wide, metadata={"list": [1]}, process=False
+    )
+    for given in (theirs, trimesh.Scene({"a": theirs})):
+        assert "wide" in notes_of(given) and "metadata list" in notes_of(given)
+
+
+def test_what_pyvista_has_and_a_mesh_cannot_have_is_a_warning():
+    pyvista = pytest.importorskip("pyvista")
+    theirs = pyvista.PolyData(SQUARE, [3, 0, 1, 2, 3, 0, 2, 3])
+    theirs.point_data["words"] = ["a", "b", "c", "d"]
+    theirs.field_data["series"] = np.arange(3.0)
+    theirs.point_data["wide"] = np.ones((4, 9))
+    told = notes_of(theirs)
+    assert all(name in told for name in ("words", "field data series", "wide")), told
+    with pytest.raises(MeshError, match=r"extract_surface\(\)"):
+        bsm.encode(theirs.cast_to_unstructured_grid())
+
+
+def test_textures_of_open3d_are_a_warning():
+    class Open3D:
+        """As `open3d.geometry.TriangleMesh` has it."""
+
+        vertices, triangles = SQUARE, np.array([[0, 1, 2], [0, 2, 3]])
+        vertex_normals = vertex_colors = triangle_uvs = triangle_material_ids = np.zeros((0, 3))
+        textures = (np.zeros((2, 2, 3), np.uint8),)
+
+    assert "left out: textures" in notes_of(Open3D())
+
+
+def test_tiles_name_what_an_obj_or_an_stl_has_and_read_lines_that_go_on(tmp_path):
+    (tmp_path / "a.obj").write_text(f"{THREE}v 0 1 \\\n 0\ng one\nf 1 2 3\ng two\nf 1 \\\n3 4\nl 1 2\n")
+    done = run("tile", tmp_path / "a.obj", "-o", tmp_path / "tiles", "--grid-cell", 0.001)
+    assert done.returncode == 0 and "left out: group, lines" in done.stderr, done.stderr
+    data = bytearray(binary(b"x", 2, 2))
+    data[84 + 48] = 7
+    (tmp_path / "a.stl").write_bytes(data)
+    done = run("tile", tmp_path / "a.stl", "-o", tmp_path / "more", "--grid-cell", 0.001)
+    assert done.returncode == 0 and "left out: attribute" in done.stderr, done.stderr
