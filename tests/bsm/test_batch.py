@@ -154,6 +154,26 @@ def test_no_input_is_replaced_even_by_force(output, meshes, tmp_path):
     assert (tmp_path / "a.npz").read_bytes() == mesh
 
 
+def test_outputs_that_the_user_did_not_name_are_not_written_through_links(meshes, streams, tmp_path):
+    precious = tmp_path / "precious"
+    precious.write_text("precious")
+    (tmp_path / "out").mkdir()
+    for name in ("a.bsm", "a.ply", "b.bsm"):
+        (tmp_path / "out" / name).symlink_to(precious)
+    for words in (
+        ("encode", meshes / "a.npz", "-o", tmp_path / "out/"),
+        ("encode", meshes / "a.npz", meshes / "b.npz", "-o", tmp_path / "out"),
+        ("encode", "--recursive", meshes, "-o", tmp_path / "out"),
+        ("decode", streams / "a.bsm", "-o", f"{tmp_path}/out/"),
+        ("decode", streams / "a.bsm", "-o", tmp_path / "out"),
+    ):
+        refused = bsm(*words, "-f")
+        assert (refused.returncode, "is a symbolic link" in refused.stderr) == (2, True), (words, refused.stderr)
+        assert precious.read_text() == "precious"
+    assert bsm("encode", "-f", meshes / "a.npz", "-o", tmp_path / "out" / "a.bsm", *SMALL).returncode == 0
+    assert precious.read_bytes().startswith(b"\x89BSM")
+
+
 def test_a_folder_without_a_name(tmp_path):
     done = bsm("encode", ".")
     assert (done.returncode, done.stderr) == (2, "bsm: . gives the output no name; name it with -o\n")

@@ -86,6 +86,29 @@ def test_the_file_behind_a_link_is_replaced(tmp_path):
     assert (tmp_path / "real").read_bytes() == b"new"
 
 
+def test_a_link_that_the_user_did_not_name_is_replaced_itself(tmp_path):
+    (tmp_path / "real").write_bytes(b"old")
+    (tmp_path / "link").symlink_to("real")
+    os.mkfifo(tmp_path / "pipe")
+    for name in ("link", "pipe"):
+        with pytest.raises(FileExistsError), open_output(tmp_path / name, follow=False) as file:
+            file.write(b"new")
+        with open_output(tmp_path / name, overwrite=True, follow=False) as file:
+            file.write(b"new")
+        assert not (tmp_path / name).is_symlink() and (tmp_path / name).read_bytes() == b"new"
+    assert (tmp_path / "real").read_bytes() == b"old"
+
+
+def test_what_lies_in_the_place_of_a_dead_writers_file_is_not_waited_for(tmp_path):
+    """A pipe would be waited for; a file that a link names is not ours."""
+    os.mkfifo(tmp_path / ".a.abcd1234.part")
+    (tmp_path / "real").write_bytes(b"old")
+    (tmp_path / ".a.efgh5678.part").symlink_to("real")
+    with open_output(tmp_path / "a") as file:
+        file.write(b"new")
+    assert (tmp_path / "a").read_bytes() == b"new" and (tmp_path / "real").read_bytes() == b"old"
+
+
 def test_folders_and_missing_folders(tmp_path):
     with pytest.raises(IsADirectoryError), open_output(tmp_path):
         pass

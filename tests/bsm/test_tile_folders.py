@@ -1,11 +1,15 @@
 """Folders of `bsm tile`: one run at a time, nothing of others is removed, nothing is begun anew without being asked."""
 
 import json
+import os
+import signal
 import socket
 import subprocess
 import sys
 import time
+from contextlib import suppress
 
+import numpy as np
 import pytest
 
 from bsm.files.mesh import write_mesh
@@ -152,3 +156,79 @@ def test_what_is_refused_leaves_nothing_behind(source, tmp_path, words):
         refused = tile(tmp_path / "empty.ply", tmp_path / output, "--work", tmp_path / "work")
         assert refused.returncode == 3 and "empty" in refused.stderr
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["empty.ply", source.name, "own", "thesis.txt"]
+
+
+@pytest.mark.parametrize(
+    ("name", "target"),
+    [
+        *((LOCK, target) for target in ("precious", "new", None)),
+        *(("manifest.json", target) for target in ("precious", None)),
+        *((".work", ""), (".work/plan.json", "precious"), (".work/positions", "new"), ("00000.tiles", "precious")),
+    ],
+)
+def test_links_in_a_folder_of_others_are_not_written_through(source, tmp_path, name, target):
+    """Neither to a file that is there, nor to one that is not; and a pipe is not waited for."""
+    kept, place = tmp_path / "kept", tmp_path / "out" / name
+    kept.mkdir()
+    (kept / "precious").write_text("precious")
+    place.parent.mkdir(parents=True)
+    if target is None:
+        os.mkfifo(place)
+    else:
+        place.symlink_to(kept / target)
+    for option in ("--resume", "-f"):
+        done = tile(source, tmp_path / "out", option)
+        assert done.returncode in ((0, 9) if name.endswith("tiles") else (2, 3, 9)), done.stderr
+        assert [path.name for path in kept.iterdir()] == ["precious"]
+        assert (kept / "precious").read_text() == "precious"
+
+
+def test_tilesets_are_not_written_through_links(source, tmp_path):
+    kept, output = tmp_path / "kept", tmp_path / "out"
+    kept.mkdir()
+    (kept / "precious").write_text("precious")
+    assert tile(source, output).returncode == 0
+    (output / "tileset.json").symlink_to(kept / "precious")
+    (output / "glb").symlink_to(kept)
+    refused = tile(source, output, "-f", "--tileset")
+    assert refused.returncode == 2 and "glb is a symbolic link" in refused.stderr
+    (output / "glb").unlink()
+    assert tile(source, output, "-f", "--tileset").returncode == 0
+    assert not (output / "tileset.json").is_symlink()
+    assert [path.name for path in kept.iterdir()] == ["precious"] and (kept / "precious").read_text() == "precious"
+
+
+@pytest.mark.slow
+def test_a_run_that_is_killed_anywhere_goes_on_to_the_same_tiles(source, tmp_path):
+    """With all its processes, at ten places; `--resume` and `-f` end with the files of a run that was left alone."""
+
+    def files_of(folder):
+        return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+    words = [sys.executable, "-m", "bsm", "tile", source, "--triangles", "100", "--grid-cell", str(CELL), "-j", "2"]
+    begin = time.monotonic()
+    subprocess.run([*words, "-o", tmp_path / "alone"], check=True, capture_output=True)
+    seconds, expected = time.monotonic() - begin, files_of(tmp_path / "alone")
+    random = np.random.default_rng(8)
+    for trial, share in enumerate(random.uniform(0.1, 1.0, 10)):
+        output = tmp_path / f"out{trial}"
+        run = subprocess.Popen([*words, "-o", output], stderr=subprocess.DEVNULL, start_new_session=True)
+        time.sleep(share * seconds)
+        with suppress(ProcessLookupError):
+            os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
+        if output.exists() and set(files_of(output)) != set(expected):
+            refused = subprocess.run([*words, "-o", output], capture_output=True, text=True, check=False)
+            assert refused.returncode == 9 and "--resume" in refused.stderr, refused.stderr
+        done = subprocess.run(
+            [*words, "-o", output, ("--resume", "-f")[trial % 2]], capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        assert files_of(output) == expected
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="for root no folder is read-only")
+def test_a_folder_that_is_read_only_is_named(source, tmp_path):
+    (tmp_path / "out").mkdir(mode=0o555)
+    refused = tile(source, tmp_path / "out")
+    assert refused.returncode == 9 and "out" in refused.stderr and not any((tmp_path / "out").iterdir())

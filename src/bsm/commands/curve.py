@@ -97,7 +97,7 @@ def _save(
         texts = {"csv": file.getvalue()} if args.csv else {}
         texts |= {"tex": latex(columns, rows) + "\n"} if args.latex else {}
         for suffix, text in texts.items():
-            write_output(folder / f"{name}.{suffix}", text.encode(), overwrite=True)
+            write_output(folder / f"{name}.{suffix}", text.encode(), overwrite=True, follow=False)
             console.note(str(folder / f"{name}.{suffix}"))
     for picture in pictures:
         for path in picture.save(folder, (*FORMATS, *(("pdf",) if args.pdf else ()))):

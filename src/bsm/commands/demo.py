@@ -63,7 +63,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         f"{error.nmsve_db:.2f} dB, normals {error.theta_deg:.2f} degrees off on average"
     )
 
-    write_output(stream_path, stream, overwrite=args.force)
+    write_output(stream_path, stream, overwrite=args.force, follow=False)
     with console.progress("drawing"):
         bounds, far = bounds_of(sample.positions), np.linalg.norm(decoded.positions - sample.positions, axis=1)
         top = float(np.percentile(far, 99)) or 1.0
@@ -76,7 +76,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         except DependencyError as problem:
             console.note(f"no titles: {problem}")
             drawn = png(np.hstack(pictures))
-        write_output(picture_path, drawn, overwrite=args.force)
+        write_output(picture_path, drawn, overwrite=args.force, follow=False)
     written = [str(stream_path), str(picture_path)]
     console.note(f"written    {', '.join(written)}")
     if args.json:

@@ -53,7 +53,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with console.progress("encoding") as progress:
         found = compress(document, coder, rule, beside.name if beside else None, progress)
     if beside and found.fallback:
-        write_output(str(beside), found.fallback, overwrite=args.force)
+        write_output(str(beside), found.fallback, overwrite=args.force, follow=False)
     write_output(args.output, found.data, overwrite=args.force)
     console.note(
         f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "

@@ -64,6 +64,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         os.stat(args.input)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
     work = Path(os.path.abspath(args.work or beside))
+    if not args.work and work.is_symlink():
+        raise OptionError(f"{work} is a symbolic link; remove it, or name a folder with --work")
     with ExitStack() as folders:
         for folder in [] if is_url(args.output) else [Path(args.output)]:
             folders.enter_context(there(folder))
@@ -151,7 +153,8 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
         return load_plan(work / "plan.json")
     remove_made(work)
     work.mkdir(parents=True, exist_ok=True)
-    note.write_text(asked_for)
+    with note.open("x") as file:
+        file.write(asked_for)
     try:
         raw = read_big(args.input, args.format, work, console)
         if raw.left_out:

@@ -29,7 +29,7 @@ from bsm.codec.static.targets import Target
 from bsm.console import finite
 from bsm.evaluation.sample import knot
 from bsm.files.inspection import inspect_stream
-from bsm.files.output import write_output
+from bsm.files.output import open_output, write_output
 
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int) -> bytes:
@@ -273,7 +273,7 @@ def write_result(result: Result, folder: Path) -> Path:
     mesh = result.get("mesh")
     name = f"{mesh['name']}.{result['codec']}" if mesh else f"{result['sequence']['name']}-sequence"
     path = folder / f"{name}.json"
-    write_output(path, json.dumps(result, indent=1, allow_nan=False).encode(), overwrite=True)
+    write_output(path, json.dumps(result, indent=1, allow_nan=False).encode(), overwrite=True, follow=False)
     return path
 
 
@@ -520,7 +520,8 @@ class Picture(NamedTuple):
             figure = new_figure(self.width, self.height)
             self.draw(figure)
             for path in paths:
-                figure.savefig(path, dpi=300)
+                with open_output(path, overwrite=True, follow=False) as file:
+                    figure.savefig(file, dpi=300, format=path.suffix[1:])
         return paths
 
 

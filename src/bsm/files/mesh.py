@@ -152,7 +152,12 @@ def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> W
 
 
 def save_written(
-    path: str | os.PathLike[str], written: Written, *, overwrite: bool, overwrite_beside: bool | None = None
+    path: str | os.PathLike[str],
+    written: Written,
+    *,
+    overwrite: bool,
+    overwrite_beside: bool | None = None,
+    follow: bool = True,
 ) -> tuple[str, ...]:
     """Write a mesh file, and before it what lies beside it; returns what is left out. Beside a pipe nothing can lie."""
     beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
@@ -161,8 +166,8 @@ def save_written(
     for name in beside:
         refuse_to_overwrite(name, replace_beside)
     for name, data in beside.items():
-        write_output(name, data, overwrite=replace_beside)
-    write_output(path, written.data, overwrite=overwrite)
+        write_output(name, data, overwrite=replace_beside, follow=False)
+    write_output(path, written.data, overwrite=overwrite, follow=follow)
     return (*written.left_out, *(() if beside else written.beside))
 
 

@@ -47,8 +47,11 @@ class Terminated(SystemExit):
 
 
 @contextmanager
-def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Iterator[BinaryIO]:
-    """Open a file for writing whose name appears only when the `with` block has ended well."""
+def open_output(path: str | os.PathLike[str], *, overwrite: bool = False, follow: bool = True) -> Iterator[BinaryIO]:
+    """Open a file for writing whose name appears only when the `with` block has ended well.
+
+    `follow` is for names that the user gave: the target of a symbolic link is replaced, and devices are written to.
+    """
     if os.fspath(path) == "-":
         piped = standard_output()
         yield piped
@@ -60,13 +63,12 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
         return
     if os.path.isdir(path):
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
-    if not can_be_replaced(path):
+    if follow and not can_be_replaced(path):
         descriptor = _descriptor(path)
         with by_its_own_name(path), open(path if descriptor is None else os.dup(descriptor), "wb") as device:
             yield device
         return
-    # Through a symbolic link the file behind it is replaced, not the link.
-    target = Path(os.path.realpath(path))
+    target = Path(os.path.realpath(path) if follow else path)
     refuse_to_overwrite(path, overwrite)
     with termination_as_exception(), by_its_own_name(path):
         name = lock = None
@@ -92,8 +94,8 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
                 os.close(lock)
 
 
-def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool) -> None:
-    with open_output(path, overwrite=overwrite) as file:
+def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool, follow: bool = True) -> None:
+    with open_output(path, overwrite=overwrite, follow=follow) as file:
         file.write(data)
 
 
@@ -186,10 +188,17 @@ def _temporary(target: Path) -> tuple[int, str, int | None]:
         os.close(handle)
         os.close(lock)
     for part in target.parent.glob(f"{glob.escape(pattern)}????????{_TEMPORARY}"):
-        with suppress(OSError), part.open("rb") as file:
+        with suppress(OSError), os.fdopen(open_own(part, os.O_RDONLY)) as file:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             part.unlink()
     return handle, name, lock
+
+
+def open_own(path: Path, flags: int) -> int:
+    """Open a file of a name that the user did not give: through no link, and neither a pipe nor a device."""
+    if path.is_symlink() or (path.exists() and not path.is_file()):
+        raise FileExistsError(errno.EEXIST, "this is not a regular file; remove it", os.fspath(path))
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0), 0o666)
 
 
 def _descriptor(path: str | os.PathLike[str]) -> int | None:
@@ -220,7 +229,7 @@ def by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
 
 def _permissions(target: Path) -> int:
     """Permissions of the file that is replaced, or those that any new file gets (a temporary file is private)."""
-    if target.exists():
+    if target.is_file() and not target.is_symlink():
         return target.stat().st_mode & 0o777
     with _UMASK:
         mask = os.umask(0)
@@ -266,12 +275,19 @@ def default_output(path: str, suffix: str) -> str:
     found = beside(path, output.name) if is_url(path) else str(output)
     if found == path or (not is_url(path) and output == Path(path)):
         raise OptionError(f"the output would replace the input {path}; name another with -o")
-    return found
+    return no_link(found)
 
 
 def output_inside(folder: str, path: str, suffix: str) -> str:
     name = _with_suffix(path, suffix).name
-    return inside(folder, name) if is_url(folder) else str(Path(folder, name))
+    return inside(folder, name) if is_url(folder) else no_link(str(Path(folder, name)))
+
+
+def no_link(path: str) -> str:
+    """Return a name that the user did not give; `OptionError` for a symbolic link."""
+    if not is_url(path) and os.path.islink(path):
+        raise OptionError(f"{path} is a symbolic link; remove it, or name the output with -o")
+    return path
 
 
 def _with_suffix(path: str, suffix: str) -> Path:

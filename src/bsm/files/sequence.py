@@ -160,13 +160,13 @@ def _cache_writer(
             refuse_to_overwrite(beside, overwrite or fits)
             spool.seek(0)
             with (
-                open_output(name, overwrite=overwrite) as file,
+                open_output(name, overwrite=overwrite, follow=name == path) as file,
                 write_cache(file, kind, taken - begun, shared.frame_rate, begun) as write,
             ):
                 for _ in range(taken - begun):
                     write(np.frombuffer(spool.read(mesh.positions.nbytes), np.float64).reshape(-1, 3))
             if not fits:
-                shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite))
+                shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False))
             spool.seek(0)
             spool.truncate()
 

@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 
 from bsm.bitstream.errors import OptionError
 from bsm.files import pipes
-from bsm.files.output import default_output, output_inside, own_name, refuse_collisions
+from bsm.files.output import default_output, no_link, output_inside, own_name, refuse_collisions
 from bsm.jobs.task import Job
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
@@ -50,7 +50,7 @@ def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[
         for path in sorted(Path(folder).rglob("*")):
             if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
                 place = path if output is None else Path(output, path.relative_to(folder))
-                jobs.append(Job(str(path), str(place.with_suffix(suffix))))
+                jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix)))))
     jobs = apart(jobs, lambda _: suffix)
     if not jobs:
         raise OptionError(f"there are no mesh files in {' or '.join(folders)}, or below ({', '.join(MESH_SUFFIXES)})")
@@ -67,7 +67,7 @@ def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:
     def output(job: Job) -> str:
         added = suffix(job.input)
         kept = PurePath(pipes.name_in(job.input) if pipes.is_url(job.input) else job.input).suffix
-        return job.output if often[job.output] < 2 else f"{job.output.removesuffix(added)}{kept}{added}"
+        return job.output if often[job.output] < 2 else no_link(f"{job.output.removesuffix(added)}{kept}{added}")
 
     return [replace(job, output=output(job)) for job in jobs]
 

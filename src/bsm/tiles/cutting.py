@@ -165,7 +165,7 @@ class Plan(Root):
         return sorted(faces, key=way)
 
     def save(self, path: Path) -> None:
-        write_output(path, json.dumps(asdict(self)).encode(), overwrite=True)
+        write_output(path, json.dumps(asdict(self)).encode(), overwrite=True, follow=False)
 
 
 def load_plan(path: Path) -> Plan:

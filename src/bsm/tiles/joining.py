@@ -141,14 +141,16 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             ends[name[:size]] = np.array([np.minimum(low, own[0]), np.maximum(high, own[1])])
             below.setdefault(name[: size - 1], set()).add(name[:size])
     if not is_url(folder):
-        os.makedirs(os.path.join(folder, _CONTENT), exist_ok=True)
+        os.makedirs(contents := os.path.join(folder, _CONTENT), exist_ok=True)
+        if os.path.islink(contents):
+            raise OptionError(f"{contents} is a symbolic link; remove it")
     with console.progress("writing") as progress:
         for number, (name, (shard, tile)) in enumerate(known.items(), 1):
             table, faces = tiles.decoded(shard, tile)
             moved = ((table[:, :3] - ends[name][0]) * tiles.lattice.cell).astype(np.float32)
             mesh = TriangleMesh(moved.astype(np.float64), faces, tiles.attributes(table), {"up": "z"})
             data = packed(write_glb(mesh, name).data)
-            write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite)
+            write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             progress(number, len(known))
     diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
 
@@ -165,7 +167,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     root = node("r", ends["r"][0])
     root["transform"][12:15] = tiles.lattice.positions(ends["r"][0]).tolist()
     tree = {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal, "root": root}
-    write_output(inside(folder, TILESET), json.dumps(tree).encode() + b"\n", overwrite=overwrite)
+    write_output(inside(folder, TILESET), json.dumps(tree).encode() + b"\n", overwrite=overwrite, follow=False)
     return len(known)
 
 

@@ -46,12 +46,12 @@ def tile_one(job: TileJob, console: Console) -> Facts:
         mesh, error = _coarser(plan, name, folder, job.most)
     places = np.asarray(mesh.positions, np.int32)
     if not job.finest:
-        with open_output(folder / f"{name}.mesh", overwrite=True) as file:
+        with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
             for table in (np.array(error), places, mesh.faces, *(_of_vertices(a, mesh) for a in mesh.attributes)):
                 write_npy(file, table)
     options = EncodeOptions(grid_cell=plan.lattice.cell, grid_origin=plan.lattice.origin, threads=1)  # type: ignore[arg-type]
     data = Encoder(replace(mesh, positions=plan.lattice.positions(places)), options).encode()
-    write_output(job.output, data, overwrite=True)
+    write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
     counts = {"vertices": len(places), "faces": len(mesh.faces), "apart": error}
     return {"input": job.input, "output": job.output, "output_bytes": len(data), **counts, **ends}

@@ -62,7 +62,7 @@ class Raw:
 
 @contextmanager
 def table_file(path: Path) -> Iterator[BinaryIO]:
-    with by_its_own_name(path), path.open("wb") as file:
+    with by_its_own_name(path), path.open("xb") as file:
         yield file
 
 

@@ -25,7 +25,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.output import open_output, write_output
-from bsm.files.pipes import about, inside, is_url, named, place_of, read_range
+from bsm.files.pipes import about, inside, is_pipe, is_url, named, place_of, read_range
 from bsm.files.stream import decode_whole
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Plan, Root
@@ -58,7 +58,9 @@ class Unfinished:
         begin = time.perf_counter()
         levels = [{"level": tile, "whole": self.whole[tile], "tiles": self.tiles[tile]} for tile in sorted(self.tiles)]
         head = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": self.source, "complete": False}
-        write_output(inside(self.folder, MANIFEST), json.dumps({**head, "levels": levels}).encode(), overwrite=True)
+        write_output(
+            inside(self.folder, MANIFEST), json.dumps({**head, "levels": levels}).encode(), overwrite=True, follow=False
+        )
         end = time.perf_counter()
         self.due = end + max(_EVERY, (end - begin) / _SHARE)
 
@@ -67,6 +69,8 @@ def is_unfinished(folder: str) -> bool | None:
     """Whether a folder holds the manifest of a run that has not ended; None: none. One that is not ours stays."""
     name = inside(folder, MANIFEST)
     try:
+        if is_pipe(name):
+            raise KeyError(name)
         given = json_of(name, DEFAULT_LIMITS)
         if given["format"] != "bsm tiles":
             raise KeyError(given["format"])
@@ -84,7 +88,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
     while waiting:
         name = f"{len(shards):05}.tiles"
         tiles: list[Tile] = []
-        with open_output(inside(folder, name), overwrite=overwrite) as file:
+        with open_output(inside(folder, name), overwrite=overwrite, follow=False) as file:
             offset = 0
             while waiting and offset < SHARD and len(tiles) < MOST_TILES:
                 facts = waiting.pop()
@@ -118,7 +122,9 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         "levels": [{"level": level, **sums[level]} for level in sorted(sums)],
         "shards": shards,
     }
-    write_output(inside(folder, MANIFEST), json.dumps(manifest, indent=1).encode() + b"\n", overwrite=True)
+    write_output(
+        inside(folder, MANIFEST), json.dumps(manifest, indent=1).encode() + b"\n", overwrite=True, follow=False
+    )
     return manifest
 
 

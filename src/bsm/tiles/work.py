@@ -9,6 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
+from bsm.files.output import open_own
 
 try:
     import fcntl
@@ -40,7 +41,7 @@ def held(folder: Path, take_over: bool) -> Iterator[None]:
     """Hold a folder; `OSError` with the process and host of whoever holds it, or left it unless `take_over`."""
     path = folder / LOCK
     while True:
-        file = path.open("a+")
+        file = os.fdopen(open_own(path, os.O_RDWR | os.O_CREAT | os.O_APPEND), "a+")
         try:
             if fcntl is not None:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -72,21 +73,25 @@ def _held_by(path: Path, message: str) -> OSError:
 
 
 def is_own(work: Path) -> bool:
-    """Whether a run has left its note in a folder."""
+    """Return whether a run has left its note in a folder; a run that was killed at once has left an empty one."""
     with suppress(OSError):
-        return (work / NOTE).read_text(errors="replace").startswith(_BEGIN)
+        note = (work / NOTE).read_text(errors="replace") if (work / NOTE).is_file() else None
+        return note is not None and (note.startswith(_BEGIN) or (not note and {*os.listdir(work)} <= {LOCK, NOTE}))
     return False
 
 
 def refuse_others(work: Path) -> None:
-    """Raise `OptionError` for a folder with files, but without the note of a run."""
+    """Raise `OptionError` for a folder with files, but without the note of a run, and for links in it."""
+    if work.is_dir() and any(path.is_symlink() for path in work.iterdir()):
+        raise OptionError(f"{work} holds symbolic links; name an empty folder, or a new one, with --work")
     if work.is_dir() and {*os.listdir(work)} - {LOCK} and not is_own(work):
         raise OptionError(f"{work} holds other files; name an empty folder, or a new one, with --work")
 
 
 def remove_made(work: Path) -> None:
     """Remove what a run has made in a folder, and the folder if nothing else is in it."""
-    for name in os.listdir(work) if work.is_dir() else ():
+    # The note comes last: without it, what is left would be that of others.
+    for name in sorted(os.listdir(work), key=NOTE.__eq__) if work.is_dir() else ():
         if name != LOCK and _MADE.fullmatch(name):
             (work / name).unlink(missing_ok=True)
     if work.is_dir() and not {*os.listdir(work)} - {LOCK}:

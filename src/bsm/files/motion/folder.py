@@ -187,7 +187,7 @@ def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[
         was_there = target.exists()
         if not was_there:
             written.extend([target, *(target.parent / name for name in file.beside)])
-        return save_written(target, file, overwrite=overwrite)
+        return save_written(target, file, overwrite=overwrite, follow=False)
 
     try:
         yield write
