@@ -21,6 +21,8 @@ from bsm.codec.static.preamble_encoding import JoinedMesh, joined
 Frame: TypeAlias = npt.ArrayLike | TriangleMesh
 """Positions, shape (n, 3), or a mesh, whose faces may be others than those of the frame before."""
 
+SHOWN = ("material.", "image.")  # metadata of materials and images begin with these
+
 
 @dataclass(frozen=True, eq=False)
 class Run:
@@ -44,6 +46,7 @@ class RunSplitter:
         self._names = {attribute.name for attribute in attributes}
         self._ahead: Frame | None = next(self._frames, None)
         self._number = 0
+        self._shown: dict[str, str | int | float | bytes] | None = None  # materials and images of the first frame
         self.changed: dict[str, int] = {}
 
     def runs(self) -> Iterator[Run]:
@@ -52,6 +55,7 @@ class RunSplitter:
             mesh = (
                 ahead if isinstance(ahead, TriangleMesh) else TriangleMesh(np.asarray(ahead), np.asarray(self._faces))
             )
+            self._note_materials(mesh)
             moving = tuple(a for a in mesh.attributes if can_move(a) and a.name in (self._names or {a.name}))
             yield Run(mesh, self._of(mesh, moving), self._number, moving)
 
@@ -67,10 +71,19 @@ class RunSplitter:
                     )
                 return
             else:
+                self._note_materials(ahead)
                 frame = self._frame(mesh, moving, ahead)
             self._number += 1
             yield frame
             self._ahead = next(self._frames, None)  # no sooner, since frames may come live
+
+    def _note_materials(self, mesh: TriangleMesh) -> None:
+        """Take note of materials and images that differ from those of the first frame, which a stream has once."""
+        now = {name: value for name, value in mesh.metadata.items() if name.startswith(SHOWN)}
+        first = self._shown = now if self._shown is None else self._shown
+        for name in sorted(now.keys() | first.keys()):
+            if now.get(name) != first.get(name):
+                self.changed.setdefault(name, self._number)
 
     def _frame(self, first: TriangleMesh, moving: tuple[Attribute, ...], mesh: TriangleMesh) -> npt.ArrayLike:
         """A frame of the run that begins with `first`."""

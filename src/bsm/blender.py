@@ -285,7 +285,7 @@ def _write(
         frames = [first, *(frame for _, frame in others)]
         count, others = len(frames), enumerate(frames[1:], 1)
     Path(path).parent.mkdir(parents=True, exist_ok=True)
-    with open_output(path, overwrite=True) as file, write_cache(file, "pc2", count) as write:
+    with open_output(path, overwrite=True) as file, write_cache(file, "pc2", range(count)) as write:
         write(first)
         for number, frame in others:
             write(frame)

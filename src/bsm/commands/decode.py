@@ -141,7 +141,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if args.permutation:
         mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
         order, faces = numbers_of(mesh.positions), mesh.faces
-    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata)
+    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata, first=first)
     count = vertices = 0
     with (
         sequence_writer(output, kind, faces, expected, overwrite=args.may_replace(output), shared=shared) as write,

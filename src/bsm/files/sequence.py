@@ -9,6 +9,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import count as count_from
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pip
 from bsm.files.mesh import GLTF, USD_FORMATS, WRITTEN_FORMATS, by_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
-from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
+from bsm.files.motion.frames import START, STEP, TIMES, Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input, is_pipe, is_url
 
@@ -101,7 +102,7 @@ def sequence_writer(
         return
     with open_output(path, overwrite=overwrite) as file:
         if kind == "npz":
-            with open_npz_sequence(file, faces, count, shared.attributes) as write:
+            with open_npz_sequence(file, faces, count, shared.attributes, shared.metadata) as write:
                 yield _of_one_mesh(write, kind)
         elif kind == "npy":
             write_npy(file, faces)
@@ -114,7 +115,7 @@ def sequence_writer(
                 yield write_changing
             return
         if kind == "npy":
-            shared.loses([attribute.name for attribute in shared.attributes()])
+            shared.loses([*(attribute.name for attribute in shared.attributes()), *shared.metadata()])
 
 
 def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
@@ -161,10 +162,13 @@ def _cache_writer(
             spool.seek(0)
             with (
                 open_output(name, overwrite=overwrite, follow=name == path) as file,
-                write_cache(file, kind, taken - begun, shared.frame_rate, begun) as write,
+                write_cache(file, kind, list(map(shared.code, range(begun, taken))), shared.frame_rate) as write,
             ):
                 for _ in range(taken - begun):
                     write(np.frombuffer(spool.read(mesh.positions.nbytes), np.float64).reshape(-1, 3))
+            held = {START, STEP} if kind == "pc2" else {START, STEP, TIMES, "frame_rate"}
+            shared.loses(name for name in (TIMES, "frame_rate") if name in mesh.metadata and name not in held)
+            mesh = replace(mesh, metadata={name: value for name, value in mesh.metadata.items() if name not in held})
             if not fits:
                 shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False))
             spool.seek(0)

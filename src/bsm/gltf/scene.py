@@ -14,7 +14,16 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
-from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, painted_like, rate_of_times
+from bsm.files.motion.frames import (
+    LIKELY_RATES,
+    START,
+    Frames,
+    Wanted,
+    between,
+    checked_frames,
+    painted_like,
+    rate_of_times,
+)
 from bsm.files.pipes import is_url
 from bsm.files.room import Doubles, Ints, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, FAN, MESHOPT, STRIP, TRIANGLES, Array, Tree
@@ -529,7 +538,8 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     notes += [f"{others} other {'animation was' if others == 1 else 'animations were'} left out"] if others else []
     moving = any("NORMAL" in primitive["attributes"] for primitive in document.primitives())
     notes += ["left out, for they move: normals"] if moving else []
-    mesh = still.mesh
+    notes += between("key times", (keys - keys[0]) * rate, rate)
+    mesh = replace(still.mesh, metadata={**still.mesh.metadata, **({START: keys[0] * rate} if keys[0] else {})})
     frames = checked_frames(path, map(scene.at, times.tolist()), len(mesh.positions))
     shared = mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata
     meshes = (painted_like(mesh, _painted(scene, mesh, time)) for time in times.tolist())

@@ -235,7 +235,8 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
         yield write
         assert moving is not None
         shared.loses(moving.left_out)
-        moving.animate(shared.frame_rate or USUAL_RATE)
+        codes = np.array([shared.code(number) for number in range(moving.frames)])
+        moving.animate((codes - codes[0]) / (shared.frame_rate or USUAL_RATE))
         moving.write(file)
 
 
@@ -301,12 +302,13 @@ class _Moving(_Still):
                 {n: self.numbers(d[rows], bounds=True) for n, d in moved if n != "COLOR_0" or d.any()}
             )
 
-    def animate(self, rate: float) -> None:
+    def animate(self, shown: Doubles) -> None:
+        """Show each frame from its time on, in seconds, shape (T,)."""
         samplers: list[Tree] = []
         channels: list[Tree] = []
 
         def move(nodes: range, path: str, times: Array, values: int, way: str) -> None:
-            keys = self.numbers((times / rate).astype(np.float32)[:, None], bounds=True)
+            keys = self.numbers(shown[times].astype(np.float32)[:, None], bounds=True)
             samplers.append({"input": keys, "output": values, "interpolation": way})
             place = len(samplers) - 1
             channels.extend({"sampler": place, "target": {"node": node, "path": path}} for node in nodes)

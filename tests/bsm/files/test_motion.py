@@ -318,6 +318,37 @@ def test_order_and_gaps():
     assert not look_like_frames(["a1b7.obj", "a2b9.obj"])
 
 
+@pytest.mark.parametrize(
+    "names",
+    [
+        [f"f_{number}.obj" for number in range(-5, 7)],
+        [f"run.{number:04d}.ply" for number in range(-12, 3)],
+        [f"{number}.ply" for number in (-20, -10, 0, 10)],
+        [f"take-{number}.obj" for number in range(1, 12)],  # hyphens
+        [f"2026-01-{day:02d}.ply" for day in range(1, 12)],
+        [f"box1.{number}.obj" for number in range(8, 12)],
+        [f"t_{number / 2}.obj" for number in range(9)],
+    ],
+)
+def test_signed_numbers_count_up(names):
+    assert in_order(names[::-1]) == in_order(sorted(names)) == names
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        [f"f{number}.obj" for number in range(-5, 7)],
+        ["walk-2.obj", "walk-1.obj", "walk0.obj"],
+        ["t_0.25.ply", "t_0.5.ply", "t_0.75.ply", "t_1.0.ply"],
+        ["t_0.ply", "t_0.5.ply", "t_1.ply", "t_1.5.ply"],
+    ],
+)
+def test_numbers_that_can_be_read_in_two_ways_are_refused(names):
+    for given in (names, names[::-1]):
+        with pytest.raises(MeshError, match="is unclear"):
+            in_order(given)
+
+
 def test_numbered_files_are_removed_after_an_error(tmp_path):
     positions, faces = bending(3)
     (tmp_path / "keep.txt").write_text("mine")
@@ -381,6 +412,81 @@ def test_damaged_caches(tmp_path, kind, data, error):
     (tmp_path / f"a.{kind}").write_bytes(data)
     with pytest.raises(error):
         open_sequence(str(tmp_path / f"a.{kind}"))
+
+
+TIMES = {
+    "start": ("mdd", [1.0, 1.04, 1.08, 1.12]),
+    "uneven": ("mdd", [0.0, 0.04, 0.2, 0.21]),
+    "nearly even": ("mdd", [0.0, 0.0403, 0.08, 0.12]),
+    "before zero": ("mdd", [-0.08, -0.04, 0.0, 0.04]),
+    "shot": ("pc2", (1001.0, 1.0)),
+    "half frames": ("pc2", (-3.5, 0.5)),
+}
+
+
+@pytest.mark.parametrize("name", TIMES)
+def test_the_timing_of_a_cache_comes_back(tmp_path, capsys, name):
+    kind, times = TIMES[name]
+    mesh = torus(5, 4)
+    write_mesh(tmp_path / "a.obj", mesh)
+    frames = np.array([mesh.positions * (1 + 0.1 * t) for t in range(4)])
+    if kind == "pc2":
+        head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), *times, 4)
+    else:
+        head = struct.pack(">ii4f", 4, len(mesh.positions), *times)
+    (tmp_path / f"a.{kind}").write_bytes(head + frames.astype("<f4" if kind == "pc2" else ">f4").tobytes())
+    assert bsm("encode", tmp_path / f"a.{kind}", "-o", tmp_path / "a.bsm", "--quick") == 0
+    assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / f"b.{kind}") == 0
+    assert (tmp_path / f"b.{kind}").read_bytes()[: len(head)] == head
+    assert bsm("decode", tmp_path / "a.bsm", "--frames", "2:4", "-o", tmp_path / f"c.{kind}") == 0
+    later = (tmp_path / f"c.{kind}").read_bytes()
+    if kind == "pc2":
+        assert struct.unpack_from("<ffi", later, 20) == (times[0] + 2 * times[1], times[1], 2)
+    else:
+        assert np.allclose(struct.unpack_from(">2f", later, 8), times[2:], atol=1e-6)
+    assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "b.npz") == 0
+    assert bsm("encode", tmp_path / "b.npz", "-o", tmp_path / "b.bsm", "--quick") == 0
+    assert bsm("decode", tmp_path / "b.bsm", "-f", "-o", tmp_path / f"b.{kind}") == 0
+    assert (tmp_path / f"b.{kind}").read_bytes()[: len(head)] == head
+
+
+def test_times_that_make_no_sense_are_noted(tmp_path, capsys):
+    mesh = torus(5, 4)
+    write_mesh(tmp_path / "a.obj", mesh)
+    points = np.tile(mesh.positions, (2, 1, 1))
+    for kind, head in (
+        ("mdd", struct.pack(">ii2f", 2, len(mesh.positions), 1.0, 0.0)),
+        ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), np.nan, 1.0, 2)),
+    ):
+        (tmp_path / f"a.{kind}").write_bytes(head + points.astype(f"{'<' if kind == 'pc2' else '>'}f4").tobytes())
+        assert bsm("encode", tmp_path / f"a.{kind}", "-o", tmp_path / f"{kind}.bsm", "--quick") == 0
+        assert "the times of frames are not numbers that grow" in capsys.readouterr().err
+
+
+def test_the_start_of_a_stage_comes_back_and_samples_between_frames_are_noted(tmp_path, capsys):
+    pxr = pytest.importorskip("pxr.Usd")
+    stage_of(tmp_path / "a.usda", [SQUARE, 3 * SQUARE, 2 * SQUARE], (1001, 1001.5, 1003))
+    assert bsm("encode", tmp_path / "a.usda", "-o", tmp_path / "a.bsm", "--quick") == 0
+    printed = capsys.readouterr().err
+    assert "1 of 3 time samples lie between the frames and are not read; --frame-rate 48 reads them" in printed
+    assert bsm("encode", tmp_path / "a.usda", "-f", "-o", tmp_path / "a.bsm", "--quick", "--frame-rate", 48) == 0
+    assert "between the frames" not in capsys.readouterr().err
+    assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "b.usda") == 0
+    stage = pxr.Stage.Open(str(tmp_path / "b.usda"))
+    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (2002, 2006, 48)
+
+
+def test_other_materials_of_later_frames_are_noted(tmp_path, capsys):
+    mesh = torus(5, 4)
+    for folder, more in (("same", ()), ("runs", ("--runs",))):
+        (tmp_path / folder).mkdir()
+        for number in range(3):
+            known = {"material.0.name": "skin", "material.0.baseColorFactor": "1 0 0 1" if number < 2 else "0 1 0 1"}
+            faces = mesh.faces if folder == "same" or number < 2 else mesh.faces[:-1]
+            moved = TriangleMesh(mesh.positions * (1 + 0.1 * number), faces, metadata=known)
+            write_mesh(tmp_path / folder / f"{number}.npz", moved)
+        assert bsm("encode", tmp_path / folder, "-o", tmp_path / f"{folder}.bsm", "--quick", *more) == 0
+        assert "material.0.baseColorFactor changes at frame 2, but stays as before" in capsys.readouterr().err
 
 
 def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):

@@ -315,6 +315,14 @@ def _parse_metadata(data: bytes) -> Metadata:
     return found
 
 
+def _written_metadata(metadata: Metadata) -> Array:
+    entries: dict[str, Any] = {
+        name: {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes) else value
+        for name, value in metadata.items()
+    }
+    return np.frombuffer(json.dumps(entries).encode(), np.uint8)
+
+
 def write_npz(mesh: TriangleMesh, stem: str) -> Written:
     """The npz of a mesh: `positions` as float64, `faces` as int32, and everything else it has."""
     arrays: dict[str, Array] = {"positions": mesh.positions, "faces": mesh.faces}
@@ -323,11 +331,7 @@ def write_npz(mesh: TriangleMesh, stem: str) -> Written:
         if attribute.indices is not None:
             arrays[f"corner/{attribute.name}/indices"] = attribute.indices
     if mesh.metadata:
-        entries: dict[str, Any] = {
-            name: {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes) else value
-            for name, value in mesh.metadata.items()
-        }
-        arrays["metadata"] = np.frombuffer(json.dumps(entries).encode(), np.uint8)
+        arrays["metadata"] = _written_metadata(mesh.metadata)
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]
     return Written(buffer.getvalue())
@@ -335,7 +339,11 @@ def write_npz(mesh: TriangleMesh, stem: str) -> Written:
 
 @contextmanager
 def open_npz_sequence(
-    file: BinaryIO, faces: Faces, count: int, attributes: Callable[[], tuple[Attribute, ...]] = tuple
+    file: BinaryIO,
+    faces: Faces,
+    count: int,
+    attributes: Callable[[], tuple[Attribute, ...]] = tuple,
+    metadata: Callable[[], Metadata] = dict,
 ) -> Iterator[Callable[[Positions], None]]:
     """Write an npz of `positions`, shape (T, n, 3), `faces` and attributes; yields what takes frame after frame."""
     kept: list[Positions] = []
@@ -365,6 +373,9 @@ def open_npz_sequence(
             if taken != count:
                 raise CorruptError(f"{taken} of {count} frames came")
         waiting.finish(archive, count)
+        if entries := metadata():
+            with archive.open(zipfile.ZipInfo("metadata.npy"), "w") as entry:
+                np.lib.format.write_array(entry, _written_metadata(entries))
 
 
 class _Waiting:

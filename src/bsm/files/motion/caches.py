@@ -7,7 +7,7 @@ of points, the time of each frame in seconds as float32, then float32 coordinate
 
 import os
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +19,7 @@ from bsm.bitstream.errors import CorruptError, FormatError, MeshError, Truncated
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.files.mesh import read_mesh
-from bsm.files.motion.frames import USUAL_RATE, Frames, Wanted, checked_frames, rate_of_times
+from bsm.files.motion.frames import START, STEP, USUAL_RATE, Frames, Wanted, checked_frames, timing_of
 from bsm.files.pipes import about
 from bsm.files.room import Doubles, require_count
 
@@ -38,11 +38,12 @@ class Cache:
     start: int
     kind: str
     rate: float = 0.0
+    timing: dict[str, float | str] | None = None  # as metadata; None: what the file says makes no sense
 
 
 def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames:
     """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves."""
-    cache = read_head(path, kind)
+    cache = read_head(path, kind, wanted.rate)
     require_count("vertices", cache.points, limits)
     require_count("frames", cache.frames, limits)
     beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
@@ -57,14 +58,15 @@ def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits:
     notes = [f"faces and attributes are those of {beside}"]
     notes += [f"left out, for they move: {', '.join(normals)}"] if normals else []
     frames = checked_frames(path, _samples(path, cache), cache.points)
-    shared = kept.attributes, tuple(notes), cache.rate, mesh.metadata
+    notes += ["the times of frames are not numbers that grow, and are left out"] if cache.timing is None else []
+    shared = kept.attributes, tuple(notes), cache.rate, {**mesh.metadata, **(cache.timing or {})}
     return Frames(mesh.faces, cache.frames, frames, *shared, rigged=cache.points)
 
 
-def read_head(path: str, kind: str) -> Cache:
+def read_head(path: str, kind: str, rate: float = 0.0) -> Cache:
     size = os.path.getsize(path)
     with open(path, "rb") as file:
-        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size)
+        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size, rate)
     if cache.frames < 1 or cache.points < 1:
         raise FormatError(f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points")
     needed = cache.start + 12 * cache.points * cache.frames
@@ -80,13 +82,16 @@ def _head_of_pc2(file: BinaryIO) -> Cache:
     head = file.read(_PC2.size)
     if len(head) < _PC2.size or not head.startswith(_SIGNATURE):
         raise FormatError('this is not a PC2 file: it does not begin with "POINTCACHE2"')
-    _, version, points, _, _, frames = _PC2.unpack(head)
+    _, version, points, start, step, frames = _PC2.unpack(head)
     if version != 1:
         raise FormatError(f"PC2 of version {version} is not known; 1 is")
-    return Cache(points, frames, _PC2.size, "<f4")
+    timing = {START: start} if start else {}
+    timing |= {STEP: step} if step != 1.0 else {}
+    known = np.isfinite([start, step]).all() and step > 0.0
+    return Cache(points, frames, _PC2.size, "<f4", timing=timing if known else None)
 
 
-def _head_of_mdd(file: BinaryIO, size: int) -> Cache:
+def _head_of_mdd(file: BinaryIO, size: int, rate: float) -> Cache:
     head = file.read(_MDD.size)
     if len(head) < _MDD.size:
         raise TruncatedError(f"an MDD file begins with {_MDD.size} bytes; this one has {len(head)}")
@@ -95,7 +100,7 @@ def _head_of_mdd(file: BinaryIO, size: int) -> Cache:
     if size < start:
         raise TruncatedError(f"the MDD file claims {frames} frames, whose times take {start} bytes; it has {size}")
     times = _doubles(file.read(start - _MDD.size), ">f4")
-    return Cache(points, frames, start, ">f4", rate_of_times(times))
+    return Cache(points, frames, start, ">f4", *timing_of(times, rate))
 
 
 def _samples(path: str, cache: Cache) -> Iterator[Positions]:
@@ -124,19 +129,20 @@ def _beside(path: str) -> str:
 
 @contextmanager
 def write_cache(
-    file: BinaryIO, kind: str, count: int, rate: float = 0.0, begun: int = 0
+    file: BinaryIO, kind: str, codes: Sequence[float], rate: float = 0.0
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write a cache of frames from number `begun` on; yields what takes them, as many as announced, and keeps none."""
-    single = "<f4" if kind == "pc2" else ">f4"
+    """Write a cache of frames that are shown at some codes, in frames at a rate; yields what takes them one by one."""
+    single, count = "<f4" if kind == "pc2" else ">f4", len(codes)
     taken = 0
 
     def write(frame: Positions) -> None:
         nonlocal taken
         if taken == 0 and kind == "pc2":
-            file.write(_PC2.pack(_SIGNATURE, 1, len(frame), float(begun), 1.0, count))
+            step = codes[1] - codes[0] if count > 1 else 1.0
+            file.write(_PC2.pack(_SIGNATURE, 1, len(frame), codes[0], step, count))
         elif taken == 0:
             file.write(_MDD.pack(count, len(frame)))
-            file.write((np.arange(begun, begun + count) / (rate or USUAL_RATE)).astype(">f4").tobytes())
+            file.write((np.array(codes) / (rate or USUAL_RATE)).astype(">f4").tobytes())
         if np.abs(frame).max() > np.finfo(np.float32).max:
             raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
         file.write(np.ascontiguousarray(frame, single).tobytes())

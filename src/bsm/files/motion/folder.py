@@ -15,12 +15,13 @@ from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import has
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.runs import can_move, moved_to, other_faces
+from bsm.codec.sequence.runs import SHOWN, can_move, moved_to, other_faces
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import about, is_pipe, is_url
 
-_NUMBERS = re.compile(r"(\d+)")
+_NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
+_SIGNED, _DECIMALS = re.compile(r"-?\d+"), re.compile(r"((?:(?<![^\W_])-)?\d+(?:\.\d+)?)")
 _PLACE = re.compile(r"%(0?)(\d*)d")
 
 
@@ -57,6 +58,7 @@ def separate_meshes(path: str, file_format: str | None = None, reader: str | Non
 
 def in_order(names: Sequence[str]) -> list[str]:
     ordered = sorted(names, key=_natural)
+    _require_clear(ordered)
     numbers = _numbers(ordered)
     steps = np.diff(numbers)
     if len(steps) and steps.min() > 0 and (steps != steps.min()).any():
@@ -67,6 +69,26 @@ def in_order(names: Sequence[str]) -> list[str]:
             "add it, or number the files without a gap"
         )
     return ordered
+
+
+def _require_clear(ordered: Sequence[str]) -> None:
+    """Refuse names whose numbers can be read in two ways, with another order each."""
+    bases = [os.path.basename(name) for name in ordered]
+    shapes = [_NUMBERS.sub("#", base) for base in bases]
+    other = next((place for place, shape in enumerate(shapes) if shape != shapes[0]), 0)
+    why = ""
+    if len(set(shapes)) > len({_SIGNED.sub("#", base) for base in bases}):
+        why = 'the "-" may be a sign or a hyphen; write _- before negative numbers'
+    parts = [_DECIMALS.split(base) for base in bases]
+    varying = [values for values in zip(*parts) if len(set(values)) > 1]
+    if len({len(of_one) for of_one in parts}) == len(varying) == 1 and _DECIMALS.fullmatch(varying[0][0]):
+        decimals = [float(number) for number in varying[0]]
+        falls = next((place for place in range(1, len(decimals)) if decimals[place] < decimals[place - 1]), 0)
+        if falls and len({number.partition(".")[0] for number in varying[0]}) > 1:
+            other, why = falls, "as decimal numbers they are the other way round"
+    if why:
+        first = ordered[other - 1 if other else 0]
+        raise MeshError(f"the order of {first} and {ordered[other]} is unclear: {why}, or number the files from 0 on")
 
 
 def look_like_frames(names: Sequence[str]) -> bool:
@@ -85,7 +107,8 @@ def common_name(names: Sequence[str]) -> str:
 
 
 def _natural(name: str) -> list[str | int]:
-    return [int(part) if part.isdecimal() else part for part in _NUMBERS.split(os.path.basename(name))]
+    parts = _NUMBERS.split(os.path.basename(name))
+    return [int(part) if place % 2 else part for place, part in enumerate(parts)]
 
 
 def _numbers(ordered: Sequence[str]) -> list[int]:
@@ -155,7 +178,7 @@ def read_files(
     if len(names) > 1 and (same := [attribute.name for attribute in kept if attribute not in can]):
         notes.append(f"{', '.join(same)}: as the first frame has them")
     frames = (mesh.positions for mesh in meshes())
-    given = meshes() if can else None
+    given = meshes() if can or any(name.startswith(SHOWN) for name in first.metadata) else None
     return Frames(first.faces, len(names), frames, kept, tuple(notes), metadata=first.metadata, meshes=given)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -15,6 +16,9 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 
+START, STEP, TIMES = "frame_start", "frame_step", "frame_times"
+"""Metadata of a sequence: the number of the first frame, at the frame rate; frames from one sample to the next, where
+that is not one; and uneven times in seconds, as text."""
 USUAL_RATE = 24.0  # frames per second of a sequence that does not say; pages play it as fast
 LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)
 
@@ -65,17 +69,27 @@ class FrameWriter(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Shared:
-    """What belongs to all frames of a sequence that is written, and what could not be held of it."""
+    """What belongs to all frames of a sequence that is written from frame `first` on, and what is lost of it."""
 
     attributes: Callable[[], tuple[Attribute, ...]] = tuple
     metadata: Callable[[], Metadata] = dict
     left_out: list[str] = field(default_factory=list)
+    first: int = 0
     _begun: dict[str, Attribute] = field(default_factory=dict)
 
     @property
     def frame_rate(self) -> float:
         rate = self.metadata().get("frame_rate")
         return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else 0.0
+
+    def code(self, number: int) -> float:
+        """When a frame, of those that are written, is shown: in frames at the rate."""
+        number += self.first
+        times = _times_in(str(self.metadata().get(TIMES, "")))
+        if number < len(times):
+            return times[number] * (self.frame_rate or USUAL_RATE)
+        start, step = (_finite(self.metadata().get(name), usual) for name, usual in ((START, 0.0), (STEP, 1.0)))
+        return start + number * step
 
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
         return TriangleMesh(positions, faces, self.attributes(), self.metadata() if with_metadata else {})
@@ -116,6 +130,33 @@ def checked_frames(name: str, frames: Iterable[Positions], vertices: int) -> Ite
         yield np.asarray(frame, np.float64)
 
 
+def timing_of(times: Positions, rate: float = 0.0) -> tuple[float, dict[str, float | str] | None]:
+    """Frames per second of times in seconds, shape (T,), 0 if they are not equally spaced, and metadata of the rest.
+
+    None: the times are not numbers that grow.
+    """
+    if not len(times):
+        return rate, {}
+    if not np.isfinite(times).all() or (np.diff(times) <= 0.0).any():
+        return rate, None
+    found = rate_of_times(times)
+    even = times[:1] + np.arange(len(times)) / (found or rate or USUAL_RATE)
+    near = 4.0 * float(np.finfo(np.float32).eps * np.abs(times).max()) + 1e-3 * float(np.diff(times[:2]).sum())
+    if np.abs(even - times).max() > near:
+        return found, {TIMES: " ".join(f"{time:.9g}" for time in times.tolist())}
+    start = round(float(times[0]) * (rate or found or USUAL_RATE), 6)
+    return rate or found, {START: start} if start else {}
+
+
+def between(name: str, codes: Positions, rate: float) -> list[str]:
+    """A note on samples at codes, shape (k,), counted in frames from the first one, that lie between the frames."""
+    off = [int((np.abs(k * codes - np.rint(k * codes)) > 0.02).sum()) for k in range(1, 9)]
+    if not off[0]:
+        return []
+    finer = f"; --frame-rate {rate * (1 + off.index(0)):g} reads them" if 0 in off else ""
+    return [f"{off[0]} of {len(codes)} {name} lie between the frames and are not read{finer}"]
+
+
 def rate_of_times(times: Positions) -> float:
     """Frames per second of equally spaced times in seconds, shape (T,); 0: they are not equally spaced."""
     if len(times) < 2 or not np.isfinite(times).all():
@@ -125,6 +166,25 @@ def rate_of_times(times: Positions) -> float:
         return 0.0
     rate = 1.0 / step
     return float(round(rate)) if abs(rate - round(rate)) < 1e-3 * rate else rate
+
+
+@lru_cache(1)
+def _times_in(text: str) -> list[float]:
+    """Times in seconds; none unless they are numbers that grow."""
+    found: list[float] = []
+    for word in text.split():
+        try:
+            time = float(word)
+        except ValueError:
+            return []
+        if not (np.isfinite(time) and (not found or time > found[-1])):
+            return []
+        found.append(time)
+    return found
+
+
+def _finite(value: object, usual: float) -> float:
+    return float(value) if isinstance(value, int | float) and np.isfinite(value) else usual
 
 
 _POINTS = 64

@@ -20,7 +20,18 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
-from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, checked_frames, painted_like
+from bsm.files.motion.frames import (
+    START,
+    STEP,
+    TIMES,
+    USUAL_RATE,
+    Frames,
+    Shared,
+    Wanted,
+    between,
+    checked_frames,
+    painted_like,
+)
 from bsm.files.room import Doubles, Ints, require_count, single_suffices
 from bsm.lengths import metres
 
@@ -154,7 +165,9 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
     return bound, written
 
 
-def bind_materials(pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int, Any], time: int | None = None) -> None:
+def bind_materials(
+    pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int, Any], time: float | None = None
+) -> None:
     """Say which faces have which material, from a time on if one is given."""
     numbers = formats.face_numbers(shown, "material")
     api = pxr.UsdShade.MaterialBindingAPI
@@ -449,7 +462,9 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     still = stage.mesh(stage.at(first))
 
     every = [first + number * codes / rate for number in range(count)]
-    mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *still.notes)
+    samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
+    off = between("time samples", samples, rate)
+    mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *off, *still.notes)
     checked = checked_frames(path, map(stage.at, every), len(mesh.positions))
     meshes = None
     if (wanted.runs and stage.changes()) or any(part.painted for part in stage.parts):
@@ -461,7 +476,16 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
                 yield painted_like(mesh, stage.mesh(stage.at(time)).mesh)
 
         meshes = changing()
-    return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata, meshes)
+    return Frames(
+        mesh.faces,
+        count,
+        checked,
+        mesh.attributes,
+        notes,
+        rate,
+        {**mesh.metadata, **({START: first * rate / codes} if first else {})},
+        meshes,
+    )
 
 
 def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile:
@@ -487,35 +511,37 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterat
         materials: dict[int, Any] = {}
         still: TriangleMesh | None = None  # the first mesh, as long as its faces are those of all frames
         taken = 0
+        before = 0.0  # the code of the frame before
         keyed: set[str] = set()  # attributes that have times
 
         def write(frame: Positions, other: Faces | None = None) -> None:
-            nonlocal mesh, materials, taken, still
+            nonlocal mesh, materials, taken, still, before
+            code = shared.code(taken)
             if mesh is None:
                 still = shared.mesh(frame, faces)
                 mesh, materials = _begun(pxr, stage, still, shared, Path(folder) if kind == "usdz" else None)
             if other is not None:
                 if still is not None:
-                    _set_mesh(pxr, mesh, materials, still, 0)
-                _set_mesh(pxr, mesh, materials, shared.mesh(frame, other), taken)
+                    _set_mesh(pxr, mesh, materials, still, shared.code(0))
+                _set_mesh(pxr, mesh, materials, shared.mesh(frame, other), code)
                 still = None
             for attribute in shared.moved():
                 if still is not None and attribute.name not in keyed:
-                    _written(pxr, mesh, next(own for own in still.attributes if own.name == attribute.name), taken - 1)
+                    _written(pxr, mesh, next(own for own in still.attributes if own.name == attribute.name), before)
                 keyed.add(attribute.name)
-                _written(pxr, mesh, attribute, taken)
+                _written(pxr, mesh, attribute, code)
             if not single_suffices(frame):
                 raise MeshError(f"frame {taken} needs double precision, which points of USD do not have; write npz")
             points = np.ascontiguousarray(frame, np.float32)
-            mesh.GetPointsAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(points), taken)
+            mesh.GetPointsAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(points), code)
             extent = np.array([points.min(axis=0), points.max(axis=0)])
-            mesh.GetExtentAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(extent), taken)
-            taken += 1
+            mesh.GetExtentAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(extent), code)
+            taken, before = taken + 1, code
             if taken % 64 == 0:
                 stage.Save()  # what is saved need not be kept
 
         yield write
-        stage.SetEndTimeCode(max(taken - 1, 0))
+        stage.SetEndTimeCode(before)
         stage.Save()
         if kind == "usdz":
             packed = str(Path(folder, "mesh.usdz"))
@@ -538,7 +564,7 @@ def _begun(
     geom.SetStageMetersPerUnit(stage, size or 1.0)
     stage.SetTimeCodesPerSecond(rate)
     stage.SetFramesPerSecond(rate)
-    stage.SetStartTimeCode(0)
+    stage.SetStartTimeCode(shared.code(0))
     stage.SetInterpolationType(pxr.Usd.InterpolationTypeLinear)
     name = pxr.Tf.MakeValidIdentifier(str(metadata.get("name") or "mesh"))
     mesh = geom.Mesh.Define(stage, f"/{name}")
@@ -550,7 +576,7 @@ def _begun(
     mesh.CreateExtentAttr()
     materials, written = write_materials(pxr, mesh, first, images)
     shared.loses(attribute.name for attribute in _others(first, materials) if not _written(pxr, mesh, attribute))
-    written |= {"up", "name", "frame_rate"} | ({"unit"} if size else set())
+    written |= {"up", "name", "frame_rate", START, STEP, TIMES} | ({"unit"} if size else set())
     shared.loses(name for name in first.metadata if name not in written)
     return mesh, materials
 
@@ -560,7 +586,7 @@ def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
     return [attribute for attribute in frame.attributes if attribute is not shown]
 
 
-def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMesh, time: int) -> None:
+def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMesh, time: float) -> None:
     """Let the mesh have the faces and attributes of a frame from a time on."""
     mesh.GetFaceVertexCountsAttr().Set(pxr.Vt.IntArray(len(frame.faces), 3), time)
     corners = np.ascontiguousarray(frame.faces.reshape(-1))
@@ -570,7 +596,7 @@ def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMes
         _written(pxr, mesh, attribute, time)
 
 
-def _written(pxr: Any, mesh: Any, attribute: Attribute, time: int | None = None) -> bool:
+def _written(pxr: Any, mesh: Any, attribute: Attribute, time: float | None = None) -> bool:
     """Write an attribute as a primvar, or what it is from a time on; whether that can be."""
     types, width = pxr.Sdf.ValueTypeNames, attribute.components
     values = attribute.values.astype(np.float32)
