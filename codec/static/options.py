@@ -118,8 +118,8 @@ class EncodeOptions:
         c itself; overrides `keep`.
     block_size : int
         Approximate vertices of a block before overlap. Smaller ones decode faster: 1 % of bytes is worth 8 % of time.
-    overlap : float
-        n_d as a multiple of the largest part.
+    overlap : float, optional
+        n_d as a multiple of the largest part. None: 1, or with `paper.bits` 1.15, as in the paper.
     key_interval : int
         One of this many blocks, at least, depends on nothing before it; 0: only the first; 1: every block is on its
         own, with exact bases throughout if `paper.key_seed` is "svd".
@@ -179,7 +179,7 @@ class EncodeOptions:
     keep: float | None = None
     coefficients: int | None = None
     block_size: int = 450
-    overlap: float = 1.0
+    overlap: float | None = None
     key_interval: int = 8
     step: float | None = None
     smoothing: float | None = None
@@ -265,6 +265,11 @@ class EncodeOptions:
         return any(getattr(self, name, getattr(self.paper, name, None)) is not None for name in CODING)
 
     @property
+    def growth(self) -> float:
+        """The overlap, or where it is left open the usual one."""
+        return self.overlap or (1.0 if self.paper.bits is None else PAPER_OVERLAP)
+
+    @property
     def fixed_smoothing(self) -> float | None:
         """The amount of smoothing, if it is not to be chosen by trying."""
         return 0.0 if self.paper.bits is not None and self.smoothing is None else self.smoothing
@@ -287,6 +292,7 @@ CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are kept better, or less well
 STEP = 0.004  # of blocks alone
+PAPER_OVERLAP = 1.15
 
 PRESETS: dict[str, EncodeOptions] = {
     "small": EncodeOptions(**LARGE_BLOCKS, contract=Contract(0.02, look=3.0, by_part=0.02)),

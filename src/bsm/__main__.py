@@ -3,6 +3,7 @@
 import gc
 import signal
 import sys
+import warnings
 from typing import NoReturn
 
 
@@ -11,6 +12,8 @@ def run() -> NoReturn:
     # Looking for cycles among the objects of all modules, while they load and again at the end, would take longer than
     # decoding a small mesh.
     gc.set_threshold(100_000)
+    if not sys.warnoptions:  # commands print notes; warnings of libraries are for those who write programs
+        warnings.simplefilter("ignore")
     try:
         from bsm.cli import main
 

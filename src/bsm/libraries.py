@@ -7,6 +7,7 @@ import sys
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from traceback import walk_stack
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -34,15 +35,19 @@ _FACES = ("faces", "triangles")
 _SURFACES = ("triangle", "quad", "polygon")
 _NO_SURFACES = ("vertex", "line")
 _NOTHING: Metadata = MappingProxyType({})
+_WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
 
 def warn(notes: Iterable[str]) -> None:
-    """Warn of what was changed or left out, where a user called us; commands have notes of their own."""
-    frame, level = sys._getframe(1), 2
-    while frame.f_back is not None and (name := frame.f_globals.get("__name__", "")).partition(".")[0] == "bsm":
-        if name.startswith("bsm.commands."):
-            return
-        frame, level = frame.f_back, level + 1
+    """Warn of what was changed or left out, in the line of the user's that called us; commands print notes instead.
+
+    Decorators and context managers of the standard library may stand between that line and ours.
+    """
+    modules = [str(frame.f_globals.get("__name__", "")) for frame, _ in walk_stack(sys._getframe(1))]
+    if any(name.startswith(_WITH_NOTES) for name in modules):
+        return
+    ours = {"bsm", *sys.stdlib_module_names} - {"__main__"}
+    level = next((level for level, name in enumerate(modules, 2) if name.partition(".")[0] not in ours), 2)
     for note in notes:
         warnings.warn(note, BsmWarning, stacklevel=level)
 

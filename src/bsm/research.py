@@ -197,7 +197,7 @@ def _draft(prepared: Prepared, idea: Idea, options: EncodeOptions) -> Draft:
 
 
 def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepared:
-    size, overlap = options.block_size, options.overlap
+    size, overlap = options.block_size, options.growth
     parts = Parts(size, overlap, options.paper.partition == "metis")
     if idea.partition is not None:
         parts = _OwnParts(size, overlap, metis=True, labelled=idea.partition)

@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import fields
 
 import numpy as np
@@ -11,6 +13,8 @@ import bsm
 from bsm import keywords, options
 from bsm.codec.static.options import Paper
 from bsm.files.mesh import write_mesh
+from bsm.viewer.contents import Content, uploaded
+from tests.bsm.program import process
 from tools.noise import gaussian_along_normals
 from tools.vectors.meshes import torus
 
@@ -104,6 +108,24 @@ def test_what_is_left_out_is_a_warning_at_the_line_of_the_call(tmp_path):
     assert {attribute.filename for attribute in found} == {__file__}
     with pytest.warns(bsm.BsmWarning, match="no face uses"):
         bsm.encode_sequence(np.array([LOOSE[0]] * 2, float), LOOSE[1])
+
+
+def test_a_warning_is_about_the_line_of_the_user_whatever_stands_between():
+    with pytest.warns(bsm.BsmWarning, match="no face uses") as found:
+        contextmanager(lambda: iter([None]))()(bsm.encode)(LOOSE)
+        with ThreadPoolExecutor(1) as pool:
+            pool.submit(lambda: bsm.encode(LOOSE)).result()
+    assert [note.filename for note in found] == [__file__] * 2
+
+
+def test_commands_print_no_raw_warnings(tmp_path, capfd):
+    """Neither in this process, nor in those of many jobs, nor in that of a mesh that was dropped on the page."""
+    for name in ("a.npz", "b.npz"):
+        np.savez(tmp_path / name, positions=LOOSE[0], faces=LOOSE[1])
+    done = process("encode", tmp_path / "a.npz", tmp_path / "b.npz", "-j", 2, "-o", f"{tmp_path}/out/")
+    assert done.returncode == 0 and b"no face uses" in done.stderr and b"Warning" not in done.stderr, done.stderr
+    assert isinstance(list(uploaded("a.npz", (tmp_path / "a.npz").read_bytes(), "balanced"))[-1], Content)
+    assert "Warning" not in capfd.readouterr().err
 
 
 def test_keywords_are_those_of_the_options():

@@ -45,7 +45,7 @@ class Input:
     @cached_property
     def prepared(self) -> Prepared:
         options = self.coded
-        parts = Parts(options.block_size, options.overlap, options.paper.partition == "metis")
+        parts = Parts(options.block_size, options.growth, options.paper.partition == "metis")
         return prepare(
             self.joined.mesh, parts, keep_order=options.keep_order, splits=self.joined.splits, light=options.quick
         )

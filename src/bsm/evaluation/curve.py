@@ -195,7 +195,7 @@ OUR_TARGETS = {
 
 def paper_options(**changes: Any) -> EncodeOptions:
     """The paper's mode: METIS, 12 bits for every coefficient, one chain."""
-    settings: dict[str, Any] = {"partition": "metis", "bits": 12, "key_interval": 0, "power": 1, "overlap": 1.05}
+    settings: dict[str, Any] = {"partition": "metis", "bits": 12, "key_interval": 0, "power": 1}
     return changed(EncodeOptions(), **{**settings, "threads": 1, "limits": "wide", **changes})
 
 

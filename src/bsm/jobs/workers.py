@@ -6,9 +6,11 @@ import multiprocessing
 import multiprocessing.connection
 import os
 import signal
+import sys
 import threading
 import time
 import uuid
+import warnings
 from collections.abc import Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -72,7 +74,9 @@ def _until_one_dies(work: Work, tasks: Tasks, processes: int) -> Generator[tuple
 
 
 def _end_with_parent() -> None:
-    """Let this process not outlive the one that began it, however that ends."""
+    """Let this process not outlive the one that began it, however that ends, nor print warnings."""
+    if not sys.warnoptions:
+        warnings.simplefilter("ignore")
     parent = multiprocessing.parent_process()
     if parent is None:
         return
