@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import TriangleMesh
 
 Faces = NDArray[np.int32]
 

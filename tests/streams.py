@@ -7,8 +7,7 @@ import tracemalloc
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from bsm.codec.decoding import Decoder, SequenceDecoder
-from bsm.codec.events import END_OF_STREAM, FrameEvent, Signal
+from bsm import END_OF_STREAM, Decoder, FrameEvent, SequenceDecoder, Signal
 from tools.surgery import scan
 
 

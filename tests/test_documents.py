@@ -18,8 +18,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Attribute, TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
 from tests.bsm.test_libraries import painted

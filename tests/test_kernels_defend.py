@@ -10,18 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bsm import EncodeOptions, SequenceEncoder, SequenceOptions, TriangleMesh, decode, decode_sequence, encode
 from bsm.bitstream import _kernels as of_bytes
 from bsm.codec import _kernels as of_arrays
-from bsm.codec.decoding import decode, decode_sequence
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import AttributeLook, LookMetric
-from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice.settling import Sensitivity
-from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.options import changed
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
 from tests.shapes import torus

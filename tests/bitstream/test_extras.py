@@ -5,7 +5,8 @@ import sys
 
 import pytest
 
-from bsm.bitstream.errors import DependencyError, how_to_install, imported
+from bsm import DependencyError
+from bsm.bitstream.errors import how_to_install, imported
 
 
 def test_an_error_names_the_extra_and_no_path():

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import Attribute, TriangleMesh
 from bsm.cli import main
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.files.test_file_attributes import attribute, dressed, png
 from tests.bsm.test_libraries import painted

@@ -13,9 +13,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import OptionError
+from bsm import OptionError, TriangleMesh
 from bsm.cli import main
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.jobs.plan import plan

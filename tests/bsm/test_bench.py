@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import NumericError
+from bsm import NumericError
 from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.basis.orthogonal_iteration import cosine_columns, hash_columns
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm import TriangleMesh
 from bsm.cli import COMMANDS, main
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import ENCODE_FLAGS, SETTINGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
@@ -280,8 +280,7 @@ def test_the_help_prints_the_table_of_codes_and_starts_fast(folder):
 
 
 def test_the_flags_are_fields_and_show_their_defaults():
-    from bsm.codec.sequence.options import SequenceOptions
-    from bsm.codec.static.options import EncodeOptions, Paper
+    from bsm import EncodeOptions, Paper, SequenceOptions
 
     # A field of both has the static default: it is the one that is shown.
     owners = (SequenceOptions, EncodeOptions, Paper)

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from bsm.bitstream.errors import OptionError
+from bsm import OptionError
 from bsm.files.pipes import _errors_of
 from bsm.jobs.plan import plan
 from bsm.jobs.report import table

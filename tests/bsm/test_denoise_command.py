@@ -11,14 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import api
-from bsm.bitstream.errors import MeshError
-from bsm.codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
+from bsm import Attribute, DenoiseOptions, MeshError, TriangleMesh, api
+from bsm.codec.denoise import FINE_STEPS, FrameDenoiser, denoise_automatically
 from bsm.codec.denoise import GOALS as LIBRARY_GOALS
 from bsm.codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
 from bsm.codec.denoise.frames import GROUP, OVERLAP, WINDOW
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import mnd, theta
 from bsm.codec.threads import available_threads
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS

@@ -7,11 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import CorruptError, MeshError
+from bsm import CorruptError, EncodeOptions, MeshError, TriangleMesh
 from bsm.cli import main
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.options import changed
 from bsm.evaluation.curve import (
     STYLES,
     Curve,

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import MeshError
+from bsm import Attribute, MeshError, TriangleMesh
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.cli import main as program
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh
 from tools.vectors.meshes import torus
 

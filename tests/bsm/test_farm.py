@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 import bsm
-from bsm.bitstream.errors import ArgumentError, DependencyError, FormatError, OptionError
+from bsm import ArgumentError, DependencyError, FormatError, OptionError
 from bsm.cli import main
 from bsm.console import Console
 from bsm.evaluation.sample import knot

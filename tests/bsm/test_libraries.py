@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Attribute, TriangleMesh
 from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed, png
 from tests.plugins import declare_entry_points

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.errors import ArgumentError, MeshError
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import ArgumentError, MeshError, TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.libraries import as_mesh
 from tests.shapes import tetrahedron, torus

@@ -9,9 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
-from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import BsmError, CorruptError, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
 from bsm.files.mesh import MESH_FORMATS, format_mesh, read_mesh, write_mesh
 
 TETRAHEDRON = TriangleMesh(

@@ -5,12 +5,19 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import ArgumentError, OptionError
-from bsm.codec.denoise import DenoiseOptions
-from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
-from bsm.codec.sequence.targets import SequenceTarget
-from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions, changed
-from bsm.codec.static.targets import Contract, Target
+from bsm import (
+    PRESETS,
+    ArgumentError,
+    Contract,
+    DenoiseOptions,
+    EncodeOptions,
+    OptionError,
+    SequenceOptions,
+    SequenceTarget,
+    Target,
+)
+from bsm.codec.sequence.options import PROMISES, Promise
+from bsm.codec.static.options import BALANCED, changed
 from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 

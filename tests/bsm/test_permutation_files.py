@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import FormatError, MeshError
-from bsm.codec.decoding import decode
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
+from bsm import EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode
 from bsm.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.evaluation.sample import knot
 

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Attribute, TriangleMesh
 from tests.streams import events_of
 from tools.vectors.meshes import torus
 

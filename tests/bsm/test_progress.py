@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import keywords, options
-from bsm.codec.static.options import Paper
+from bsm import Paper, keywords, options
 from bsm.files.mesh import write_mesh
 from bsm.viewer.contents import Content, uploaded
 from tests.bsm.program import process

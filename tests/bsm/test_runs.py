@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import Attribute
 from bsm.cli import main
-from bsm.codec.geometry.attributes import Attribute
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence

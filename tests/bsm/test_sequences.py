@@ -6,11 +6,9 @@ import sys
 import numpy as np
 import pytest
 
+from bsm import Attribute, FormatError, MeshError, OptionError, TriangleMesh, TruncatedError
 from bsm.api import decode_frames
-from bsm.bitstream.errors import FormatError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npz import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted

@@ -14,9 +14,16 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, OptionError, TruncatedError, UnsupportedError
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import (
+    ArgumentError,
+    Attribute,
+    CorruptError,
+    FormatError,
+    OptionError,
+    TriangleMesh,
+    TruncatedError,
+    UnsupportedError,
+)
 from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.commands import tile as command
 from bsm.files.mesh import read_mesh, write_mesh

@@ -7,9 +7,8 @@ import subprocess
 import numpy as np
 import pytest
 
-from bsm import __version__
+from bsm import PRESETS, __version__
 from bsm.cli import COMMANDS, main, program_parser
-from bsm.codec.static.options import PRESETS
 from bsm.commands.flags import PROMISES
 from bsm.files.mesh import write_mesh
 from tests.bsm.test_batch import bsm

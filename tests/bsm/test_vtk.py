@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import OptionError
-from bsm.codec.geometry.attributes import Attribute
+from bsm import Attribute, OptionError
 from tests.motion import bending
 from tests.shapes import torus
 

@@ -9,11 +9,17 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import ArgumentError, BsmError, MeshError, OptionError
-from bsm.bitstream.limits import Limits
-from bsm.codec.decoding import Decoder, SequenceDecoder
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.static.options import EncodeOptions
+from bsm import (
+    ArgumentError,
+    Attribute,
+    BsmError,
+    Decoder,
+    EncodeOptions,
+    Limits,
+    MeshError,
+    OptionError,
+    SequenceDecoder,
+)
 from tools.vectors.meshes import torus
 
 

@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, EncodeOptions, decode, encode
 from bsm._engine import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.basis.laplacian import factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.decoding import BLOCK, CONNECTIVITY, END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, decode
+from bsm.codec.decoding import BLOCK, CONNECTIVITY
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.options import changed
 from bsm.codec.threads import ordered_map
 from tests.shapes import patch
 

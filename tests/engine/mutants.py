@@ -16,7 +16,7 @@ from random import Random
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError
+from bsm import BsmError
 from tests.engine.decoding import Decoded, build, decode, of_sequence, released
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.inputs import mutant, vector_seeds

@@ -9,7 +9,7 @@ import numpy as np
 
 import bsm
 import bsm.blender
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm import MeshError, OptionError
 
 folder = Path(sys.argv[-1])
 found = {}

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import TriangleMesh
 from tools.measure import attributes
 
 CUBE = TriangleMesh(

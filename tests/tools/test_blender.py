@@ -14,9 +14,8 @@ import pytest
 from scipy.spatial import cKDTree
 
 import bsm
+from bsm import Attribute, TriangleMesh
 from bsm.cli import main as cli
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from plugins.blender.__main__ import main
 from tests.motion import animators_own, bending
 from tests.shapes import torus

@@ -6,9 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bsm.bitstream.errors import CorruptError, LimitError
-from bsm.bitstream.limits import Limits
-from bsm.codec.decoding import Decoder
+from bsm import CorruptError, Decoder, LimitError, Limits
 from tools.attack.bombs import THINGS, YARDSTICK, things
 from tools.attack.streams import BOMBS
 from tools.attack.taken import decode_all, taken_by, warm_up

@@ -5,9 +5,7 @@ from collections import Counter
 
 import pytest
 
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError
-from bsm.codec.decoding import Decoder
-from bsm.codec.events import END_OF_STREAM
+from bsm import END_OF_STREAM, BsmError, CorruptError, Decoder, FormatError
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import format_mesh, read_mesh
 from tools.attack.mutate import mutate_stream

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from bsm import decode
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import FrameType
-from bsm.codec.decoding import decode
 from tools.gridded import gridded
 from tools.surgery import first_entries, frames_of, stream_of
 from tools.vectors.meshes import torus

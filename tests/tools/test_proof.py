@@ -5,7 +5,7 @@ from dataclasses import asdict
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import BsmError, CorruptError, TruncatedError
+from bsm import BsmError, CorruptError, TruncatedError
 from tools.attack import shard as proof
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import store, stored

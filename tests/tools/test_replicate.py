@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import TriangleMesh
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.files.mesh import write_mesh
 from bsm.options import encode_options

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from bsm.bitstream.limits import Limits
+from bsm import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
 from tools.attack.growth import growth

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bsm import CorruptError, TruncatedError
 from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, SEAM, Joins, encode_seams, find_seams
-from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.bitstream.fields.corners import corners_of
 from tools.payloads import decode_seams
 

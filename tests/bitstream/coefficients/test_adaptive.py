@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bsm import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.coefficients.adaptive import (
     MAX_LEVEL,
     CoefficientModel,
@@ -16,7 +17,6 @@ from bsm.bitstream.coefficients.adaptive import (
     encode_coefficients,
     shipped_experience,
 )
-from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from tools.payloads import decode_coefficients
 
 HASH = "2a093067f31fc03a6ec865ebc6193347d2b21ff18e6f4903e80cfc3af97c39d0"

@@ -4,10 +4,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
+from bsm import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.coefficients.adaptive import points_of_levels
 from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, make_level_bank, price_levels
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, still, write_gop_body
-from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from tools.payloads import decode_levels
 
 NONE = np.empty(0, np.int32)

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from bsm import OptionError
 from bsm.bitstream.coefficients.packed import compress, pack_coefficients
-from bsm.bitstream.errors import OptionError
 
 
 def test_packed_known_bytes():

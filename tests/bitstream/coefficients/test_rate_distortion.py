@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bsm import OptionError
 from bsm.bitstream.coefficients.adaptive import (
     MAX_LEVEL,
     TARGET_UNIT,
@@ -17,7 +18,6 @@ from bsm.bitstream.coefficients.adaptive import (
     encode_coefficients,
     points_of_levels,
 )
-from bsm.bitstream.errors import OptionError
 
 UNITS = st.integers(-5, 5) | st.integers(-3000, 3000) | st.sampled_from([MAX_LEVEL * TARGET_UNIT])
 

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bsm import BsmError, CorruptError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
-from bsm.bitstream.errors import BsmError, CorruptError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.files.mesh import read_mesh
 from tests.shapes import Faces, grid_faces

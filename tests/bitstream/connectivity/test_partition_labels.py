@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from bsm import BsmError
 from bsm.bitstream.connectivity.partition import encode_labels
-from bsm.bitstream.errors import BsmError
 from tools.payloads import decode_labels
 
 

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bsm import CorruptError, OptionError
 from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, Header, Paper
 from bsm.bitstream.container.packets import write_header
 from bsm.bitstream.container.wire import FrameType, write_map
-from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.files.inspection import inspect_stream
 from tests.bitstream.streams import SMALL_HEADER
 from tools.surgery import record_of, stream_of

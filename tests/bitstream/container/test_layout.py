@@ -3,9 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bsm import OptionError
 from bsm.bitstream.container.packets import WRITERS, Block, Connectivity, End, Gop, Metadata, Order, Partition
 from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.errors import OptionError
 from tools.surgery import parse_packet
 
 CASES = [

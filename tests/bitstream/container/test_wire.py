@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bsm import FormatError, LimitError, Limits, OptionError, UnsupportedError
 from bsm.bitstream.container.wire import MAX_VARINT, write_frame, write_preamble, write_varint
-from bsm.bitstream.errors import FormatError, LimitError, OptionError, UnsupportedError
-from bsm.bitstream.limits import Limits
 from bsm.files.inspection import Skimmer
 from tools.surgery import Cursor
 

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bsm import CorruptError, OptionError, TruncatedError
 from bsm.bitstream._kernels import code_uniform
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import (
@@ -20,7 +21,6 @@ from bsm.bitstream.entropy.range_coder import (
     start_writing,
     unsigned_span,
 )
-from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from tools import entropy_tables
 from tools.payloads import finish_reading, overran, start_reading
 

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bsm import CorruptError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.attributes.values import face_values_field, values_field
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.errors import CorruptError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.fields.corners import MOST_LARGEST, Field, FieldEncoder, corners_of, traverse
 from bsm.bitstream.fields.grid import MOST_LEVEL, find_lattice, grid_field, levels_field, light_field, spread
 from tests.bitstream.fields.fields import (

@@ -10,10 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bsm.bitstream.errors import BsmError
-from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Attribute, BsmError, Limits, TriangleMesh
 from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_mesh, read_mesh, write_mesh, written_mesh
 from tests.shapes import patch, tetrahedron, torus
 

@@ -4,8 +4,7 @@ import sys
 
 import pytest
 
-from bsm.bitstream.errors import LimitError, MeshError
-from bsm.bitstream.limits import Limits
+from bsm import LimitError, Limits, MeshError
 from bsm.files.mesh import read_mesh
 from tests.bsm.program import bsm
 from tools.attack.readers import Case, _grown, chained_objects, problems, three_mf, warm_up

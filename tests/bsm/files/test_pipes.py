@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from bsm.bitstream.errors import ArgumentError, FormatError, LimitError
+from bsm import ArgumentError, FormatError, LimitError
 from bsm.evaluation.sample import knot
 from bsm.files import pipes
 from bsm.files.mesh import read_mesh, write_mesh

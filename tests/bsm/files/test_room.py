@@ -7,8 +7,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import CorruptError, LimitError, MeshError, TruncatedError
-from bsm.bitstream.limits import Limits
+from bsm import CorruptError, LimitError, Limits, MeshError, TruncatedError
 from bsm.files.mesh import format_mesh, format_of_bytes, read_mesh
 from bsm.files.room import gunzipped
 from tests.streams import peak_of

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.limits import Limits
+from bsm import Limits
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.files.sequence import open_sequence

@@ -1,10 +1,9 @@
 import numpy as np
 import pytest
 
+from bsm import EncodeOptions, Encoder, decode
 from bsm.codec.basis.orthogonal_iteration import dynamic_size, hash_columns, residual_norms
-from bsm.codec.decoding import decode
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.options import changed
 from tests.shapes import torus
 
 

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.bitstream.errors import LimitError
+from bsm import LimitError
 from bsm.codec import _kernels
 from bsm.codec.basis.laplacian import LEAF, WORK, dense_laplacian, factorize, find_fronts, laplacian_of, solving_room
 from bsm.codec.basis.orthogonal_iteration import hash_columns

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from bsm.bitstream.errors import NumericError
+from bsm import NumericError
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import (
     completed,

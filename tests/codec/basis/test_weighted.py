@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import NumericError
+from bsm import NumericError
 from bsm.codec.basis.laplacian import LARGEST_WEIGHT, SMALLEST_WEIGHT, cotangent_weights, hold
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from bsm import TriangleMesh
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.geometry.mesh import TriangleMesh
 
 Partners = Callable[[str, str], tuple[TriangleMesh, TriangleMesh]]
 

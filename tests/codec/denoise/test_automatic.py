@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import OptionError
+from bsm import OptionError
 from bsm.codec.denoise.automatic import CANDIDATES, denoise_automatically
 from bsm.codec.denoise.noise.synthesis import estimate_noise
 from bsm.codec.denoise.normals import guided_normal_filtering

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import OptionError
+from bsm import OptionError
 from bsm.codec.denoise.coarse import RULES, CoarseFilter
 from bsm.codec.denoise.recipe import hand_over
 from bsm.codec.denoise.surface import Topology, surface_normals

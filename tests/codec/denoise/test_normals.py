@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import OptionError
+from bsm import OptionError
 from bsm.codec.denoise.normals import (
     FINE_STEPS,
     FineStep,

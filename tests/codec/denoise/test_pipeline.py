@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import HarmError, MeshError, OptionError
-from bsm.codec.denoise import DenoiseOptions, FrameDenoiser, denoise
+from bsm import DenoiseOptions, HarmError, MeshError, OptionError, TriangleMesh
+from bsm.codec.denoise import FrameDenoiser, denoise
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.normals import guided_normal_filtering
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import sphere
 from tools.noise import gaussian_along_normals

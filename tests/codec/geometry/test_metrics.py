@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import MeshError
+from bsm import MeshError
 from bsm.codec.geometry.graph import vertex_neighbours
 from bsm.codec.geometry.metrics import (
     Reference,

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Attribute, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers, split_by_attributes
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [5, 5, 5]], float)

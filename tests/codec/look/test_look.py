@@ -6,9 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import MeshError
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Attribute, MeshError, TriangleMesh
 from bsm.codec.look.measure import LookMetric, judged, look
 from bsm.codec.look.pictures import CREASE, LEAST_PIXELS, MOST_PIXELS, Canvas, Shape, Size, axes, cameras, difference
 from bsm.files.mesh import read_mesh

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from bsm import TriangleMesh
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import cotangent_weights
 from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.dictionaries import Part, make_parts
 from bsm.codec.sequence.run_encoding import FIRST_FRAME
 from bsm.codec.static.coding import Adaptive, Scheme

@@ -3,12 +3,7 @@
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import MeshError
-from bsm.codec.decoding import decode_sequence
-from bsm.codec.events import AttributeEvent, HeaderEvent
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import SequenceOptions
+from bsm import Attribute, AttributeEvent, HeaderEvent, MeshError, SequenceEncoder, SequenceOptions, decode_sequence
 from tests.streams import frames_in, moving_events_of
 from tools.vectors.meshes import torus
 

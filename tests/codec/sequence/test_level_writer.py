@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from bsm import OptionError
 from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, make_level_bank
-from bsm.bitstream.errors import OptionError
 from bsm.codec.sequence import row_prediction
 from bsm.codec.sequence.row_prediction import LevelWriter, Loop
 from tools.payloads import decode_levels

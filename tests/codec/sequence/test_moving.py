@@ -8,13 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from bsm import (
+    Attribute,
+    CorruptError,
+    FrameEvent,
+    MeshError,
+    OptionError,
+    SequenceEncoder,
+    SequenceOptions,
+    TriangleMesh,
+)
 from bsm.bitstream.container import packets
-from bsm.bitstream.errors import CorruptError, MeshError, OptionError
-from bsm.codec.events import FrameEvent
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
 from tests.streams import frames_in, moving_events_of, packets_of, without
 

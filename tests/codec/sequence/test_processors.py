@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm import SequenceOptions
 from bsm.api import encode_sequence
 from bsm.codec.arrays import Positions
-from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
 
 ROOT = Path(__file__).parents[3]

@@ -8,13 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import OptionError, TargetError, VerificationError
+from bsm import (
+    OptionError,
+    SequenceEncoder,
+    SequenceOptions,
+    TargetError,
+    TriangleMesh,
+    VerificationError,
+    decode_sequence,
+)
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.decoding import decode_sequence
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
+from bsm.codec.sequence.options import PROMISES, Promise
 from bsm.codec.sequence.step_search import Measured, StepSearch, shading_error
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending

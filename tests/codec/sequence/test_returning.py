@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import Attribute, SequenceEncoder, SequenceOptions, TriangleMesh, decode_sequence
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.decoding import decode_sequence
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
-from bsm.codec.sequence.options import Promise, SequenceOptions
+from bsm.codec.sequence.options import Promise
 from tests.motion import bending
 from tools.payloads import parse_stretches
 from tools.surgery import Cursor, scan

@@ -5,17 +5,27 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from bsm import (
+    Attribute,
+    ConnectivityEvent,
+    CorruptError,
+    FrameEvent,
+    HeaderEvent,
+    LossEvent,
+    MeshError,
+    OptionError,
+    SequenceDecoder,
+    SequenceEncoder,
+    SequenceOptions,
+    SequenceTarget,
+    Signal,
+    TriangleMesh,
+)
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
 from bsm.bitstream.container.wire import FrameType, write_preamble
-from bsm.bitstream.errors import CorruptError, MeshError, OptionError
-from bsm.codec.decoding import SequenceDecoder
-from bsm.codec.events import ConnectivityEvent, FrameEvent, HeaderEvent, LossEvent, Signal
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import KEPT_MESHES, SequenceEncoder
-from bsm.codec.sequence.options import Promise, SequenceOptions
-from bsm.codec.sequence.targets import SequenceTarget
+from bsm.codec.sequence.encoder import KEPT_MESHES
+from bsm.codec.sequence.options import Promise
 from tests.streams import frames_in, moving_events_of, packets_of
 from tools.surgery import frames_of, spans_of
 from tools.vectors.meshes import torus

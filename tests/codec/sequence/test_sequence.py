@@ -3,25 +3,34 @@ import math
 import numpy as np
 import pytest
 
-from bsm.api import encode_sequence
-from bsm.bitstream.container.packets import Gop
-from bsm.bitstream.errors import (
+from bsm import (
+    END_OF_STREAM,
+    NEED_DATA,
     BsmError,
+    ConnectivityEvent,
     CorruptError,
+    EndEvent,
+    HeaderEvent,
     LimitError,
+    Limits,
+    LossEvent,
     MeshError,
     OptionError,
+    SequenceDecoder,
+    SequenceEncoder,
+    SequenceOptions,
+    SequenceTarget,
     TargetError,
     VerificationError,
 )
-from bsm.bitstream.limits import NAMED_LIMITS, Limits
-from bsm.codec.decoding import SequenceDecoder, decode_sequence
-from bsm.codec.events import END_OF_STREAM, NEED_DATA, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
+from bsm.api import encode_sequence
+from bsm.bitstream.container.packets import Gop
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.decoding import decode_sequence
 from bsm.codec.sequence import tracks
-from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.gop import FrameHistory
-from bsm.codec.sequence.options import Promise, SequenceOptions
-from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
+from bsm.codec.sequence.options import Promise
+from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import frames_in, moving_events_of, packets_of, peak_of, without

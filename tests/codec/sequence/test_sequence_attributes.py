@@ -3,14 +3,21 @@
 import numpy as np
 import pytest
 
+from bsm import (
+    END_OF_STREAM,
+    Attribute,
+    AttributeEvent,
+    BsmError,
+    FrameEvent,
+    LossEvent,
+    OptionError,
+    SequenceDecoder,
+    SequenceEncoder,
+    SequenceOptions,
+    decode_sequence,
+)
 from bsm.api import encode_sequence
 from bsm.bitstream.container import packets
-from bsm.bitstream.errors import BsmError, OptionError
-from bsm.codec.decoding import SequenceDecoder, decode_sequence
-from bsm.codec.events import END_OF_STREAM, AttributeEvent, FrameEvent, LossEvent
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
 from tests.streams import packets_of, without
 

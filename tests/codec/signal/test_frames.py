@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import TriangleMesh
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, tangent_steps
 from tests.shapes import tetrahedron, torus
 

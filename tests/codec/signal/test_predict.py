@@ -3,13 +3,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bsm import EncodeOptions, Encoder
 from bsm.codec.basis.laplacian import dense_laplacian, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import exact_basis, first_columns
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Known, Surroundings, unheld
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.options import changed
 from tests.shapes import patch, torus
 
 

@@ -2,9 +2,7 @@
 
 import pytest
 
-from bsm.bitstream.errors import CorruptError
-from bsm.codec.decoding import Decoder, SequenceDecoder, decode
-from bsm.codec.events import END_OF_STREAM, EndEvent, FrameEvent, LossEvent
+from bsm import END_OF_STREAM, CorruptError, Decoder, EndEvent, FrameEvent, LossEvent, SequenceDecoder, decode
 from tools.surgery import frames_of, stream_of
 from tools.vectors.bad import unlike
 from tools.vectors.store import FOLDER

@@ -11,17 +11,25 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.errors import MeshError, OptionError, TargetError
-from bsm.codec.decoding import decode
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import (
+    PRESETS,
+    Attribute,
+    Contract,
+    EncodeOptions,
+    Encoder,
+    MeshError,
+    OptionError,
+    Target,
+    TargetError,
+    TriangleMesh,
+    decode,
+    encode,
+)
 from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import LookMetric, look
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS, EncodeOptions, changed
-from bsm.codec.static.targets import Contract, Target
+from bsm.codec.static.options import changed
 from bsm.evaluation.sample import knot
 from tests.shapes import patch, tetrahedron, together, torus
 

@@ -5,8 +5,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from bsm import TriangleMesh
 from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import CREASE
 from bsm.codec.signal.smooth import local_frames

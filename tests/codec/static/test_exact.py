@@ -8,11 +8,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import OptionError
-from bsm.codec.decoding import decode
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm import PRESETS, EncodeOptions, Encoder, OptionError, TriangleMesh, decode, encode
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, torus
 

@@ -7,13 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.decoding import decode
+from bsm import PRESETS, EncodeOptions, Encoder, TriangleMesh, decode, encode
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, face_normals, flat_faces, folded_edges
 from bsm.codec.static.choice.shaping import Character, Shaper
-from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.preamble_encoding import join
 from bsm.files.mesh import read_mesh
 from tests.shapes import curved, grid_faces, patch, torus

@@ -6,12 +6,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bsm import EncodeOptions, Encoder, TriangleMesh, decode
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.splits import Splits, encode_order
-from bsm.codec.decoding import decode
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import join
 from tests.shapes import patch, torus
 

@@ -7,13 +7,22 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bsm import (
+    BlockEvent,
+    ConnectivityEvent,
+    CorruptError,
+    Decoder,
+    EncodeOptions,
+    EndEvent,
+    LossEvent,
+    OptionError,
+    RefinementEvent,
+    TriangleMesh,
+    TruncatedError,
+    decode,
+    encode,
+)
 from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
-from bsm.codec.decoding import Decoder, decode
-from bsm.codec.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
 from tests.streams import events_of
 from tools.surgery import spans_of
 from tools.vectors.good_fields import LAYER, base, on_grid, refined, soup

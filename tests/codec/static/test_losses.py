@@ -1,12 +1,8 @@
 import numpy as np
 import pytest
 
+from bsm import BlockEvent, BsmError, EncodeOptions, EndEvent, LossEvent, Paper, decode, encode
 from bsm.bitstream.container.packets import Block
-from bsm.bitstream.errors import BsmError
-from bsm.codec.decoding import decode
-from bsm.codec.events import BlockEvent, EndEvent, LossEvent
-from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions, Paper
 from tests.shapes import torus
 from tests.streams import events_of, packets_of, without
 

@@ -8,12 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import BsmError, MeshError
-from bsm.codec.decoding import decode
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import PRESETS, BsmError, Encoder, MeshError, TriangleMesh, decode
 from bsm.codec.look.measure import look
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import PRESETS
 from bsm.codec.static.targets import SLACK
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder

@@ -8,16 +8,12 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import PRESETS, Attribute, Contract, EncodeOptions, Encoder, Target, TriangleMesh, encode
 from bsm.codec.look.measure import LookMetric, own_normals
 from bsm.codec.static import encoder
 from bsm.codec.static.choice import attributes, grids, search
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.targets import Contract, Target
 from bsm.exits import exit_of
 from tests.shapes import patch
 

@@ -1,14 +1,21 @@
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import CorruptError, LimitError, OptionError, TruncatedError
-from bsm.bitstream.limits import Limits
+from bsm import (
+    BlockEvent,
+    CorruptError,
+    EncodeOptions,
+    Encoder,
+    LimitError,
+    Limits,
+    OptionError,
+    TriangleMesh,
+    TruncatedError,
+    encode,
+)
 from bsm.codec.decoding import decode
-from bsm.codec.events import BlockEvent
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import compare
-from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.options import changed
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import events_of
 

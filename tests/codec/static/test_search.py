@@ -8,11 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import EncodeOptions, Encoder, TriangleMesh
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.search import Search, Way
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import SLACK, secant
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, torus

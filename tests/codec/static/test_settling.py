@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from bsm import TriangleMesh
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.signal.smooth import in_frames, local_frames, tangent_steps
 from bsm.codec.static.choice.settling import RATIO, Sensitivity

@@ -6,12 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.errors import OptionError, TargetError
-from bsm.codec.decoding import decode
-from bsm.codec.geometry.metrics import Comparison, compare
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.targets import SLACK, Target, search_step
+from bsm import Comparison, EncodeOptions, Encoder, OptionError, Target, TargetError, decode
+from bsm.codec.geometry.metrics import compare
+from bsm.codec.static.targets import SLACK, search_step
 from tests.shapes import torus
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import NumericError
+from bsm import NumericError
 from bsm.codec.basis.orthogonal_iteration import hash_columns
 from bsm.codec.static.units import Units
 

@@ -3,16 +3,14 @@
 import numpy as np
 import pytest
 
+from bsm import PRESETS, Decoder, EncodeOptions, LimitError, Limits, OptionError, TriangleMesh, encode
 from bsm._engine import Decoder as Engine
-from bsm.bitstream.errors import LimitError, OptionError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.basis.laplacian import dictionary_cost, laplacian_of, solve_cost
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.decoding import BLOCK, Decoder, decode, mask_of
+from bsm.codec.decoding import BLOCK, decode, mask_of
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import PRESETS, EncodeOptions, changed
+from bsm.codec.static.options import changed
 from tests.shapes import patch
 from tools.vectors.meshes import torus
 

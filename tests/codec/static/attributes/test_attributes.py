@@ -8,18 +8,27 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bsm import (
+    PRESETS,
+    Attribute,
+    AttributeEvent,
+    BsmError,
+    Decoder,
+    EncodeOptions,
+    Encoder,
+    EndEvent,
+    LossEvent,
+    OptionError,
+    Target,
+    TargetError,
+    TriangleMesh,
+    decode,
+    encode,
+)
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import RECOMPUTED
-from bsm.bitstream.errors import BsmError, OptionError, TargetError
-from bsm.codec.decoding import Decoder, decode
-from bsm.codec.events import AttributeEvent, EndEvent, LossEvent
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.look.measure import AttributeLook, look, look_values
-from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.targets import Target
 from tests.shapes import curved, patch, tetrahedron, torus
 from tests.streams import packets_of, without
 from tools.surgery import frames_of, stream_of
