@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from bsm.codec.arrays import Faces, Positions
 from bsm.files.motion.caches import write_cache
 from tests.shapes import torus
 
 
-def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[Positions, Faces]:
+def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[np.ndarray, np.ndarray]:
     """A torus that turns, stretches and waves; shape (T, n, 3)."""
     mesh = torus(rows, columns)
     x, y, z = mesh.positions.T
@@ -23,7 +22,7 @@ def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[Positions, 
     return np.array(result), mesh.faces
 
 
-def turning(frames: int) -> tuple[Positions, Faces]:
+def turning(frames: int) -> tuple[np.ndarray, np.ndarray]:
     """A torus that turns about an axis and moves away, rigidly."""
     mesh = torus(30, 16)
     x, y, z = mesh.positions.T
@@ -32,7 +31,7 @@ def turning(frames: int) -> tuple[Positions, Faces]:
     return np.array(turned), mesh.faces
 
 
-def animators_own(folder: Path, frames: int = 24, loose: int = 3) -> Positions:
+def animators_own(folder: Path, frames: int = 24, loose: int = 3) -> np.ndarray:
     """An OBJ with texture coordinates, vertices in no order, at one place, and in no face; and how it moves."""
     positions, faces = bending(frames)
     mixed = np.random.default_rng(1).permutation(positions.shape[1])

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm import EncodeOptions, SequenceEncoder, SequenceOptions, TriangleMesh, decode, decode_sequence, encode
+from bsm import SequenceEncoder, SequenceOptions, TriangleMesh, decode, decode_sequence, encode
 from bsm.bitstream import _kernels as of_bytes
 from bsm.codec import _kernels as of_arrays
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.look.measure import AttributeLook, LookMetric
 from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice.settling import Sensitivity
-from bsm.codec.static.options import changed
+from bsm.options import encode_options
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
 from tests.shapes import torus
@@ -102,7 +102,7 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
         (tangled(), {"grid": 9}),
     )
     for shape, options in cases:
-        decode(encode(shape, changed(EncodeOptions(), threads=1, **options)), threads=1)
+        decode(encode(shape, encode_options(threads=1, **options)), threads=1)
     decode(refined(bare, LAYER, (size,)), threads=1)
     positions, faces = bending(3, 12, 8)
     encoder = SequenceEncoder(faces, SequenceOptions(threads=1, step=0.01), len(positions))

@@ -1,6 +1,7 @@
 """bsm denoise: words that a user types, and their results."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -12,12 +13,9 @@ import numpy as np
 import pytest
 
 from bsm import Attribute, DenoiseOptions, MeshError, TriangleMesh, api
-from bsm.codec.denoise import FINE_STEPS, FrameDenoiser, denoise_automatically
-from bsm.codec.denoise import GOALS as LIBRARY_GOALS
-from bsm.codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
+from bsm.codec import denoise as library
 from bsm.codec.denoise.frames import GROUP, OVERLAP, WINDOW
 from bsm.codec.geometry.metrics import mnd, theta
-from bsm.codec.threads import available_threads
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.files.formats.npz import npz_frames, shape_of
 from bsm.files.mesh import format_mesh, read_mesh, write_mesh
@@ -49,7 +47,7 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
     ran = bsm("denoise", noisy_file, "-o", tmp_path / "out.obj", "--json")
     assert ran.returncode == 0
     result = json.loads(ran.stdout)
-    expected, choice = denoise_automatically(read_mesh(noisy_file).mesh.positions, CLEAN.faces)
+    expected, choice = library.denoise_automatically(read_mesh(noisy_file).mesh.positions, CLEAN.faces)
     denoised = read_mesh(tmp_path / "out.obj").mesh
     assert np.allclose(denoised.positions, expected, atol=1e-6)
     assert [step["iterations"] for step in result["automatic"]["steps"]] == [step.iterations for step in choice.steps]
@@ -152,7 +150,7 @@ def test_frames_come_and_go_through_pipes(frames, tmp_path):
     with open(tmp_path / "in.npy", "rb") as source, open(tmp_path / "out.npy", "wb") as sink:
         command = [sys.executable, "-m", "bsm", "denoise", "-", "-o", "-", "--format", "npy", "-q", *FEW]
         subprocess.run(command, stdin=source, stdout=sink, timeout=120, cwd=program.ROOT, check=True)
-    expected = FrameDenoiser(frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200))(frames[:3])
+    expected = library.FrameDenoiser(frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200))(frames[:3])
     with open(tmp_path / "out.npy", "rb") as file:
         assert (np.load(file) == CLEAN.faces).all()
         for frame in expected:
@@ -165,8 +163,8 @@ def test_frames_that_are_none_are_refused(frames, options):
     broken = frames[0].copy()
     broken[5, 1] = np.nan
     with pytest.raises(MeshError, match="finite"):
-        FrameDenoiser(broken, CLEAN.faces, options)
-    denoiser = FrameDenoiser(frames[0], CLEAN.faces, options)
+        library.FrameDenoiser(broken, CLEAN.faces, options)
+    denoiser = library.FrameDenoiser(frames[0], CLEAN.faces, options)
     with pytest.raises(MeshError, match="finite"):
         list(denoiser([frames[0], broken]))
     with pytest.raises(MeshError, match="shape"):
@@ -174,9 +172,9 @@ def test_frames_that_are_none_are_refused(frames, options):
 
 
 def test_the_command_knows_all_choices_of_the_library():
-    assert set(FINE) == set(FINE_STEPS)
-    assert set(HAND_OVERS) == set(LIBRARY_HAND_OVERS)
-    assert set(GOALS) <= set(LIBRARY_GOALS)
+    assert set(FINE) == set(library.FINE_STEPS)
+    assert set(HAND_OVERS) == set(library.HAND_OVERS)
+    assert set(GOALS) <= set(library.GOALS)
 
 
 def test_no_more_than_a_few_frames_are_held():
@@ -189,12 +187,12 @@ def test_no_more_than_a_few_frames_are_held():
             most = max(most, held)
             yield still.positions
 
-    denoiser = FrameDenoiser(still.positions, still.faces)
+    denoiser = library.FrameDenoiser(still.positions, still.faces)
     results = denoiser(endless())
     for _ in range(2 * WINDOW + 5):
         assert next(results).shape == still.positions.shape
         held -= 1
-    assert most <= WINDOW + OVERLAP + 2 * available_threads() + 2
+    assert most <= WINDOW + OVERLAP + 2 * (os.cpu_count() or 1) + 2
 
 
 def test_frames_of_an_npz_are_read_one_by_one(frames, tmp_path):

@@ -10,7 +10,6 @@ import pytest
 from bsm import CorruptError, EncodeOptions, MeshError, TriangleMesh
 from bsm.cli import main
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.static.options import changed
 from bsm.evaluation.curve import (
     STYLES,
     Curve,
@@ -32,6 +31,7 @@ from bsm.evaluation.curve import (
     write_result,
 )
 from bsm.files.mesh import write_mesh
+from bsm.options import encode_options
 from tests.shapes import patch, torus
 
 POINT_KEYS = {
@@ -124,12 +124,8 @@ class TestCodecs:
 
     def test_settings_tell_what_differs_from_the_defaults(self):
         step = EncodeOptions().first_step
-        assert Spectral(changed(EncodeOptions(), power=4, threads=1)).settings == {
-            "step": step,
-            "power": 4,
-            "threads": 1,
-        }
-        assert Spectral(changed(EncodeOptions(), bits=9)).settings == {"bits": 9}
+        assert Spectral(encode_options(power=4, threads=1)).settings == {"step": step, "power": 4, "threads": 1}
+        assert Spectral(encode_options(bits=9)).settings == {"bits": 9}
 
 
 class TestResults:

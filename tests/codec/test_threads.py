@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, EncodeOptions, decode, encode
+from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, decode, encode
 from bsm._engine import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.basis.laplacian import factorize, laplacian_of
@@ -14,8 +14,8 @@ from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_itera
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.options import changed
 from bsm.codec.threads import ordered_map
+from bsm.options import encode_options
 from tests.shapes import patch
 
 
@@ -52,7 +52,7 @@ def test_errors_come_where_their_result_would(threads):
 @pytest.mark.parametrize("start", ["cosines", "svd"])
 def test_threads_change_neither_bytes_nor_positions(start):
     mesh = patch(60, 60)
-    options = changed(EncodeOptions(), block_size=200, key_interval=4, key_seed=start)
+    options = encode_options(block_size=200, key_interval=4, key_seed=start)
     streams = {encode(mesh, replace(options, threads=threads)) for threads in (1, 2, 7)}
     assert len(streams) == 1
     (data,) = streams
@@ -80,7 +80,7 @@ def test_dictionaries_are_computed_without_the_interpreter_lock():
 
 def test_threads_that_share_a_decoder_take_turns():
     """Each event reaches one thread, with the arrays that belong to it."""
-    data = encode(patch(100, 100), changed(EncodeOptions(threads=1, step=1e-3), block_size=100))
+    data = encode(patch(100, 100), encode_options(threads=1, step=1e-3, block_size=100))
 
     def blocks_of(workers):
         found, errors = [], []
@@ -117,7 +117,7 @@ def test_what_a_shared_engine_returns_stays_as_it_was():
     mesh, apart = patch(60, 60), np.random.default_rng(1).random((5000, 3))
     mesh = replace(mesh, positions=np.concatenate([mesh.positions, apart]))
     engine = Engine(DEFAULT_LIMITS, 1, True)
-    options = changed(EncodeOptions(threads=1, step=1e-3, keep_order=True), block_size=100)
+    options = encode_options(threads=1, step=1e-3, keep_order=True, block_size=100)
     engine.push(np.frombuffer(encode(mesh, options), np.uint8))
     engine.finish()
     while engine.next(1 << CONNECTIVITY)[0] != CONNECTIVITY:

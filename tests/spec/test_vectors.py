@@ -12,10 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import END_OF_STREAM, AttributeEvent, Decoder
+from bsm import END_OF_STREAM, AttributeEvent, Decoder, decode, decode_sequence
 from bsm.api import decode_frames
 from bsm.bitstream import errors
-from bsm.codec.decoding import decode, decode_sequence
 from tools.vectors.__main__ import try_product
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
 from tools.vectors.large import LARGE

@@ -10,7 +10,6 @@ import pytest
 
 import bsm
 from bsm.cli import main
-from bsm.codec.decoding import decode as decode_mesh
 from tests.engine.decoding import build, decode, of_sequence, released
 from tests.spec.test_law import RULES
 from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
@@ -77,7 +76,7 @@ WRITTEN = {
 def test_1_0_decodes_what_is_written_today(options, earlier):
     mesh = with_attributes(shuffled(torus(20, 16)), charts, creases, colors, groups)
     stream = bsm.encode(mesh, bsm.EncodeOptions(**options))
-    found, mesh = decode(earlier, stream), decode_mesh(stream)
+    found, mesh = decode(earlier, stream), bsm.decode(stream)
     right = {"positions": mesh.positions, "faces": mesh.faces} | arrays_of(mesh.attributes)
     assert found.status == 0, found.message
     assert found.arrays.keys() == right.keys() and len(right) > 5

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import CorruptError, EncodeOptions, OptionError, TriangleMesh, TruncatedError
+from bsm import decode as decode_mesh
+from bsm import encode as encode_mesh
 from bsm.bitstream import _kernels
 from bsm.bitstream.connectivity.order import permutation_bank, rotation_bank, write_permutation, write_rotations
 from bsm.bitstream.entropy.range_coder import finish_writing, start_writing
-from bsm.codec.decoding import decode as decode_mesh
-from bsm.codec.static.encoder import encode as encode_mesh
 from tests.shapes import Faces, grid_faces
 from tools.payloads import finish_reading, start_reading
 

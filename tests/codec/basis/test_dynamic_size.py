@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from bsm import EncodeOptions, Encoder, decode
+from bsm import Encoder, decode
 from bsm.codec.basis.orthogonal_iteration import dynamic_size, hash_columns, residual_norms
-from bsm.codec.static.options import changed
+from bsm.options import encode_options
 from tests.shapes import torus
 
 
@@ -30,7 +30,7 @@ def test_the_size_grows_over_the_upper_and_shrinks_under_the_lower_threshold():
 def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():
     mesh = torus(60, 40, bumps=0.15)
     options = {"block_size": 150, "keep": 0.5, "step": 5e-4, "smoothing": 0.0}
-    dynamic = Encoder(mesh, changed(EncodeOptions(), **options, doi=(0.02, 0.03)))
+    dynamic = Encoder(mesh, encode_options(**options, doi=(0.02, 0.03)))
     attempt = dynamic.attempt(5e-4)
     assert len(set(attempt.draft.coefficients)) > 2
     decoded = decode(b"".join(attempt.frames))

@@ -7,12 +7,11 @@ from collections.abc import Callable
 import numpy as np
 
 from bsm import TriangleMesh
-from bsm.codec.arrays import Faces, Positions
 
 Partners = Callable[[str, str], tuple[TriangleMesh, TriangleMesh]]
 
 
-def grid(size: int) -> tuple[Positions, Faces]:
+def grid(size: int) -> tuple[np.ndarray, np.ndarray]:
     """A flat square of size x size quads in the plane z = 0, with its boundary."""
     y, x = np.mgrid[: size + 1, : size + 1]
     positions = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1).astype(float)
@@ -22,7 +21,7 @@ def grid(size: int) -> tuple[Positions, Faces]:
     return positions, faces
 
 
-def cube(size: int) -> tuple[Positions, Faces]:
+def cube(size: int) -> tuple[np.ndarray, np.ndarray]:
     """A closed cube of edge `size`, its sides split into size x size quads; normals point outwards."""
     flat, faces = grid(size)
     x, y = flat[:, 0], flat[:, 1]
@@ -34,7 +33,7 @@ def cube(size: int) -> tuple[Positions, Faces]:
     return positions, number.ravel()[joined].astype(np.int32)
 
 
-def sphere(size: int) -> tuple[Positions, Faces]:
+def sphere(size: int) -> tuple[np.ndarray, np.ndarray]:
     """The cube blown up to a unit sphere."""
     positions, faces = cube(size)
     centred = positions - size / 2

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.causes import find_grid
 from bsm.codec.denoise.noise.finding import Finding
@@ -37,7 +36,7 @@ KINDS = {
 }
 
 
-def find(positions: Positions, faces: Faces) -> Finding:
+def find(positions: np.ndarray, faces: np.ndarray) -> Finding:
     return find_noise(positions, Probe(Topology(faces, len(positions))))
 
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from bsm import TriangleMesh
-from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import cotangent_weights
 from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
@@ -27,7 +26,7 @@ def parts_of(mesh: TriangleMesh, parts: int, width: int) -> tuple[Part, ...]:
     return make_parts(scheme, mesh.faces, mesh.positions, width=width, threads=2)
 
 
-def differences(parts: tuple[Part, ...], field: Matrix) -> list[Matrix]:
+def differences(parts: tuple[Part, ...], field: np.ndarray) -> list[np.ndarray]:
     return [part.difference(field, field) for part in parts]
 
 

@@ -17,7 +17,6 @@ from bsm import (
     VerificationError,
     decode_sequence,
 )
-from bsm.codec.arrays import Faces, Positions
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.options import PROMISES, Promise
 from bsm.codec.sequence.step_search import Measured, StepSearch, shading_error
@@ -26,8 +25,8 @@ from tests.motion import bending
 
 
 def kept(
-    positions: Positions, faces: Faces, promise: Promise, **changes: int
-) -> tuple[int, Positions, Positions, Faces]:
+    positions: np.ndarray, faces: np.ndarray, promise: Promise, **changes: int
+) -> tuple[int, np.ndarray, np.ndarray, np.ndarray]:
     """Bytes, the frames in the decoder's order, what is decoded, and the faces."""
     options = SequenceOptions(block_size=100, promise=promise, threads=1, **changes)
     encoder = SequenceEncoder(faces, options, len(positions))
@@ -36,12 +35,12 @@ def kept(
     return len(data), positions[:, encoder.vertex_order], decoded, found
 
 
-def looks(original: Positions, decoded: Positions, faces: Faces) -> list[float]:
+def looks(original: np.ndarray, decoded: np.ndarray, faces: np.ndarray) -> list[float]:
     pairs = zip(original, decoded, strict=True)
     return [LookMetric(TriangleMesh(a, faces), threads=1).look(b).moving for a, b in pairs]
 
 
-def farthest(original: Positions, decoded: Positions) -> float:
+def farthest(original: np.ndarray, decoded: np.ndarray) -> float:
     """In diagonals of the first frame."""
     return float(np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(np.ptp(original[0], axis=0)))
 
@@ -85,7 +84,7 @@ def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     encoder = SequenceEncoder(faces, options, len(positions))
     given: list[int] = []
 
-    def coming() -> Iterator[Positions]:
+    def coming() -> Iterator[np.ndarray]:
         for number, frame in enumerate(positions):
             given.append(number)
             yield frame

@@ -9,7 +9,6 @@ import bsm
 from bsm import Attribute, SequenceEncoder, SequenceOptions, TriangleMesh, decode_sequence
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
-from bsm.codec.arrays import Faces, Positions
 from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
 from bsm.codec.sequence.options import Promise
 from tests.motion import bending
@@ -30,7 +29,7 @@ def options(**changes: object) -> SequenceOptions:
     return SequenceOptions(**{"block_size": 100, "step": STEP, "threads": 1, **changes})  # type: ignore[arg-type]
 
 
-def coded(positions: Positions, faces: Faces, **changes: object) -> tuple[bytes, Positions, Positions]:
+def coded(positions: np.ndarray, faces: np.ndarray, **changes: object) -> tuple[bytes, np.ndarray, np.ndarray]:
     """The stream, what its frames are, and what they should be."""
     encoder = SequenceEncoder(faces, options(**changes), len(positions))
     data = b"".join(encoder.chunks(positions))

@@ -22,11 +22,11 @@ from bsm import (
     SequenceTarget,
     TargetError,
     VerificationError,
+    decode_sequence,
 )
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.decoding import decode_sequence
 from bsm.codec.sequence import tracks
 from bsm.codec.sequence.gop import FrameHistory
 from bsm.codec.sequence.options import Promise
@@ -321,10 +321,10 @@ def test_a_target_that_cannot_be_met_is_an_error():
 def test_limits():
     positions, faces = bending(12)
     data, _ = encoded(positions, faces)
-    decode_sequence(data, Limits(gop_frames=8, frames=12))
+    decode_sequence(data, limits=Limits(gop_frames=8, frames=12))
     for limits in (Limits(gop_frames=7), Limits(frames=11), Limits(sequence_bytes=1e5), Limits(vertices=100)):
         with pytest.raises(LimitError):
-            decode_sequence(data, limits)
+            decode_sequence(data, limits=limits)
 
 
 @pytest.mark.slow
@@ -333,7 +333,7 @@ def test_limits():
 def test_dictionaries_without_room_are_made_for_every_gop(way, threads):
     data, _ = encoded(*bending(16, 60, 32), **way)
     ample, _ = decode_sequence(data, threads=threads)
-    np.testing.assert_array_equal(decode_sequence(data, least_memory(data), threads)[0], ample)
+    np.testing.assert_array_equal(decode_sequence(data, limits=least_memory(data), threads=threads)[0], ample)
 
 
 def memory_of(size):
@@ -344,7 +344,7 @@ def least_memory(data):
     """Limits of so little memory that hardly anything is kept, but the stream is decoded."""
     for size in range(4_000_000, 16_000_000, 1_000_000):
         try:
-            decode_sequence(data, memory_of(size))
+            decode_sequence(data, limits=memory_of(size))
         except LimitError as error:
             assert "memory" in str(error)
         else:
@@ -360,7 +360,7 @@ def test_gops_end_earlier_where_decoders_lack_the_memory(monkeypatch):
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
     data, wanted = encoded(positions, faces, gop=32, step=1e-3)
     assert 1 < len(gops_of(data)) < 32
-    decoded, _ = decode_sequence(data, granted)
+    decoded, _ = decode_sequence(data, limits=granted)
     np.testing.assert_allclose(decoded, wanted, atol=0.05)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: memory_of(granted.memory - 3e6))
     with pytest.raises(OptionError, match="memory"):
@@ -422,9 +422,9 @@ def test_frames_that_are_shown_grant_work():
         work = decoder.work
     per_vertex = 0.3 * work / (480 * 17)
     granted = Limits(work=0.71 * work, work_per_vertex=per_vertex, work_per_byte=0)
-    assert len(decode_sequence(data, granted)[0]) == 16
+    assert len(decode_sequence(data, limits=granted)[0]) == 16
     with pytest.raises(LimitError, match="work"):
-        decode_sequence(data, Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0))
+        decode_sequence(data, limits=Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0))
 
 
 def assert_same(found, decoded, indices):

@@ -3,13 +3,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm import EncodeOptions, Encoder
+from bsm import Encoder
 from bsm.codec.basis.laplacian import dense_laplacian, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import exact_basis, first_columns
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Known, Surroundings, unheld
-from bsm.codec.static.options import changed
+from bsm.options import encode_options
 from tests.shapes import patch, torus
 
 
@@ -109,7 +109,7 @@ def test_held_rows_move_little_in_the_first_columns():
 def test_prediction_saves_bits_and_error():
     mesh = torus(90, 60)
     options = {"block_size": 250, "overlap": 1.0, "keep": 0.12, "key_interval": 0, "step": 0.004, "threads": 1}
-    held = Encoder(mesh, changed(EncodeOptions(), **options)).result()
-    loose = Encoder(mesh, changed(EncodeOptions(), **options, predict=False)).result()
+    held = Encoder(mesh, encode_options(**options)).result()
+    loose = Encoder(mesh, encode_options(**options, predict=False)).result()
     assert held.size < 0.9 * loose.size
     assert held.comparison.nmsve < loose.comparison.nmsve

@@ -29,8 +29,8 @@ from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import LookMetric, look
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.options import changed
 from bsm.evaluation.sample import knot
+from bsm.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
 
 
@@ -124,9 +124,7 @@ def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: TriangleMesh, pr
 
 @pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])
 def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -> None:
-    plain, light = (
-        Encoder(torus(80, 40), changed(EncodeOptions(), quick=quick, **option)).draft() for quick in (False, True)
-    )
+    plain, light = (Encoder(torus(80, 40), encode_options(quick=quick, **option)).draft() for quick in (False, True))
     assert light.header == replace(plain.header, light=1) and not plain.header.light
     first, other = (decode(b"".join(draft.frames)) for draft in (plain, light))
     np.testing.assert_array_equal(first.positions, other.positions)
@@ -140,7 +138,7 @@ def test_the_smallest_is_in_blocks_by_default() -> None:
 @pytest.mark.parametrize("option", [{"step": 0.01}, {"bits": 12}, {"keep": 0.1}])
 def test_quick_decoding_excludes_options_of_blocks(option: dict[str, float]) -> None:
     with pytest.raises(OptionError, match="quick"):
-        changed(EncodeOptions(), quick=True, **option)
+        encode_options(quick=True, **option)
 
 
 def test_a_bound_in_the_unit_of_the_mesh() -> None:

@@ -10,7 +10,6 @@ import pytest
 
 from bsm import PRESETS, BsmError, Encoder, MeshError, TriangleMesh, decode
 from bsm.codec.look.measure import look
-from bsm.codec.static.targets import SLACK
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
 from tests.shapes import torus
@@ -81,5 +80,5 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
     sizes, looks = zip(*found, strict=True)
     most = 1.03 if name in CREASED else 1.0
     assert all(coarser <= most * finer for coarser, finer in pairwise(sizes)), sizes
-    slack = 0.1 if name in CREASED else SLACK
+    slack = 0.1 if name in CREASED else 0.03
     assert all(finer <= coarser * math.exp(slack) for coarser, finer in pairwise(looks)), looks

@@ -11,11 +11,11 @@ from bsm import (
     OptionError,
     TriangleMesh,
     TruncatedError,
+    decode,
     encode,
 )
-from bsm.codec.decoding import decode
 from bsm.codec.geometry.metrics import compare
-from bsm.codec.static.options import changed
+from bsm.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import events_of
 
@@ -23,7 +23,7 @@ SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}
 
 
 def round_trip(mesh, **options):
-    encoder = Encoder(mesh, changed(EncodeOptions(), **options))
+    encoder = Encoder(mesh, encode_options(**options))
     decoded = decode(encoder.encode())
     return encoder, decoded, compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces)
 
@@ -99,7 +99,7 @@ def test_a_step_finer_than_levels_can_hold_is_refused():
 )
 @pytest.mark.parametrize("options", [{}, {"bits": 12}, {"key_interval": 1}], ids=str)
 def test_small_and_strange_meshes_come_back(mesh, options):
-    encoder = Encoder(mesh, changed(EncodeOptions(), block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options))
+    encoder = Encoder(mesh, encode_options(block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options))
     decoded = decode(encoder.encode())
     error = np.abs(mesh.positions[encoder.vertex_order] - decoded.positions).max()
     assert error <= 0.01 * mesh.diagonal + 1e-9 * np.abs(mesh.positions).max()
@@ -153,13 +153,13 @@ def test_a_stream_over_the_limits_is_refused():
         Limits(blocks=2),
     ):
         with pytest.raises(LimitError):
-            decode(data, limits)
+            decode(data, limits=limits)
 
 
 def test_illegal_options_are_refused():
     for wrong in ({"keep": 0.0}, {"bits": 1}, {"bits": 17}, {"overlap": 0.9}, {"key_seed": "random"}, {"step": -1.0}):
         with pytest.raises(OptionError):
-            changed(EncodeOptions(), **wrong)
+            encode_options(**wrong)
 
 
 def test_the_order_can_be_kept():
@@ -190,7 +190,7 @@ def test_many_bits_hold_a_first_row_that_is_large_beside_nothing():
     mesh = patch(40, 40)
     errors = []
     for bits in (8, 12, 13, 16):
-        encoder = Encoder(mesh, changed(EncodeOptions(), bits=bits, coefficients=1, block_size=100))
+        encoder = Encoder(mesh, encode_options(bits=bits, coefficients=1, block_size=100))
         decoded = decode(encoder.encode()).positions
         errors.append(np.abs(decoded - mesh.positions[encoder.vertex_order]).max())
     assert max(errors) < 1.01 * min(errors)

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from bsm import PRESETS, Decoder, EncodeOptions, LimitError, Limits, OptionError, TriangleMesh, encode
+from bsm import PRESETS, Decoder, EncodeOptions, LimitError, Limits, OptionError, TriangleMesh, decode, encode
 from bsm._engine import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.basis.laplacian import dictionary_cost, laplacian_of, solve_cost
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.decoding import BLOCK, decode, mask_of
+from bsm.codec.decoding import BLOCK, mask_of
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.options import changed
+from bsm.options import encode_options
 from tests.shapes import patch
 from tools.vectors.meshes import torus
 
@@ -46,8 +46,8 @@ def test_where_everything_is_beside_everything_a_block_costs_more():
     assert len(decode(stream).positions) == size
     tangled = work_of(stream)
     with pytest.raises(LimitError, match="work"):
-        decode(stream, Limits(work=0.99 * tangled, **NOTHING_ELSE))
-    assert len(decode(stream, Limits(work=1.01 * tangled, **NOTHING_ELSE)).positions) == size
+        decode(stream, limits=Limits(work=0.99 * tangled, **NOTHING_ELSE))
+    assert len(decode(stream, limits=Limits(work=1.01 * tangled, **NOTHING_ELSE)).positions) == size
     fronts, plain = (laplacian_of(block_of(each)).fronts for each in (mesh, torus(10, 25)))
     assert dictionary_cost(fronts, 4, 12) > 2 * dictionary_cost(plain, 4, 12)
 
@@ -71,10 +71,10 @@ def test_every_preset_is_within_the_limits_of_a_service(preset):
 def test_an_encoder_makes_nothing_that_decoders_refuse():
     wide = {"coefficients": 900, "block_size": 4000, "bits": 12, "power": 1, "key_iterations": 1}
     with pytest.raises(OptionError, match="memory"):
-        encode(torus(64, 64), changed(EncodeOptions(), **wide, key_seed="cosines"))
+        encode(torus(64, 64), encode_options(**wide, key_seed="cosines"))
     exact = {"coefficients": 400, "block_size": 800, "bits": 12, "key_interval": 1}
     with pytest.raises(OptionError, match="work"):
-        encode(torus(40, 40), changed(EncodeOptions(), **exact, limits="service"))
+        encode(torus(40, 40), encode_options(**exact, limits="service"))
     with pytest.raises(OptionError, match="refuse"):
         encode(soup(1500, 6000), EncodeOptions(block_size=1500, coefficients=4))
 
@@ -89,18 +89,18 @@ def test_a_mesh_that_was_made_on_a_grid_is_sent_on_it_where_blocks_would_be_refu
     mesh = torus(100, 80)
     made = TriangleMesh(np.rint(300.0 * mesh.positions), mesh.faces)
     stream = encode(made, EncodeOptions(block_size=8192, limits="service"))
-    assert len(decode(stream, Limits.service()).positions) == 8000
+    assert len(decode(stream, limits=Limits.service()).positions) == 8000
 
 
 def test_the_default_allows_wide_dictionaries():
-    stream = encode(torus(60, 50), changed(EncodeOptions(), bits=12, keep=0.4, block_size=500, key_interval=0))
-    assert len(decode(stream, DEFAULT_LIMITS).positions) == 3000
+    stream = encode(torus(60, 50), encode_options(bits=12, keep=0.4, block_size=500, key_interval=0))
+    assert len(decode(stream, limits=DEFAULT_LIMITS).positions) == 3000
 
 
 def test_asking_what_changed_is_not_work_of_the_stream():
     """However often a host asks, the verdict is the same; where answers take too long, the end makes vertices final."""
     mesh = patch(60, 60)
-    stream = encode(mesh, changed(EncodeOptions(threads=1, step=1e-3), block_size=100))
+    stream = encode(mesh, encode_options(threads=1, step=1e-3, block_size=100))
 
     def asked(times, **limits):
         engine = Engine(Limits(**limits))
