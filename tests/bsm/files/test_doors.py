@@ -7,10 +7,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import BsmWarning, FormatError, LimitError, MeshError, TruncatedError
-from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Attribute, BsmWarning, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
 from bsm.files.formats.metadata import images_in, materials_in
 from bsm.files.mesh import format_mesh, read_mesh, write_mesh
 from bsm.libraries import as_mesh

@@ -11,11 +11,9 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+from bsm import Attribute, BsmError, FormatError, LimitError, MeshError, OptionError, TriangleMesh, TruncatedError
 from bsm.api import decode_frames
-from bsm.bitstream.errors import BsmError, FormatError, LimitError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted, painted_like

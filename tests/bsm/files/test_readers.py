@@ -7,8 +7,7 @@ import sys
 
 import pytest
 
-from bsm.bitstream.errors import CorruptError, DependencyError, FormatError, LimitError, MeshError, TruncatedError
-from bsm.bitstream.limits import Limits
+from bsm import CorruptError, DependencyError, FormatError, LimitError, Limits, MeshError, TruncatedError
 from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.sequence import open_sequence
 from tests.shapes import tetrahedron, torus
