@@ -229,8 +229,8 @@ def test_failures_have_codes_and_say_what_is_wrong(name, folder, tmp_path, capsy
 
 def test_a_missing_package_has_its_code(folder, tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    (tmp_path / "a.glb").write_bytes(b"glTF and more")
-    assert main(["compare", str(tmp_path / "a.glb"), str(folder / "sample.bsm")]) == 8
+    (tmp_path / "a.dae").write_bytes(b"<COLLADA/>")
+    assert main(["compare", str(tmp_path / "a.dae"), str(folder / "sample.bsm")]) == 8
     assert "pip install" in capsys.readouterr().err
 
 

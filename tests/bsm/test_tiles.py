@@ -27,7 +27,8 @@ from bsm import (
 from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.commands import tile as command
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.gltf.document import EXTENSION, read_document
+from bsm.gltf.coding import EXTENSION
+from bsm.gltf.document import read_document
 from bsm.tiles.cutting import Lattice
 from bsm.tiles.making import farthest_near, simplified, welded
 from tests.bsm.program import bsm as program

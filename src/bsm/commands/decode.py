@@ -15,7 +15,8 @@ from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
-from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
+from bsm.files.formats.metadata import Written
+from bsm.files.mesh import GLTF, WRITTEN_FORMATS, by_name, format_of_name, save_written, written_mesh
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
@@ -45,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add_inputs(
         parser,
-        "stream, or - for standard input",
+        "stream, scene of glTF with streams, or - for standard input",
         "mesh file, - for a pipe, or folder for several inputs (default: IN with .ply). For a sequence: npz "
         "(default), PC2, MDD, GLB, USD, a folder for its frames, or a pattern such as walk/%%04d.obj",
     )
@@ -77,6 +78,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
+    if Path(args.input).suffix[1:].lower() in GLTF:
+        return _restore(args, console)
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
@@ -116,6 +119,26 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     console.note(f"{args.input} -> {output}: {counts}")
     facts = {"input": args.input, "output": output, "vertices": vertices, "faces": faces}
     return facts | {"input_bytes": taken, "output_bytes": written, "seconds": seconds, "left_out": list(left_out)}
+
+
+def _restore(args: DecodeJob, console: Console) -> Facts:
+    """Write a scene of glTF without compressed geometry, or the mesh that it is at rest."""
+    kind = args.format or format_of_name(args.output)
+    refuse_to_overwrite(args.output, args.may_replace(args.output))
+    document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
+    if kind == "glb":
+        file = Written(by_name("bsm.gltf.compress", "restore")(document))
+    else:
+        source = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
+        for note in source.notes:
+            console.note(f"{args.input}: {note}")
+        file = written_mesh(source.mesh, kind or "ply", args.output)
+    left_out = save_written(args.output, file, overwrite=args.may_replace(args.output), overwrite_beside=args.force)
+    if left_out:
+        console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
+    taken, written = size_of(args.input), len(file.data)
+    console.note(f"{args.input} -> {args.output}: {came_to(taken, written)}")
+    return {"input": args.input, "output": args.output, "input_bytes": taken, "output_bytes": written}
 
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:

@@ -1,11 +1,10 @@
 """bsm glb: a scene of glTF with its geometry coded, or one of a sequence."""
 
 import argparse
-from functools import partial
 from pathlib import Path
 
-from bsm.api import encode
 from bsm.bitstream.errors import OptionError
+from bsm.commands.flags import within
 from bsm.console import Console
 from bsm.files.output import write_output
 from bsm.files.pipes import read_bytes
@@ -15,7 +14,8 @@ from bsm.gltf.document import read_document
 from bsm.gltf.write import moving_scene
 
 MANY = 16  # primitives from which on a page waits longer for decoding than for the bytes that it saves
-PRESETS = ("balanced", "fine", "near-lossless", "grid14")
+PRESETS = ("balanced", "fine", "near-lossless", "lossless", "grid14")
+VISIBLE = 0.01  # of the diagonal of a component: an error that is worth a note
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -28,6 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     quick = "code grids only: pages decode them several times as fast, with a small decoder "
     quick += f"(default: for scenes of {MANY} primitives and more)"
     add("--quick", action=argparse.BooleanOptionalAction, help=quick)
+    kept = "quality of an attribute in the words of glTF (TEXCOORD_0=14bits, _ID=exact, COLOR_0=none); repeatable"
+    add("--attribute", action="append", default=[], metavar="NAME=QUALITY", help=kept)
+    shared = "one grid for all meshes that are scaled and turned alike, so that what touches goes on touching"
+    add("--one-grid", action="store_true", help=shared)
+    add("-j", "--jobs", type=within(0), default=1, metavar="N", help="processes (0: one per core; default 1)")
     plain = "also write OUT.fallback.bin with plain arrays, for viewers without the extension"
     add("--fallback", action="store_true", help=plain)
     images = "recompress images with Pillow: webp, jpeg, png; webp:85 sets a quality, webp:85@1024 also a largest side"
@@ -39,7 +44,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"the output is a .glb, not {args.output}")
     if is_stream(args.input):
-        if args.fallback or args.images or args.quick is not None or args.preset != PRESETS[-1]:
+        if any((args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)) or (
+            args.preset != PRESETS[-1]
+        ):
             raise OptionError("a stream is wrapped unchanged: only -o, -f and -q apply")
         stream = read_bytes(args.input)
         scene = moving_scene(stream)
@@ -48,19 +55,41 @@ def run(args: argparse.Namespace, console: Console) -> None:
         return
     document = read_document(args.input)
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
-    coder = partial(encode, preset=args.preset, quick=quick)
+    if args.preset == "lossless" and args.quick:
+        raise OptionError("--quick rounds positions to a grid; leave out --preset lossless")
+    if args.one_grid and args.preset != PRESETS[-1]:
+        raise OptionError(f"--one-grid shares the grid of --preset {PRESETS[-1]}; leave out the preset")
+    options = {"preset": args.preset, "quick": quick and args.preset != "lossless", "attributes": _qualities(args)}
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
     with console.progress("encoding") as progress:
-        found = compress(document, coder, rule, beside.name if beside else None, progress)
+        name = beside.name if beside else None
+        found = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)
     if beside and found.fallback:
         write_output(str(beside), found.fallback, overwrite=args.force, follow=False)
     write_output(args.output, found.data, overwrite=args.force)
     console.note(
         f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
-        f"{document.received} -> {len(found.data)} bytes"
+        f"{document.received} -> {len(found.data)} bytes; the farthest vertex is {found.error[0]:.3g} off, at most "
+        f"{100 * found.error[1]:.3g} % of the diagonal of its component"
     )
-    images = sum(len(document.image(number)[1]) for number in range(len(document.items("images"))))
+    if found.error[1] > VISIBLE:
+        console.note(f"{args.input}: small components are coarse; use --preset fine or near-lossless")
+    for note, count in found.notes.items():
+        console.note(f"{args.input}: {note}{f' ({count} times)' if count > 1 else ''}")
+    numbers = range(len(document.items("images")))
+    images = sum(len(document.bytes_of_image(number) or b"") for number in numbers)
     if not rule and 2 * images > len(found.data):
         console.note(f"{args.input}: {images} bytes are images, as they were; --images webp:85 makes them smaller")
     for reason, count in found.left.items():
         console.note(f"{args.input}: {count} stayed as {'it was' if count == 1 else 'they were'}: {reason}")
+
+
+def _qualities(args: argparse.Namespace) -> dict[str, str]:
+    """Qualities by the names of attributes."""
+    found = dict(entry.partition("=")[::2] for entry in args.attribute)
+    for name, quality in found.items():
+        if not name or not quality or quality == "recompute":
+            raise OptionError(f"--attribute {name}={quality}: write NAME=QUALITY; scenes have no recompute")
+        if quality == "none" and not name.startswith(("NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "_")):
+            raise OptionError(f"--attribute {name}=none: without {name} the scene would be another; name the others")
+    return found

@@ -1,41 +1,66 @@
-"""A scene with its geometry coded, and all else as it was."""
+"""Scenes of glTF with their geometry coded, or restored; everything else stays as it was."""
 
 from __future__ import annotations
 
 import copy
+import dataclasses
 import io
 import json
+import multiprocessing
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Protocol, Self
+from typing import Any, Self
 from urllib.parse import quote
 
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
-from bsm.bitstream.errors import BsmError, FormatError, OptionError, imported
+from bsm.bitstream.errors import BsmError, FormatError, OptionError, UnsupportedError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.gltf import coding
+from bsm.codec.geometry.welding import group_rows, weld
+from bsm.codec.static.encoder import Encoder
 from bsm.gltf import document as gltf
-from bsm.gltf.coding import PIECE, Drawn, Tree, drawn
+from bsm.gltf.coding import (
+    COMPONENTS,
+    DRACO,
+    EXTENSION,
+    FAN,
+    FLOAT,
+    KINDS,
+    MESHOPT,
+    PIECE,
+    STRIP,
+    TRIANGLES,
+    UINT,
+    Array,
+    Drawn,
+    Tree,
+    drawn,
+    stored,
+)
+from bsm.gltf.scene import places_at_rest
+from bsm.options import encode_options
 
-_TRIANGLES = 4
-_FLOAT, _UINT = coding.COMPONENTS["float32"], coding.COMPONENTS["uint32"]
 _SEMANTICS: dict[str, tuple[Semantic, int]] = {
     "NORMAL": ("normal", 3),
     "TEXCOORD_0": ("texcoord", 2),
     "TEXCOORD_1": ("texcoord", 2),
 }
-_LARGEST = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
 _GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
 _QUALITIES = {"NORMAL": "10bits", "TANGENT": "9bits", "COLOR_0": "8bits"}
-_QUALITIES |= dict.fromkeys(("TEXCOORD_0", "TEXCOORD_1"), "12bits")
 _TURN = "0.002"  # of what targets add to directions: a tenth of a degree
+_COARSEST = 2.0**-13  # of the range of texture coordinates: 12 bits
+_TEXELS, _SIDE = 0.25, 2048  # how many texels they may be off, and pixels of the side of an image that is not known
+_SHORT = 1 << 10  # indices from which on 16 bits of each are worth their words
+_WHOLE = 2**24  # up to which single precision has all whole numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +70,7 @@ class Carried:
     mesh: TriangleMesh
     accessors: dict[str, tuple[int, bool]]
     qualities: dict[str, str]
+    opens: bool  # whether targets or skins open faces without area
 
 
 def arrays_of(primitive: Tree) -> dict[str, int]:
@@ -56,21 +82,19 @@ def arrays_of(primitive: Tree) -> dict[str, int]:
 
 def like(document: gltf.Document, primitive: Tree) -> str:
     """A key that is equal for primitives which one stream can hold."""
-    accessors = [(name, document.tree["accessors"][index]) for name, index in sorted(arrays_of(primitive).items())]
-    kinds = [(name, a["componentType"], a["type"], a.get("normalized", False)) for name, a in accessors]
-    return str((kinds, primitive.get("mode", _TRIANGLES)))
+    accessors = [(name, document.item("accessors", index)) for name, index in sorted(arrays_of(primitive).items())]
+    return str([(name, a["componentType"], a["type"], a.get("normalized", False)) for name, a in accessors])
 
 
-def as_mesh(document: gltf.Document, primitives: Sequence[Tree]) -> Carried | str:
+def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
-    if primitives[0].get("mode", _TRIANGLES) != _TRIANGLES:
-        return "no triangles"
+    primitives = [same[0] for same in bundle]
     indexes = [*{index for primitive in primitives for index in arrays_of(primitive).values()}]
     indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
     # Accessors may share bytes.
     DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
     tables: dict[str, int] = {}  # where the vertices of which accessors begin
-    parts: list[dict[str, npt.NDArray[Any]]] = []
+    parts: list[dict[str, Array]] = []
     faces: list[npt.NDArray[np.int64]] = []
     count = 0
     for primitive in primitives:
@@ -82,59 +106,53 @@ def as_mesh(document: gltf.Document, primitives: Sequence[Tree]) -> Carried | st
             parts.append(found)
             tables[key] = count
             count += len(found["POSITION"])
-        indices = np.arange(count - tables[key])[:, None]
-        if "indices" in primitive:
-            given = document.array(primitive["indices"])
-            if given is None:
-                return "accessors without plain bytes"
-            indices = given
-        size = document.tree["accessors"][primitive["attributes"]["POSITION"]]["count"]
-        if len(indices) % 3 or not len(indices) or indices.max() >= size:
-            return "indices that are no triangles"
-        faces.append(indices.reshape(-1, 3).astype(np.int64) + tables[key])
+        triangles = gltf.triangles_of(document, primitive, document.count(primitive["attributes"]["POSITION"]))
+        if not len(triangles):
+            return "no triangles"
+        faces.append(triangles + tables[key])
     used, corners = np.unique(np.concatenate(faces), return_inverse=True)
     arrays = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
+    corners = corners.reshape(-1, 3)
+    opens = _opens(arrays, corners)
     positions = arrays.pop("POSITION")
-    extent = float(np.ptp(positions, axis=0).max())
-    attributes, accessors = [], {"POSITION": (_FLOAT, False)}
-    qualities: dict[str, str] = {}
+    normalized = {name: document.is_normalized(index) for name, index in arrays_of(primitives[0]).items()}
+    if not exact:
+        arrays |= _levels({name: array for name, array in arrays.items() if name.startswith("WEIGHTS_")})
+    attributes, accessors, qualities = [], {"POSITION": (FLOAT, False)}, dict[str, str]()
     for name, array in arrays.items():
-        carried = _carried(name, array, _is_normalized(document, arrays_of(primitives[0])[name]))
-        if carried is None:
-            return f"{name}, which streams do not carry as it is"
+        carried = _carried(name, array, normalized[name] or (name.startswith("WEIGHTS_") and not exact))
+        if isinstance(carried, str):
+            return carried
         attributes.append(carried[0])
         accessors[name] = carried[1:]
-        quality = _quality(name, array, extent)
-        qualities |= {name: quality} if quality else {}
+        if carried[0].values.dtype.kind == "f" and not exact:
+            extent = float(np.ptp(positions, axis=0).max())
+            of_name = _quality(name, array, extent, lambda name: _texel(document, bundle, name))
+            qualities |= {name: of_name} if of_name else {}
     if len(primitives) > 1:
         numbers = np.repeat(np.arange(len(faces)), [len(some) for some in faces])
         attributes.append(Attribute(PIECE, numbers.astype(np.uint16), "face"))
-    mesh = TriangleMesh(positions.astype(np.float64), corners.reshape(-1, 3).astype(np.int32), tuple(attributes), {})
-    return Carried(mesh, accessors, qualities)
+    mesh = TriangleMesh(positions.astype(np.float64), corners.astype(np.int32), tuple(attributes), {})
+    return Carried(mesh, accessors, qualities, opens)
 
 
-def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, npt.NDArray[Any]] | str:
+def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | str:
     """What each vertex of a primitive has, or why that cannot be coded."""
-    arrays: dict[str, npt.NDArray[Any]] = {}
+    arrays: dict[str, Array] = {}
     for name, index in arrays_of(primitive).items():
         array = document.array(index)
-        if array is None:
-            return "accessors without plain bytes"
         geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
-        arrays[name] = _floats(array, _is_normalized(document, index)) if geometry else array
+        shares = document.is_normalized(index) and (name.startswith("_") or array[0].nbytes % 4 > 0)
+        arrays[name] = _floats(array, document.is_normalized(index)) if geometry or shares else array
     positions = arrays.get("POSITION")
     if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
-        return "positions that are not plain floats"
+        return "positions that are not finite floats"
     if any(len(array) != len(positions) for array in arrays.values()):
         return "attributes of different lengths"
     return arrays
 
 
-def _is_normalized(document: gltf.Document, index: int) -> bool:
-    return bool(document.tree["accessors"][index].get("normalized"))
-
-
-def _floats(array: npt.NDArray[Any], normalized: bool) -> npt.NDArray[Any]:
+def _floats(array: Array, normalized: bool) -> Array:
     """Return the values of normalized integers as float32, of any shape."""
     if array.dtype.itemsize > 2 or array.dtype.kind not in "iu":
         return array
@@ -142,43 +160,80 @@ def _floats(array: npt.NDArray[Any], normalized: bool) -> npt.NDArray[Any]:
     return np.maximum(values / np.iinfo(array.dtype).max, -1, dtype=np.float32) if normalized else values
 
 
-def _quality(name: str, array: npt.NDArray[Any], extent: float) -> str | None:
-    """What is asked of an attribute; None: what meshes have by themselves."""
-    if array.dtype != np.float32:
-        return None
+def _opens(arrays: Mapping[str, Array], faces: npt.NDArray[np.int64]) -> bool:
+    """Whether vertices that make a face without area, being at one place, part by targets or joints."""
+    moved = [a for name, a in arrays.items() if name.endswith("/POSITION") or name.startswith(("JOINTS_", "WEIGHTS_"))]
+    positions = arrays["POSITION"].astype(np.float64)
+    triangles = weld(positions, faces.astype(np.int32))[1]
+
+    def flat(triangles: Array) -> npt.NDArray[np.bool_]:
+        a, b, c = triangles.T
+        return np.asarray((a == b) | (b == c) | (a == c))
+
+    closed = flat(triangles) & ~flat(faces)
+    if not moved or not closed.any():
+        return False
+    alike = group_rows(np.ascontiguousarray(np.column_stack([positions, *moved]), np.float64))
+    return bool((closed & ~flat(alike[faces])).any())
+
+
+def _levels(weights: Mapping[str, Array]) -> dict[str, Array]:
+    """Weights of all sets as bytes whose sum is 255, as that of the weights is 1."""
+    if not weights:
+        return {}
+    shares = [a / np.float64(1 if a.dtype.kind == "f" else np.iinfo(a.dtype).max) for a in weights.values()]
+    table = np.hstack(shares)
+    total = table.sum(axis=1, keepdims=True)
+    levels = np.floor(table / np.maximum(total, 1e-9) * 255)
+    levels[np.arange(len(levels)), table.argmax(axis=1)] += np.where(total[:, 0] > 0, 255 - levels.sum(axis=1), 0)
+    ends = np.cumsum([share.shape[1] for share in shares])[:-1]
+    return dict(zip(weights, np.split(np.clip(levels, 0, 255).astype(np.uint8), ends, axis=1), strict=True))
+
+
+def _quality(name: str, array: Array, extent: float, texel: Callable[[str], float]) -> str | None:
+    """The quality of an attribute of floats; None: that which meshes have by default."""
+    target, _, base = name.rpartition("/")
+    if base.startswith("TEXCOORD_"):
+        return repr(min(_COARSEST * (float(np.ptp(array, axis=0).max()) or 1.0), _TEXELS * texel(base)))
     if name in _QUALITIES:
         return _QUALITIES[name]
-    target, _, base = name.rpartition("/")
     if target and base == "POSITION":
         return repr(_GRID * extent) if extent > 0 else "exact"
     return _TURN if target and base in ("NORMAL", "TANGENT") else None
 
 
-def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attribute, int, bool] | None:
-    """An attribute as a stream carries it, and the accessor of what is decoded."""
+def _texel(document: gltf.Document, bundle: Bundle, name: str) -> float:
+    """The side of the smallest texel of the images that a set of texture coordinates places."""
+    sides = [1.0 * _SIDE]
+    for index in {primitive.get("material") for same in bundle for primitive in same} - {None}:
+        material = document.item("materials", index)
+        groups = [material, material.get("pbrMetallicRoughness", {}), *material.get("extensions", {}).values()]
+        textures = [value for group in groups for key, value in group.items() if key.endswith("Texture")]
+        for info in textures:
+            moved = info.get("extensions", {}).get("KHR_texture_transform", {})
+            if f"TEXCOORD_{moved.get('texCoord', info.get('texCoord', 0))}" == name:
+                sides.append(document.side_of_texture(info["index"], _SIDE) * max(map(abs, moved.get("scale", [1.0]))))
+    return 1.0 / max(sides[1:] or sides, default=_SIDE)
+
+
+def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int, bool] | str:
+    """An attribute as a stream carries it, and the accessor of what is decoded; or why no stream does."""
     is_float = array.dtype == np.float32
     if is_float and not np.isfinite(array).all():
-        return None
+        return f"{name} has numbers that are not finite"
     if name in _SEMANTICS and is_float:
         semantic, width = _SEMANTICS[name]
-        return (Attribute(name, array, "vertex", semantic), _FLOAT, False) if array.shape[1] == width else None
-    if name == "COLOR_0" and (is_float or (normalized and array.dtype in _LARGEST)):
-        if is_float and (array.min() < 0 or array.max() > 1):
-            return None
-        return Attribute(name, array, "vertex", "color"), _FLOAT, False
-    if name == "WEIGHTS_0":  # as bytes whose sum is 255, as that of the weights is 1
-        weights = array / np.float64(1 if is_float else _LARGEST.get(array.dtype, 1))
-        levels = np.floor(weights / np.maximum(weights.sum(axis=1, keepdims=True), 1e-9) * 255)
-        levels[np.arange(len(levels)), weights.argmax(axis=1)] += 255 - levels.sum(axis=1)
-        return Attribute(name, np.clip(levels, 0, 255).astype(np.uint8)), coding.COMPONENTS["uint8"], True
-    if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes
-        return None
-    return Attribute(name, array), coding.COMPONENTS[array.dtype.name], normalized and not is_float
-
-
-class Coder(Protocol):
-    def __call__(self, mesh: TriangleMesh, *, attributes: dict[str, str]) -> bytes:
-        """Its bytes; `attributes` is what is asked of some of its attributes."""
+        found = Attribute(name, array, "vertex", semantic) if array.shape[1] == width else None
+        return (found, FLOAT, False) if found else f"{name} has {array.shape[1]} numbers for each vertex, not {width}"
+    if name == "COLOR_0":
+        if (is_float and (array.min() < 0 or array.max() > 1)) or not (is_float or array.dtype.kind == "u"):
+            return "COLOR_0 has numbers that are not between 0 and 1"
+        return Attribute(name, array, "vertex", "color"), FLOAT, False
+    if is_float and (array == np.rint(array)).all() and np.abs(array).max() <= _WHOLE:  # identifiers, mostly
+        return Attribute(name, array.astype(np.int32)), FLOAT, False
+    if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes; floats hold such integers
+        return Attribute(name, array), FLOAT, False
+    return Attribute(name, array), COMPONENTS[array.dtype.name], normalized and not is_float
 
 
 Bundle = list[list[Tree]]
@@ -187,38 +242,54 @@ Bundle = list[list[Tree]]
 
 @dataclass(frozen=True, eq=False)
 class BundleStream:
-    """The stream of a bundle, what is drawn of it, and the accessors: component type, normalized or not."""
+    """The stream of a bundle, its drawn arrays, and the accessors: component type, normalized or not."""
 
     stream: bytes
     shape: Drawn
     accessors: dict[str, tuple[int, bool]]
+    error: tuple[float, float]  # the largest of a vertex, and the largest of the diagonal of its component
+    notes: tuple[str, ...]
 
 
-def code_bundle(document: gltf.Document, bundle: Bundle, coder: Coder) -> BundleStream | str:
-    found = as_mesh(document, [same[0] for same in bundle])
+def code_bundle(found: Carried | str, pieces: int, options: Mapping[str, Any]) -> BundleStream | str:
     if isinstance(found, str):
         return found
+    names = {"*", *(attribute.name for attribute in found.mesh.attributes)}
+    asked = {name: quality for name, quality in options.get("attributes", {}).items() if name in names}
+    qualities = {} if "*" in asked else found.qualities
+    order = {"keep_order": True} if found.opens else {}
     try:
-        stream = coder(found.mesh, attributes=found.qualities)
+        encoder = Encoder(
+            found.mesh, encode_options(**{"threads": 1, **options, **order, "attributes": {**qualities, **asked}})
+        )
+        stream = encoder.encode()
+        decoded = decode(stream)
     except BsmError as error:
         return f"no stream: {error}"
-    shape = drawn(decode(stream))
-    if len(shape.pieces) != len(bundle):
-        return "faces that are none"
-    return BundleStream(stream, shape, found.accessors)
+    shape = drawn(decoded)
+    if len(shape.pieces) != pieces:
+        return "no face has an area"
+    off = error_of(found.mesh.positions[encoder.vertex_order], decoded)
+    accessors = {name: found.accessors[name] for name in shape.arrays}
+    if len(shape.index) >= _SHORT and shape.index.max() < 65535:
+        accessors["indices"] = (COMPONENTS["uint16"], False)
+    return BundleStream(stream, shape, accessors, off, encoder.losses)
 
 
 def _accessors_of(primitive: Tree) -> dict[str, int]:
     return arrays_of(primitive) | ({"": primitive["indices"]} if "indices" in primitive else {})
 
 
-def bundles_of(document: gltf.Document, tree: Tree) -> list[Bundle]:
-    """The primitives of a tree, each in one bundle; `document` has the same accessors."""
+def bundles_of(document: gltf.Document, tree: Tree, left: Counter[str]) -> list[Bundle]:
+    """The primitives of a tree that can be coded, each in one bundle; `left` counts why others are not."""
     known: dict[str, list[Tree]] = {}
     bundles: list[Bundle] = []
     for mesh in tree.get("meshes", []):
         alike: dict[str, Bundle] = {}
         for primitive in mesh["primitives"]:
+            if why := _why_left(document, mesh, primitive):
+                left[why] += 1
+                continue
             key = str((sorted(_accessors_of(primitive).items()), primitive.get("mode")))
             if key not in known:
                 known[key] = []
@@ -228,22 +299,41 @@ def bundles_of(document: gltf.Document, tree: Tree) -> list[Bundle]:
     return bundles
 
 
+_KNOWN = ("KHR_materials_variants", "EXT_mesh_features", "EXT_structural_metadata", DRACO)
+"""Extensions of primitives that name no vertices, but for features without an attribute or a texture."""
+_OF_LOOKS = re.compile(
+    r"KHR_(materials|texture|lights|xmp|node|animation_pointer|mesh_quantization)\w*|EXT_(texture|lights|mesh_features)\w*"
+    r"|MSFT_(texture|lod|packing)\w*|ADOBE_materials\w*|CESIUM_RTC|AGI_\w+|VRMC?(_\w+)?"
+)
+"""Extensions that name no accessors and no bufferViews."""
+
+
+def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | None:
+    if primitive.get("mode", TRIANGLES) not in (TRIANGLES, STRIP, FAN):
+        return "points or lines"
+    accessors = [document.item("accessors", index) for index in _accessors_of(primitive).values()]
+    named = [name for name in mesh.get("extensions", {}) if not _OF_LOOKS.fullmatch(name)]
+    named += [name for entry in accessors for name in entry.get("extensions", {})]
+    named += [name for name in primitive.get("extensions", {}) if name not in _KNOWN]
+    features = primitive.get("extensions", {}).get("EXT_mesh_features", {}).get("featureIds", [])
+    named += ["EXT_mesh_features" for entry in features if not {"attribute", "texture"} & entry.keys()]
+    return f"{named[0]} may name vertices" if named else None
+
+
 def size_of(bundle: Bundle) -> int:
     return sum(len(same) for same in bundle)
 
 
-def users_of(bundles: list[Bundle], tree: Tree) -> dict[int, set[int]]:
-    """Which bundles use each accessor; -1: an animation or a skin."""
-    users: dict[int, set[int]] = {}
+def users_of(bundles: list[Bundle], tree: Tree, named: set[int]) -> dict[int, set[int]]:
+    """Which bundles use each accessor; -1: something else."""
+    users: dict[int, set[int]] = {index: {-1} for index in named}
+    coded: dict[int, int] = {}
     for number, bundle in enumerate(bundles):
-        for same in bundle:
-            for index in _accessors_of(same[0]).values():
-                users.setdefault(index, set()).add(number)
-    samplers = [sampler for animation in tree.get("animations", []) for sampler in animation["samplers"]]
-    used = [sampler[end] for sampler in samplers for end in ("input", "output")]
-    used += [skin["inverseBindMatrices"] for skin in tree.get("skins", []) if "inverseBindMatrices" in skin]
-    for index in used:
-        users.setdefault(index, set()).add(-1)
+        for primitive in (primitive for same in bundle for primitive in same):
+            holders = (primitive, primitive["attributes"], *primitive.get("targets", []))
+            coded |= {id(holder): number for holder in holders}
+    for holder, key in references(tree, "accessors"):
+        users.setdefault(holder[key], set()).add(coded.get(id(holder), -1))
     return users
 
 
@@ -257,22 +347,80 @@ def that_share(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[i
     return [sorted(group) for number, group in groups.items() if number == min(group)]
 
 
+# ----------------------------------------------------------------------------------------------------------- references
+
+
+def references(tree: Tree, kind: str) -> Iterator[tuple[Tree, str]]:
+    """Where the schema of glTF refers to accessors or bufferViews: an object, and the key there."""
+    if kind == "accessors":
+        for primitive in (primitive for mesh in tree.get("meshes", []) for primitive in mesh["primitives"]):
+            for holder in (primitive["attributes"], *primitive.get("targets", [])):
+                yield from ((holder, name) for name in holder)
+            yield from [(primitive, "indices")] if "indices" in primitive else []
+        for animation in tree.get("animations", []):
+            yield from ((sampler, end) for sampler in animation["samplers"] for end in ("input", "output"))
+        yield from ((skin, "inverseBindMatrices") for skin in tree.get("skins", []) if "inverseBindMatrices" in skin)
+        return
+    sparse = [accessor["sparse"] for accessor in tree.get("accessors", []) if "sparse" in accessor]
+    holders = [*tree.get("accessors", []), *tree.get("images", [])]
+    holders += [part for entry in sparse for part in (entry["indices"], entry["values"])]
+    yield from ((holder, "bufferView") for holder in holders if "bufferView" in holder)
+    for view in tree.get("bufferViews", []):
+        yield from ((how, "stream") for name, how in view.get("extensions", {}).items() if name == EXTENSION)
+
+
+def named_by_others(node: Any, *, inside: bool = False) -> set[int]:
+    """Numbers in extensions that are not known: they may be those of accessors or bufferViews."""
+    if isinstance(node, dict):
+        found = set[int]()
+        for key, value in node.items():
+            if key == "extensions" and isinstance(value, dict):
+                known = {name for name in value if _OF_LOOKS.fullmatch(name) or name in (EXTENSION, DRACO, *MESHOPT)}
+                found |= set().union(*(named_by_others(value[name], inside=name not in known) for name in value))
+            elif key != "extras":
+                found |= named_by_others(value, inside=inside)
+        return found
+    if isinstance(node, list):
+        return set().union(*(named_by_others(item, inside=inside) for item in node))
+    if isinstance(node, str):
+        return {int(number) for number in re.findall(r"/(\d{1,9})", node)} if inside else set()
+    return {int(node)} if inside and isinstance(node, int | float) and abs(node) < _WHOLE else set()
+
+
+def _renumber(tree: Tree, kind: str, stay: set[int], before: set[int], blank: Tree) -> None:
+    """Drop the entries of a kind that were referred to `before`, and are no more; some `stay` where they are."""
+    entries: list[Tree] = tree.get(kind, [])
+    places = list(references(tree, kind))
+    kept = (
+        {holder[key] for holder, key in places} | (set(range(len(entries))) - before) | (stay & {*range(len(entries))})
+    )
+    free = (number for number in range(len(entries)) if number not in stay)
+    numbers = {old: old if old in stay else next(free) for old in sorted(kept)}
+    for holder, key in places:
+        holder[key] = numbers[holder[key]]
+    origin = [-1] * (max(numbers.values(), default=-1) + 1)
+    for old, new in numbers.items():
+        origin[new] = old
+    tree[kind] = [entries[old] if old >= 0 else dict(blank) for old in origin]
+
+
 # -------------------------------------------------------------------------------------------------------------- a scene
 
 
-_COMPRESSED = {coding.EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
 _TYPES = {width: name for name, width in gltf.VECTORS.items()}
-_MOST, _WHOLE = float(np.finfo(np.float32).max), 2**24
+_MOST = float(np.finfo(np.float32).max)
 
 
 @dataclass(frozen=True)
 class Compressed:
-    """A .glb, how many of its primitives are coded, and why others are not: how many for each reason."""
+    """A .glb, how many of its primitives are coded, why others are not, and notes: how many for each."""
 
     data: bytes
     coded: int
     left: dict[str, int]
     fallback: bytes = b""
+    notes: Mapping[str, int] = dataclasses.field(default_factory=dict)
+    error: tuple[float, float] = (0.0, 0.0)
 
 
 @gltf.as_format_error()
@@ -283,89 +431,166 @@ def count_primitives(document: gltf.Document) -> int:
 @gltf.as_format_error()
 def compress(
     document: gltf.Document,
-    coder: Coder,
+    options: Mapping[str, Any],
     images: ImageRule | None = None,
     fallback: str | None = None,
     progress: Callable[[int, int], None] | None = None,
+    *,
+    jobs: int = 1,
+    one_grid: bool = False,
 ) -> Compressed:
-    """Code each primitive of triangles where that makes the scene smaller."""
-    for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
-        raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
-    scene = _Scene(document, fallback)
-    left: Counter[str] = Counter()
-    done = 0
-    bundles = bundles_of(document, scene.tree)
-    users = users_of(bundles, document.tree)
-    begun, total = 0, count_primitives(document)
-    for together in that_share(bundles, users):
+    """Code each primitive of triangles where that makes the scene smaller; `options` are those of `bsm.encode`."""
+    if EXTENSION in document.compressed:
+        raise FormatError(f"its geometry is compressed already, by {EXTENSION}; start from the scene before that")
+    scene = _Rewritten(document, fallback)
+    left, notes = Counter[str](), Counter[str]()
+    bundles = bundles_of(document, scene.tree, left)
+    users = users_of(bundles, scene.tree, scene.named)
+    exact = options.get("preset") == "lossless"
+    asked = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
+    each = _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
+    each = [{**given, "attributes": asked} for given in each]
+    total, begun = sum(map(size_of, bundles)), 0
+    coded: list[BundleStream | str] = []
+    for found in _coded((as_mesh(document, bundle, exact=exact) for bundle in bundles), bundles, each, jobs):
         if progress:
             progress(begun, total)
-        found: dict[int, BundleStream] = {}
+        begun += size_of(bundles[len(coded)])
+        coded.append(found)
+    done, errors = 0, [(0.0, 0.0)]
+    for together in that_share(bundles, users):
+        streams = {number: found for number in together if isinstance(found := coded[number], BundleStream)}
         for number in together:
-            coded = code_bundle(document, bundles[number], coder)
-            if isinstance(coded, BundleStream):
-                found[number] = coded
-            else:
-                left[coded] += size_of(bundles[number])
-            begun += size_of(bundles[number])
-        freed = [index for index, theirs in users.items() if theirs <= found.keys()]
-        primitives = sum(size_of(bundles[number]) for number in found)
-        if scene.would_shrink(list(found.values()), freed):
+            if isinstance(why := coded[number], str):
+                left[why] += size_of(bundles[number])
+        freed = [index for index, theirs in users.items() if theirs <= streams.keys()]
+        primitives = sum(size_of(bundles[number]) for number in streams)
+        if scene.would_shrink(list(streams.values()), freed):
             done += primitives
-            for number, coded in found.items():
-                scene.put(bundles[number], coded)
-        elif found:
+            for number, found in streams.items():
+                scene.put(bundles[number], found)
+                notes.update(found.notes)
+                errors.append(found.error)
+        elif streams:
             left["a stream would not be smaller"] += primitives
     if images:
         scene.rewrite_images(images)
-    return Compressed(scene.finished(), done, dict(left), b"".join(scene.plain) if fallback else b"")
+    data = scene.finished()
+    worst = (max(error for error, _ in errors), max(share for _, share in errors))
+    return Compressed(data, done, dict(left), b"".join(scene.plain) if fallback else b"", notes, worst)
 
 
-def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
-    if component == _FLOAT and values.dtype.kind == "u":
-        return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
-    return values.astype(coding.KINDS[component])
+@gltf.as_format_error()
+def restore(document: gltf.Document) -> bytes:
+    """A .glb without compressed geometry."""
+    for number, mesh in enumerate(document.items("meshes")):
+        if EXTENSION in mesh.get("extensions", {}):
+            raise UnsupportedError(f"mesh {number} moves, and plain glTF cannot hold it: decode its stream to .glb")
+    return _Rewritten(document, None).finished()
+
+
+def _coded(
+    found: Iterator[Carried | str], bundles: list[Bundle], options: Sequence[Mapping[str, Any]], jobs: int
+) -> Iterator[BundleStream | str]:
+    """The stream of each bundle, or why it has none."""
+    if jobs == 1 or len(bundles) < 2:
+        yield from map(code_bundle, found, map(len, bundles), options)
+        return
+    with ProcessPoolExecutor(jobs or None, multiprocessing.get_context("spawn")) as pool:
+        yield from pool.map(code_bundle, found, map(len, bundles), options)
+
+
+def _one_grid(
+    document: gltf.Document, tree: Tree, bundles: list[Bundle], options: Mapping[str, Any]
+) -> list[dict[str, Any]]:
+    """Options of each bundle: those whose nodes turn and scale alike share the places and the size of their cells."""
+    matrices: dict[object, Array] = {}
+    for node, matrix in places_at_rest(document).items():
+        entry = document.item("nodes", node)
+        matrices.setdefault(entry.get("mesh"), np.eye(4) if "skin" in entry else matrix)
+    meshes = {id(primitive): n for n, mesh in enumerate(tree["meshes"]) for primitive in mesh["primitives"]}
+    placed = [matrices.get(meshes[id(bundle[0][0])], np.eye(4)) for bundle in bundles]
+    cells: dict[bytes, float] = {}
+    for bundle, matrix in zip(bundles, placed, strict=True):
+        tables = [document.numbers(same[0]["attributes"]["POSITION"]) for same in bundle]
+        extent = max(float(np.ptp(table, axis=0).max(initial=0.0)) for table in tables)
+        key = np.round(matrix[:3, :3], 9).tobytes()
+        cells[key] = max(cells.get(key, 0.0), extent / (1 << 14))
+    found = []
+    for matrix in placed:
+        cell = cells[np.round(matrix[:3, :3], 9).tobytes()]
+        moved = np.linalg.lstsq(matrix[:3, :3], matrix[:3, 3], rcond=None)[0]
+        origin = tuple((-moved % cell).tolist()) if cell else (0.0, 0.0, 0.0)
+        grid = {"grid_cell": cell, "grid_origin": origin} if cell else {"grid": 14}
+        found.append({name: value for name, value in options.items() if name not in ("preset", "grid")} | grid)
+    return found
+
+
+def error_of(positions: Array, decoded: TriangleMesh) -> tuple[float, float]:
+    """The largest error of a vertex, and the largest as a share of the diagonal of its component."""
+    errors = np.linalg.norm(decoded.positions - positions, axis=1)
+    edges = decoded.faces[:, [0, 1, 1, 2]].reshape(-1, 2)
+    graph = coo_array((np.ones(len(edges), np.int8), edges.T), shape=(len(errors),) * 2)
+    labels = connected_components(graph, directed=False)[1]
+    order = np.argsort(labels, kind="stable")
+    starts = np.searchsorted(labels[order], np.arange(labels.max() + 1))
+    low, high = (way.reduceat(positions[order], starts, axis=0) for way in (np.minimum, np.maximum))
+    farthest, diagonals = np.maximum.reduceat(errors[order], starts), np.linalg.norm(high - low, axis=1)
+    return float(errors.max()), float((farthest / np.where(diagonals > 0, diagonals, np.inf)).max())
 
 
 def _length(entry: Tree) -> int:
     return len(json.dumps(_short(entry), separators=(",", ":"))) + 1
 
 
-class _Scene:
-    """A tree that is changed, and the parts of its new buffers."""
+class _Rewritten(gltf.Growing):
+    """The tree of a document that is changed, and the bytes of its new buffer."""
 
     def __init__(self, document: gltf.Document, fallback: str | None) -> None:
-        self.tree: Tree = copy.deepcopy(document.tree)
-        self._document = document
-        self._images = {
-            number: document.image(number)[1]
-            for number, image in enumerate(document.items("images"))
-            if "uri" in image and "://" not in str(image["uri"])
+        super().__init__(io.BytesIO(), copy.deepcopy(document.tree))
+        self._document, self._fallback = document, fallback
+        for kind in ("bufferViews", "buffers"):
+            names = {name for entry in document.items(kind) for name in entry.get("extensions", {})}
+            if unknown := names - {EXTENSION, *MESHOPT}:
+                raise UnsupportedError(
+                    f"{kind} have the extension {min(unknown)}, which may name bytes that would move"
+                )
+        self.named = named_by_others(document.tree)
+        self._before = {
+            kind: {holder[key] for holder, key in references(document.tree, kind)}
+            for kind in ("accessors", "bufferViews")
         }
-        self._fresh: dict[int, bytes] = {}  # what new bufferViews hold
+        self._moved: set[int] = set()  # bufferViews whose bytes are in the new buffer
+        self._coded = False
         self._virtual = 0  # bytes of what decoders fill
-        self._fallback = fallback
         self.plain: list[bytes] = []
+
+    def fresh(self, data: bytes, **more: Any) -> int:
+        """Add a bufferView."""
+        view = self.view(data, **more)
+        self._moved.add(view)
+        return view
 
     def would_shrink(self, found: list[BundleStream], freed: list[int]) -> bool:
         """Return whether streams and their JSON are smaller than the accessors that they replace."""
         before = 0
         for index in freed:
-            accessor = self._document.tree["accessors"][index]
-            array = self._document.array(index)
-            before += _length(accessor) + (0 if array is None else array.nbytes)
+            accessor = self._document.item("accessors", index)
+            before += _length(accessor)
+            if accessor.get("bufferView") not in self.named:
+                before += self._document.array(index).nbytes
         after = sum(len(coded.stream) for coded in found)
         for coded in found:
             entries = [self._view(0, name, array, coded) for name, array in self._arrays(coded)]
             entries += [{"buffer": 0, "byteOffset": 0, "byteLength": len(coded.stream)}]
-            entries += [self._accessor(0, name, array, coded) for name, array in coded.shape.arrays.items()]
-            entries += [self._corners(0, piece) for piece in coded.shape.pieces]
+            entries += [self._accessor(0, name, array, coded, {}) for name, array in coded.shape.arrays.items()]
+            entries += [self._corners(0, piece, coded, {}) for piece in coded.shape.pieces]
             after += sum(map(_length, entries))
         return bool(found) and after < before
 
     def put(self, bundle: Bundle, coded: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
-        stream = self._add_bytes(coded.stream)
+        stream, self._coded = self.fresh(coded.stream), True
         views = {}
         for name, array in self._arrays(coded):
             view = self._view(stream, name, array, coded)
@@ -375,66 +600,60 @@ class _Scene:
                 self._virtual += array.nbytes + -array.nbytes % 4
             else:
                 self._virtual = max(self._virtual, array.nbytes)
-            views[name] = self._add("bufferViews", view)
-        arrays = coded.shape.arrays
+            views[name] = self.add("bufferViews", view)
+        entries: list[Tree] = self.tree["accessors"]
+        given = arrays_of(bundle[0][0])
         places = {
-            name: self._add("accessors", self._accessor(views[name], name, arrays[name], coded)) for name in arrays
+            name: self.add("accessors", self._accessor(views[name], name, array, coded, entries[given[name]]))
+            for name, array in coded.shape.arrays.items()
         }
         for same, piece in zip(bundle, coded.shape.pieces, strict=True):
-            indices = self._add("accessors", self._corners(views["indices"], piece))
+            before = entries[same[0]["indices"]] if "indices" in same[0] else {}
+            indices = self.add("accessors", self._corners(views["indices"], piece, coded, before))
             for primitive in same:
                 primitive["indices"] = indices
-                primitive["attributes"] = {name: places[name] for name in primitive["attributes"]}
+                primitive.pop("mode", None)
+                named = {name: places[name] for name in primitive["attributes"] if name in places}
+                primitive["attributes"] = named
                 for number, target in enumerate(primitive.get("targets", [])):
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
     @staticmethod
-    def _arrays(coded: BundleStream) -> list[tuple[str, npt.NDArray[Any]]]:
-        found = [(name, _stored(array, coded.accessors[name][0])) for name, array in coded.shape.arrays.items()]
-        return [*found, ("indices", coded.shape.index)]
+    def _arrays(coded: BundleStream) -> list[tuple[str, Array]]:
+        arrays = {**coded.shape.arrays, "indices": coded.shape.index}
+        return [(name, stored(name, array, coded.accessors.get(name, (UINT,))[0])) for name, array in arrays.items()]
 
     @staticmethod
-    def _view(stream: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> Tree:
-        usual = _UINT if name == "indices" else _FLOAT
-        component, _ = coded.accessors.get(name, (_UINT, False))
+    def _view(stream: int, name: str, array: Array, coded: BundleStream) -> Tree:
+        usual = UINT if name == "indices" else FLOAT
+        component, _ = coded.accessors.get(name, (UINT, False))
         extension: Tree = {"stream": stream, "attribute": name}
         extension |= {"componentType": component} if component != usual else {}
-        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {coding.EXTENSION: extension}}
+        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: extension}}
 
     @staticmethod
-    def _accessor(view: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> Tree:
+    def _accessor(view: int, name: str, array: Array, coded: BundleStream, before: Tree) -> Tree:
         component, normalized = coded.accessors[name]
         accessor: Tree = {"bufferView": view, "componentType": component, "count": len(array)}
-        accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {})}
+        accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {}), **_words(before)}
         return accessor | (gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})
 
     @staticmethod
-    def _corners(view: int, piece: tuple[int, int]) -> Tree:
-        start, count = piece
-        accessor: Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
-        return accessor | ({"byteOffset": 4 * start} if start else {})
-
-    def _add(self, kind: str, entry: Tree) -> int:
-        entries: list[Tree] = self.tree.setdefault(kind, [])
-        entries.append(entry)
-        return len(entries) - 1
-
-    def _add_bytes(self, data: bytes) -> int:
-        view = self._add("bufferViews", {"byteLength": len(data)})
-        self._fresh[view] = data
-        return view
+    def _corners(view: int, piece: tuple[int, int], coded: BundleStream, before: Tree) -> Tree:
+        component, (start, count) = coded.accessors.get("indices", (UINT, False))[0], piece
+        accessor: Tree = {"bufferView": view, "componentType": component, "count": count, "type": "SCALAR"}
+        offset = start * np.dtype(KINDS[component]).itemsize
+        return accessor | ({"byteOffset": offset} if start else {}) | _words(before)
 
     def rewrite_images(self, rule: ImageRule) -> None:
         """Write images by a rule where that makes them smaller."""
         for number, image in enumerate(self.tree.get("images", [])):
-            data = self._images.get(number)
-            if "bufferView" in image:
-                data = self._document.view(image["bufferView"])
+            data = self._document.bytes_of_image(number)
             found = data and smaller(data, rule)
             if not found:
                 continue
             image.pop("uri", None)
-            image |= {"mimeType": f"image/{rule.kind}", "bufferView": self._add_bytes(found)}
+            image |= {"mimeType": f"image/{rule.kind}", "bufferView": self.fresh(found)}
             for texture in self.tree.get("textures", []) if rule.kind == "webp" else ():
                 if texture.get("source") == number:
                     del texture["source"]
@@ -448,53 +667,90 @@ class _Scene:
                 names.append(extension)
 
     def finished(self) -> bytes:
-        """The .glb: bufferViews that nothing uses any more are gone, images that lay beside are in it."""
+        """The .glb: what was replaced is gone, images that lay beside are in it, geometry of others is plain."""
         tree = self.tree
-        for number, data in self._images.items():
-            image = tree["images"][number]
-            if "uri" in image:
-                kind = "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
+        for number, image in enumerate(tree.get("images", [])):
+            data = self._document.bytes_of_image(number) if "uri" in image else None
+            kind = image.get("mimeType") or (data and gltf.mime_of(data))
+            if data and kind:
                 image.pop("uri")
-                image |= {"mimeType": image.get("mimeType", kind), "bufferView": self._add_bytes(data)}
-        _drop_unused(tree, "accessors")
+                image |= {"mimeType": kind, "bufferView": self.fresh(data)}
+        self._write_draco()
+        blank: Tree = {"componentType": COMPONENTS["uint8"], "count": 1, "type": "SCALAR"}
+        _renumber(tree, "accessors", self.named, self._before["accessors"], blank)
         self._trim()
-        kept = _drop_unused(tree, "bufferViews")
-        parts: list[bytes] = []
-        at = 0
-        virtual = False
-        for new, old in enumerate(kept):
-            view = tree["bufferViews"][new]
-            if coding.EXTENSION in view.get("extensions", {}):
-                view["buffer"], virtual = 1, True
-                continue
-            data = self._fresh[old] if old in self._fresh else self._document.view(old)
-            view |= {"buffer": 0, "byteOffset": at}
-            parts.append(data + b"\0" * (-len(data) % 4))
-            at += len(parts[-1])
-        tree["buffers"] = [{"byteLength": at}] if at else []
-        if virtual:
-            filled: Tree = {"byteLength": self._virtual, "extensions": {coding.EXTENSION: {"fallback": True}}}
+        self._place_views()
+        for name in (DRACO, *MESHOPT):
+            for key in ("extensionsUsed", "extensionsRequired"):
+                tree[key] = [other for other in tree.get(key, []) if other != name]
+        if not self._virtual:
+            for key in ("extensionsUsed", "extensionsRequired"):
+                tree[key] = [other for other in tree[key] if other != EXTENSION]
+        tree["buffers"] = [{"byteLength": self.size}] if self.size else []
+        if self._virtual:
+            filled: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
             tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
-            self._use(coding.EXTENSION, required=not self._fallback)
-        return gltf.glb(_short(tree), b"".join(parts))
+            self._use(EXTENSION, required=not self._fallback)
+        for key in ("accessors", "bufferViews", "buffers", "extensionsUsed", "extensionsRequired"):
+            if not tree.get(key):
+                tree.pop(key, None)
+        self.tree = _short(tree)
+        return self.whole()
+
+    def _write_draco(self) -> None:
+        """Write what Draco held of primitives that were not coded."""
+        for primitive in (primitive for mesh in self.tree.get("meshes", []) for primitive in mesh["primitives"]):
+            if DRACO not in primitive.get("extensions", {}):
+                continue
+            del primitive["extensions"][DRACO]
+            if not primitive["extensions"]:
+                del primitive["extensions"]
+            for name, index in _accessors_of(primitive).items():
+                accessor = self.tree["accessors"][index]
+                if index < len(self._document.items("accessors")) and "bufferView" not in accessor:
+                    values = self._document.array(index)
+                    accessor |= {"bufferView": self.table(values, packed=not name), "count": len(values)}
+                    self._moved.add(accessor["bufferView"])
+
+    def _place_views(self) -> None:
+        """Drop what was replaced, and put the bytes of the others into the new buffer."""
+        views: list[Tree] = self.tree.setdefault("bufferViews", [])
+        used = {holder[key] for holder, key in references(self.tree, "bufferViews")}
+        for number, view in enumerate(views[: len(self._document.items("bufferViews"))]):
+            packed = [name for name in (EXTENSION, *MESHOPT) if view.get("extensions", {}).pop(name, None)]
+            if "extensions" in view and not view["extensions"]:
+                del view["extensions"]
+            unread = number in self._before["bufferViews"] and not {number} & (used | self.named)
+            if number in self._moved or unread:
+                continue
+            data = self._document.view(number)
+            view |= {"buffer": 0, "byteOffset": self.append(data), **({"byteLength": len(data)} if packed else {})}
+        blank: Tree = {"buffer": 0, "byteLength": 1}
+        _renumber(self.tree, "bufferViews", self.named, self._before["bufferViews"], blank)
 
     def _trim(self) -> None:
         """Leave out of bufferViews that accessors share what none of them uses any more."""
         readers: dict[int, list[Tree]] = {}
-        for accessor in self.tree.get("accessors", []):
+        for accessor in self.tree.get("accessors", []) if self._coded else ():
             if gltf.is_plain(accessor):
                 readers.setdefault(accessor["bufferView"], []).append(accessor)
-        references = Counter(node[key] for node, key in _references(self.tree, "bufferViews"))
+        counts = Counter(holder[key] for holder, key in references(self.tree, "bufferViews"))
         for number, accessors in readers.items():
             view = self.tree["bufferViews"][number]
-            if number in self._fresh or view.get("extensions") or references[number] > len(accessors):
+            kept_whole = number in self._moved or number in self.named or view.get("extensions")
+            if kept_whole or counts[number] > len(accessors):
                 continue
             kept = _used(self._document.view(number), [gltf.span_of(accessor, view) for accessor in accessors])
             if kept is None:
                 continue
             for accessor, start in zip(accessors, kept[1], strict=True):
                 accessor["byteOffset"] = start
-            self._fresh[number], view["byteLength"] = kept[0], len(kept[0])
+            view |= {"buffer": 0, "byteOffset": self.append(kept[0]), "byteLength": len(kept[0])}
+            self._moved.add(number)
+
+
+def _words(accessor: Tree) -> Tree:
+    return {key: accessor[key] for key in ("name", "extras") if key in accessor}
 
 
 def _used(data: bytes, spans: list[tuple[int, int]]) -> tuple[bytes, list[int]] | None:
@@ -516,50 +772,18 @@ def _used(data: bytes, spans: list[tuple[int, int]]) -> tuple[bytes, list[int]] 
     return (bytes(kept), starts) if len(kept) < len(data) else None
 
 
-_REFERENCES = {
-    "accessors": ("indices", "input", "output", "inverseBindMatrices"),
-    "bufferViews": ("bufferView", "stream"),
-}
-
-
-def _references(node: Any, kind: str, inside: str = "") -> Iterator[tuple[Any, Any]]:
-    """Where in a tree, or what is `inside` of it, entries of a kind are referred to."""
-    if isinstance(node, list):
-        for item in node:
-            yield from _references(item, kind, inside)
-    elif isinstance(node, dict):
-        for key, value in node.items():
-            if not isinstance(value, int) or isinstance(value, bool):
-                yield from _references(value, kind, key)
-                continue
-            named = key in _REFERENCES[kind] and not (kind == "accessors" and inside == "sparse")
-            if named or (kind == "accessors" and inside in ("attributes", "targets")):
-                yield node, key
-
-
 def _short(node: Any) -> Any:
-    """JSON with each number that single precision has written as shortly as that allows; glTF means no more."""
+    """JSON with each number that single precision has written as shortly as that allows; glTF means no more.
+
+    Extras and extensions stay as they are.
+    """
     if isinstance(node, dict):
-        return {key: _short(value) for key, value in node.items()}
+        return {key: value if key in ("extras", "extensions") else _short(value) for key, value in node.items()}
     if isinstance(node, list):
         return [_short(value) for value in node]
     if not isinstance(node, float) or abs(node) > _MOST or np.float32(node) != node:
         return node
     return int(node) if node.is_integer() and abs(node) < _WHOLE else float(str(np.float32(node)))
-
-
-def _drop_unused(tree: Tree, kind: str) -> list[int]:
-    """Drop the entries of a kind that nothing refers to, and number the others anew; which these were."""
-    places = list(
-        _references({name: value for name, value in tree.items() if name != kind or kind != "accessors"}, kind)
-    )
-    kept = sorted({node[key] for node, key in places})
-    numbers = {old: new for new, old in enumerate(kept)}
-    for node, key in places:
-        node[key] = numbers[node[key]]
-    if kind in tree:
-        tree[kind] = [tree[kind][old] for old in kept]
-    return kept
 
 
 # -------------------------------------------------------------------------------------------------------------- images

@@ -1,25 +1,33 @@
 """A glTF document, binary or not: its tree, its bytes, and the numbers in them, checked before they are used."""
 
 import base64
+import importlib
+import io
 import json
+import shutil
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 from urllib.parse import unquote
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.files.formats.metadata import kind_of_image
 from bsm.files.pipes import Input, file_beside
 from bsm.gltf import coding
-from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, Array, Tree
+from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, STRIP, TRIANGLES, Array, Tree
 
+_MIMES = {kind: f"image/{kind}" for kind in ("png", "webp", "avif")}
+_MIMES |= {"jpg": "image/jpeg", "ktx": "image/ktx2", "dds": "image/vnd-ms.dds"}
 VECTORS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _WIDTHS = {**VECTORS, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_MOST_BYTES = (1 << 32) - 1
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 WEBP = "EXT_texture_webp"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
@@ -52,6 +60,7 @@ class Document:
             raise FormatError("this is no glTF: it says nothing of itself as an asset")
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
+        self._sides: dict[object, int] = {}
         self._unpacked: dict[object, Any] = {}  # what compressed bufferViews, streams and primitives of Draco hold
 
     @property
@@ -192,6 +201,29 @@ class Document:
         name = "" if uri.startswith("data:") else Path(unquote(uri)).name
         return str(image.get("name") or name), self._behind(uri)
 
+    def bytes_of_image(self, index: object) -> bytes | None:
+        """None: they lie at an address, or nowhere."""
+        image = self.item("images", index)
+        if "bufferView" not in image and not str(image.get("uri")).startswith("data:"):
+            try:
+                self.file(str(image.get("uri")))
+            except FormatError:
+                return None
+        return self.image(index)[1]
+
+    def side_of_texture(self, index: object, usual: int) -> int:
+        """The longer side of the image of a texture, in pixels."""
+        if index not in self._sides:
+            texture = self.item("textures", index)
+            sources = [texture, *texture.get("extensions", {}).values()]
+            source = next((entry["source"] for entry in sources if "source" in entry), None)
+            data = None if source is None else self.bytes_of_image(source)
+            self._sides[index] = (side_of_image(data) if data else 0) or usual
+        return self._sides[index]
+
+    def is_normalized(self, index: object) -> bool:
+        return bool(self.item("accessors", index).get("normalized"))
+
     def _strided(self, where: Tree, kind: str, count: int, width: int) -> Array:
         data, start, size = self._place(where["bufferView"])
         offset, item = _count(where, "byteOffset"), np.dtype(kind).itemsize * width
@@ -253,9 +285,76 @@ def head_of_glb(tree: Tree, size: int) -> bytes:
     return head + text + struct.pack("<II", size, _BINARY)
 
 
+class Growing:
+    """A tree that grows, and the bytes of its buffer, which wait in a file."""
+
+    def __init__(self, file: IO[bytes], tree: Tree | None = None) -> None:
+        begun: Tree = {"asset": {"version": "2.0", "generator": "bsm"}, "scene": 0, "scenes": [{"nodes": []}]}
+        self.tree: Tree = begun if tree is None else tree
+        self._file, self.size = file, 0
+
+    def add(self, kind: str, entry: Tree) -> int:
+        entries: list[Tree] = self.tree.setdefault(kind, [])
+        entries.append(entry)
+        return len(entries) - 1
+
+    def append(self, data: bytes) -> int:
+        """Where bytes begin that are put behind the others."""
+        start = self.size
+        self.size += len(data) + -len(data) % 4
+        if self.size > _MOST_BYTES:
+            raise LimitError("this takes more than the 4 GiB of a GLB; take fewer frames (--frames A:B), or write USD")
+        self._file.write(data + b"\0" * (-len(data) % 4))
+        return start
+
+    def view(self, data: bytes, **more: Any) -> int:
+        place = {"buffer": 0, "byteOffset": self.append(data), "byteLength": len(data)}
+        return self.add("bufferViews", place | more)
+
+    def table(self, values: Array, *, packed: bool = False) -> int:
+        """A bufferView of values, which begin at multiples of four bytes, unless they shall be packed."""
+        size = values.itemsize * values.shape[1]
+        if packed or size % 4 == 0:
+            return self.view(values.tobytes())
+        rows = np.ascontiguousarray(values).view(np.uint8).reshape(-1, size)
+        return self.view(np.pad(rows, ((0, 0), (0, -size % 4))).tobytes(), byteStride=size + -size % 4)
+
+    def write(self, file: IO[bytes]) -> None:
+        file.write(head_of_glb(self.tree, self.size))
+        self._file.seek(0)
+        shutil.copyfileobj(self._file, file)
+
+    def whole(self) -> bytes:
+        written = io.BytesIO()
+        self.write(written)
+        return written.getvalue()
+
+
 def glb(tree: Tree, data: bytes) -> bytes:
     data += b"\0" * (-len(data) % 4)
     return head_of_glb(tree, len(data)) + data
+
+
+def side_of_image(data: bytes) -> int:
+    """The longer side of an image in pixels; 0 if it is not known."""
+    if data.startswith(b"\xabKTX 20"):
+        return int(max(struct.unpack_from("<II", data.ljust(28), 20)))
+    try:
+        return int(max(importlib.import_module("PIL.Image").open(io.BytesIO(data)).size))
+    except Exception:  # without Pillow, and of what it does not know
+        return 0
+
+
+def mime_of(data: bytes) -> str | None:
+    """The type that the first bytes of an image tell."""
+    kind = kind_of_image(data) or ("avif" if data[4:12] in (b"ftypavif", b"ftypavis") else None)
+    return {
+        "png": "image/png",
+        "jpg": "image/jpeg",
+        "webp": "image/webp",
+        "ktx": "image/ktx2",
+        "avif": "image/avif",
+    }.get(kind or "", "image/vnd-ms.dds" if kind == "dds" else None)
 
 
 def bounds_of(values: Array) -> Tree:
@@ -283,3 +382,23 @@ def _count(where: Tree, name: str) -> int:
 
 def read_document(path: str, limits: Limits = DEFAULT_LIMITS) -> Document:
     return Document(Input(path).read_all(), Path(path).parent, limits)
+
+
+def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray[np.int64]:
+    """The triangles of a primitive over `count` vertices, shape (m, 3), those of strips and fans, too."""
+    listed = document.numbers(primitive["indices"])[:, 0] if "indices" in primitive else np.arange(count)
+    corners: Any = listed.astype(np.int64)
+    mode = TRIANGLES if DRACO in primitive.get("extensions", {}) else primitive.get("mode", TRIANGLES)
+    if mode == TRIANGLES:
+        corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
+    else:
+        step = np.arange(max(len(corners) - 2, 0))
+        odd = step % 2 if mode == STRIP else 0
+        around = [step, step + 1 + odd, step + 2 - odd] if mode == STRIP else [step + 1, step + 2, 0 * step]
+        corners = corners[np.column_stack(around)]
+        a, b, c = corners.T
+        corners = corners[(a != b) & (b != c) & (a != c)]  # not those that only lead to the next piece of a strip
+    if corners.size and not (corners.min() >= 0 and corners.max() < count):
+        raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
+    found: npt.NDArray[np.int64] = corners
+    return found

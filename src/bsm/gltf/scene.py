@@ -1,7 +1,7 @@
 """The scene of a glTF: curves, nodes, skins and morph targets, at rest or at any time of an animation."""
 
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import unquote
@@ -27,7 +27,7 @@ from bsm.files.motion.frames import (
 from bsm.files.pipes import is_url
 from bsm.files.room import Doubles, Ints, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, FAN, MESHOPT, STRIP, TRIANGLES, Array, Tree
-from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document
+from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document, triangles_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +86,46 @@ def matrix_of(translation: Array, rotation: Array, scale: Array) -> Doubles:
     return matrix
 
 
+def local_matrix(tree: Tree, animated: Sequence[Curve | None] = (None, None, None), time: float = 0.0) -> Doubles:
+    """The matrix of a node in its parent."""
+    if "matrix" in tree and not any(animated):
+        return np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
+    rest = (("translation", (0, 0, 0)), ("rotation", (0, 0, 0, 1)), ("scale", (1, 1, 1)))
+    values = [
+        np.asarray(tree.get(name, usual), np.float64).reshape(len(usual)) if curve is None else curve.at(time)
+        for (name, usual), curve in zip(rest, animated, strict=True)
+    ]
+    return matrix_of(*values)
+
+
+def parents_of(document: Document) -> dict[int, int]:
+    """The nodes of the scene, parents before children, and the parent of each; -1: none."""
+    nodes = document.items("nodes")
+    children = {int(child) for node in nodes for child in node.get("children", [])}
+    roots = [number for number in range(len(nodes)) if number not in children]
+    if document.items("scenes"):
+        roots = list(document.item("scenes", document.tree.get("scene", 0)).get("nodes", []))
+    parents: dict[int, int] = {}
+    waiting = [(int(root), -1) for root in reversed(roots)]
+    while waiting:
+        node, parent = waiting.pop()
+        if node in parents:
+            raise FormatError(f"node {node} of this glTF stands in two places")
+        parents[node] = parent
+        found = document.item("nodes", node).get("children", [])
+        waiting += [(int(child), node) for child in reversed(found)]
+    return parents
+
+
+def places_at_rest(document: Document) -> dict[int, Doubles]:
+    """The matrix of each node of the scene."""
+    places: dict[int, Doubles] = {}
+    for node, parent in parents_of(document).items():
+        local = local_matrix(document.item("nodes", node))
+        places[node] = places[parent] @ local if parent >= 0 else local
+    return places
+
+
 @dataclass(frozen=True, eq=False)
 class Skin:
     joints: list[int]
@@ -116,7 +156,7 @@ class Scene:
         self._made: dict[tuple[int, int, int], Part] = {}
         self._skins: dict[int, Skin] = {}
         self._nodes = document.items("nodes")
-        self._parents = self._ordered()
+        self._parents = parents_of(document)
         targets = (target for primitive in document.primitives() for target in primitive.get("targets", []))
         self._painted = any("COLOR_0" in target for target in targets)
         self._tables = Counter(str(primitive["attributes"]) for primitive in document.primitives())
@@ -196,7 +236,8 @@ class Scene:
         """Each part with the matrix, or that of each vertex, which places it, and its vertices before that."""
         places: dict[int, Doubles] = {}
         for node, parent in self._parents.items():
-            local = self._local(node, time)
+            animated = [self._curves.get((node, path)) for path in ("translation", "rotation", "scale")]
+            local = local_matrix(self._nodes[node], animated, time)
             places[node] = places[parent] @ local if parent >= 0 else local
         for part in self.parts:
             points = part.base
@@ -249,36 +290,6 @@ class Scene:
         mesh = self._document.item("meshes", self._nodes[node]["mesh"])
         given = self._nodes[node].get("weights", mesh.get("weights", [0.0] * count))
         return np.asarray(given, np.float64).reshape(count)
-
-    def _local(self, node: int, time: float) -> Doubles:
-        tree = self._nodes[node]
-        animated = [self._curves.get((node, path)) for path in ("translation", "rotation", "scale")]
-        if "matrix" in tree and not any(animated):
-            return np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
-        rest = (("translation", (0, 0, 0)), ("rotation", (0, 0, 0, 1)), ("scale", (1, 1, 1)))
-        values = [
-            np.asarray(tree.get(name, usual), np.float64).reshape(len(usual)) if curve is None else curve.at(time)
-            for (name, usual), curve in zip(rest, animated, strict=True)
-        ]
-        return matrix_of(*values)
-
-    def _ordered(self) -> dict[int, int]:
-        """The nodes of the scene, parents before children, and the parent of each; -1: none."""
-        document = self._document
-        children = {int(child) for node in self._nodes for child in node.get("children", [])}
-        roots = [number for number in range(len(self._nodes)) if number not in children]
-        if document.items("scenes"):
-            roots = list(document.item("scenes", document.tree.get("scene", 0)).get("nodes", []))
-        parents: dict[int, int] = {}
-        waiting = [(int(root), -1) for root in reversed(roots)]
-        while waiting:
-            node, parent = waiting.pop()
-            if node in parents:
-                raise FormatError(f"node {node} of this glTF stands in two places")
-            parents[node] = parent
-            found = document.item("nodes", node).get("children", [])
-            waiting += [(int(child), node) for child in reversed(found)]
-        return parents
 
     def _animated(self, animation: Tree) -> dict[tuple[int, str], Curve]:
         document, found, numbers = self._document, {}, 0
@@ -451,26 +462,6 @@ class Scene:
 def is_read(name: str) -> bool:
     """Whether a scene at rest has a column of an attribute of glTF."""
     return name in ("POSITION", "NORMAL") or name.startswith(("TEXCOORD_", "COLOR_", "_"))
-
-
-def triangles_of(document: Document, primitive: Tree, count: int) -> Ints:
-    """The triangles of a primitive over `count` vertices, shape (m, 3), those of strips and fans, too."""
-    listed = document.numbers(primitive["indices"])[:, 0] if "indices" in primitive else np.arange(count)
-    corners: Any = listed.astype(np.int64)
-    mode = TRIANGLES if DRACO in primitive.get("extensions", {}) else primitive.get("mode", TRIANGLES)
-    if mode == TRIANGLES:
-        corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
-    else:
-        step = np.arange(max(len(corners) - 2, 0))
-        odd = step % 2 if mode == STRIP else 0
-        around = [step, step + 1 + odd, step + 2 - odd] if mode == STRIP else [step + 1, step + 2, 0 * step]
-        corners = corners[np.column_stack(around)]
-        a, b, c = corners.T
-        corners = corners[(a != b) & (b != c) & (a != c)]  # not those that only lead to the next piece of a strip
-    if corners.size and not (corners.min() >= 0 and corners.max() < count):
-        raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
-    found: Ints = corners
-    return found
 
 
 # --------------------------------------------------------------------------------------------------------------- frames

@@ -1,7 +1,6 @@
 """Meshes and sequences as GLB: one mesh; frames as morph targets, which play wherever glTF does; a whole stream."""
 
 import io
-import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -21,13 +20,11 @@ from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream, numbered, numbers_of
-from bsm.gltf.coding import COMPONENTS, EXTENSION, Array, Tree, drawn
-from bsm.gltf.document import VECTORS, WEBP, bounds_of, head_of_glb
+from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn
+from bsm.gltf.document import VECTORS, WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
-_MOST_BYTES = (1 << 32) - 1
-_FLOAT, _UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
 _TYPES = {width: name for name, width in VECTORS.items()}
 _SORTING = ("part", "material")  # attributes of faces that only sort these
 _HALF = 0.5**0.5
@@ -35,59 +32,33 @@ _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
 """What turns the axis that a mesh calls up to that of glTF."""
 
 
-class _Scene:
-    """A tree that grows, and the bytes of its buffer, which wait in a file."""
+class _Scene(Growing):
+    """A scene that grows."""
 
     def __init__(self, file: IO[bytes]) -> None:
-        self.tree: Tree = {"asset": {"version": "2.0", "generator": "bsm"}, "scene": 0, "scenes": [{"nodes": []}]}
-        self.tree |= {"buffers": [{}]}
-        self._file, self._size = file, 0
+        super().__init__(file)
         self._images: dict[bytes, int] = {}
-
-    def add(self, kind: str, entry: Tree) -> int:
-        entries: list[Tree] = self.tree.setdefault(kind, [])
-        entries.append(entry)
-        return len(entries) - 1
-
-    def view(self, data: bytes) -> int:
-        start = self._size
-        self._size += len(data) + -len(data) % 4
-        if self._size > _MOST_BYTES:
-            raise LimitError("this takes more than the 4 GiB of a GLB; take fewer frames (--frames A:B), or write USD")
-        self._file.write(data + b"\0" * (-len(data) % 4))
-        return self.add("bufferViews", {"buffer": 0, "byteOffset": start, "byteLength": len(data)})
 
     def numbers(self, values: Array, *, bounds: bool = False, shares: bool = False) -> int:
         kind = {"componentType": COMPONENTS[values.dtype.name], "count": len(values), "type": _TYPES[values.shape[1]]}
-        rows = np.ascontiguousarray(values).view(np.uint8).reshape(len(values), -1)
-        filled = np.pad(rows, ((0, 0), (0, -rows.shape[1] % 4)))  # elements begin at multiples of four bytes
-        accessor: Tree = {"bufferView": self.view(filled.tobytes()), **kind}
-        if filled.shape != rows.shape:
-            self.tree["bufferViews"][-1]["byteStride"] = filled.shape[1]
+        accessor: Tree = {"bufferView": self.table(values), **kind}
         accessor |= {"normalized": True} if shares and values.dtype.kind == "u" else {}
         return self.add("accessors", accessor | (bounds_of(values) if bounds else {}))
 
     def ones(self, places: Ints, count: int) -> int:
         """An accessor of zeros, with ones at some places: the bytes grow with the places only."""
         views = self.view(places.astype(np.uint32).tobytes()), self.view(np.ones(len(places), np.float32).tobytes())
-        indices = {"bufferView": views[0], "componentType": _UINT}
+        indices = {"bufferView": views[0], "componentType": UINT}
         sparse = {"count": len(places), "indices": indices, "values": {"bufferView": views[1]}}
-        return self.add("accessors", {"componentType": _FLOAT, "count": count, "type": "SCALAR", "sparse": sparse})
+        return self.add("accessors", {"componentType": FLOAT, "count": count, "type": "SCALAR", "sparse": sparse})
 
     def place(self, mesh: Tree, **more: Any) -> None:
         node = self.add("nodes", {"mesh": self.add("meshes", mesh), **more})
         self.tree["scenes"][0]["nodes"].append(node)
 
     def write(self, file: IO[bytes]) -> None:
-        self.tree["buffers"][0]["byteLength"] = self._size
-        file.write(head_of_glb(self.tree, self._size))
-        self._file.seek(0)
-        shutil.copyfileobj(self._file, file)
-
-    def whole(self) -> bytes:
-        written = io.BytesIO()
-        self.write(written)
-        return written.getvalue()
+        self.tree["buffers"] = [{"byteLength": self.size}, *self.tree.get("buffers", [])]
+        super().write(file)
 
 
 def _upright(metadata: Metadata) -> Tree:
@@ -168,14 +139,14 @@ class _Still(_Scene):
         return self.add("materials", found) if found else None
 
     def _texture(self, data: bytes) -> int | None:
-        kind = {"jpg": "jpeg"}.get(found := formats.kind_of_image(data) or "", found)
-        if kind not in ("png", "jpeg", "webp"):
+        kind = mime_of(data)
+        if kind not in ("image/png", "image/jpeg", "image/webp"):
             return None
         known = self._images.get(data)
         if known is None:
-            known = self.add("images", {"bufferView": self.view(data), "mimeType": f"image/{kind}"})
+            known = self.add("images", {"bufferView": self.view(data), "mimeType": kind})
             self._images[data] = known
-        if kind != "webp":
+        if kind != "image/webp":
             return self.add("textures", {"source": known})
         self.tree |= {"extensionsUsed": [WEBP], "extensionsRequired": [WEBP]}
         return self.add("textures", {"extensions": {WEBP: {"source": known}}})
@@ -321,7 +292,7 @@ class _Moving(_Still):
                     "COLOR_0" in target for target in primitive["targets"]
                 ):  # then all have to; without bytes it is 0
                     kind = _TYPES[run.first[2].shape[1]]
-                    zeros = self.add("accessors", {"componentType": _FLOAT, "count": len(rows), "type": kind})
+                    zeros = self.add("accessors", {"componentType": FLOAT, "count": len(rows), "type": kind})
                     primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
             if count:
                 weights = self.ones(count + np.arange(count) * (count + 1), (count + 1) * count)
@@ -355,11 +326,11 @@ def moving_scene(stream: bytes) -> bytes:
         if attribute.domain == "face":
             raise UnsupportedError(f"glTF has no place for {attribute.name}, which faces have")
     shape = drawn(TriangleMesh(positions, sequence.faces, attributes, {}))
-    kinds = {"POSITION": (_FLOAT, 3), "NORMAL": (_FLOAT, 3)}
+    kinds = {"POSITION": (FLOAT, 3), "NORMAL": (FLOAT, 3)}
     for semantic, names in (("texcoord", ("TEXCOORD_0", "TEXCOORD_1")), ("color", ("COLOR_0",))):
         widths = [attribute.components for attribute in attributes if attribute.semantic == semantic]
-        kinds |= {name: (_FLOAT, width) for name, width in zip(names, widths, strict=False)}
-    kinds["indices"] = (_UINT, 1)
+        kinds |= {name: (FLOAT, width) for name, width in zip(names, widths, strict=False)}
+    kinds["indices"] = (UINT, 1)
     scene = _Scene(io.BytesIO())
     source = scene.view(stream)
     places: dict[str, int] = {}

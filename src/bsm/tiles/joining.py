@@ -14,7 +14,6 @@ from typing import Any, BinaryIO
 import numpy as np
 import numpy.typing as npt
 
-from bsm.api import encode
 from bsm.bitstream.errors import OptionError, UnsupportedError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
@@ -110,8 +109,7 @@ def write_joined(
 def packer(kind: str, cell: float) -> Callable[[bytes], bytes]:
     """What makes a plain GLB into contents of a kind."""
     if kind == "bsm":
-        coder = partial(encode, grid_cell=cell, quick=True, threads=1)
-        return lambda data: compress(Document(data), coder).data
+        return lambda data: compress(Document(data), {"grid_cell": cell, "quick": True}).data
     program = shutil.which("gltf-transform")
     if kind == "none" or program:
         return bytes if kind == "none" else partial(_transformed, f"{program}", kind)
