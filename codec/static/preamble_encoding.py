@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
@@ -14,7 +15,7 @@ from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.errors import MeshError, OptionError, counted
+from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Mask, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
@@ -46,11 +47,10 @@ class JoinedMesh:
 
 def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
     """Make vertices at one position one, and see what `joined` says."""
-    changed = 0
+    notes: tuple[str, ...] = ()
     if exact:
-        mesh, changed = _single(mesh)
+        mesh, notes = _single(mesh)
     found = joined(mesh, weld(mesh.positions, mesh.faces, bits=exact)[2], keep=keep)
-    notes = (f"{changed} coordinates were rounded to single precision",) if changed else ()
     return replace(found, notes=(*notes, *found.notes))
 
 
@@ -94,13 +94,37 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
     return JoinedMesh(mesh, index, first, kept, splits, tuple(notes))
 
 
-def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:
-    """With coordinates in single precision, as doubles, and how many that changes."""
+MOST_CELLS = 1 << 20  # along an axis of a grid
+LOST_OF_DIAGONAL, LOST_OF_EDGE = 1e-6, 1e-3  # by rounding to single precision, at most
+
+
+def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
+    """Return the mesh with coordinates in single precision, as doubles, and a note if that moves some.
+
+    Raises
+    ------
+    TargetError
+        If it moves them visibly: far from the origin, single precision is coarse.
+    """
     with np.errstate(over="ignore"):
         single = mesh.positions.astype(np.float32).astype(np.float64)
     if not np.isfinite(single).all():
         raise MeshError("a coordinate is beyond the range of single precision, which lossless keeps; scale the mesh")
-    return replace(mesh, positions=single), int((single != mesh.positions).sum())
+    error = float(np.abs(single - mesh.positions).max(initial=0.0))
+    if error == 0.0:
+        return mesh, ()
+    edges = np.linalg.norm(mesh.positions[mesh.faces[:, 0]] - mesh.positions[mesh.faces[:, 1]], axis=1)
+    diagonal, edge = mesh.diagonal, float(np.median(edges)) if len(edges) else 0.0
+    if error > LOST_OF_DIAGONAL * diagonal or error > LOST_OF_EDGE * edge:
+        cell = 10.0 ** math.ceil(math.log10((float(np.ptp(mesh.positions, axis=0).max()) or error) / MOST_CELLS))
+        origin = ",".join(f"{value:.12g}" for value in np.floor(mesh.positions.min(axis=0)).tolist())
+        raise TargetError(
+            f"lossless keeps single precision, which moves a vertex by {error:.3g}, "
+            f"{100 * error / (diagonal or error):.2g} % of the diagonal; a grid is more exact: in place of the preset, "
+            f"give --grid-cell {cell:g} --grid-origin={origin}"
+        )
+    changed = int((single != mesh.positions).sum())
+    return replace(mesh, positions=single), (f"{changed} coordinates were rounded to single precision, by {error:.2g}",)
 
 
 def _degenerate(faces: Indices) -> Mask:

@@ -3,7 +3,10 @@
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.geometry.attributes import Attribute
@@ -26,6 +29,7 @@ NORMAL_BITS: dict[Grade, int] = {"small": 8, "balanced": 10, "fine": 12}
 COLOR_BITS: dict[Grade, int] = {"small": 8, "balanced": 8, "fine": 16}
 TEXCOORD_BITS: dict[Grade, int] = {"small": 12, "balanced": 12, "fine": 14}
 GENERIC_BITS: dict[Grade, int] = {"small": 16, "balanced": 16, "fine": 20}
+MOST_LABEL, MOST_LABELS = 1 << 24, 1 << 16  # whole numbers that floats hold, and how many of them are labels
 MOVING = {"color": 1.0, "generic": 0.25}
 """Percent of its range that an attribute which changes from frame to frame may be off, see "rms" of `Quality`."""
 
@@ -77,6 +81,12 @@ def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) ->
     return pairs
 
 
+def _are_few_and_whole(values: npt.NDArray[Any]) -> bool:
+    """Whether floats are labels or ids: whole numbers, and few of them."""
+    whole = values.dtype.kind == "f" and (np.abs(values) <= MOST_LABEL).all() and (values == np.rint(values)).all()
+    return bool(whole) and len(np.unique(values)) <= MOST_LABELS
+
+
 def qualities(
     attributes: Sequence[Attribute],
     asked: Mapping[str, str],
@@ -100,6 +110,8 @@ def qualities(
             return parse_quality(asked["*"])
         if attribute.name in moving:
             return Quality("rms", MOVING[attribute.semantic])
+        if attribute.semantic == "generic" and _are_few_and_whole(attribute.values):
+            return Quality("exact")
         bits = {"normal": NORMAL_BITS, "color": COLOR_BITS, "texcoord": TEXCOORD_BITS, "generic": GENERIC_BITS}
         return (
             Quality("bits", bits[attribute.semantic][grade]) if attribute.values.dtype.kind == "f" else Quality("exact")

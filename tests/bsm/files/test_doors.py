@@ -383,3 +383,36 @@ def test_tiles_name_what_an_obj_or_an_stl_has_and_read_lines_that_go_on(tmp_path
     (tmp_path / "a.stl").write_bytes(data)
     done = run("tile", tmp_path / "a.stl", "-o", tmp_path / "more", "--grid-cell", 0.001)
     assert done.returncode == 0 and "left out: attribute" in done.stderr, done.stderr
+
+
+# --------------------------------------------------------------------------------------------- promises about numbers
+
+
+def test_lossless_refuses_what_single_precision_would_move_and_the_way_out_works(tmp_path):
+    near = torus(20, 12)
+    far = TriangleMesh(100 * near.positions + [500_000.123, 4_400_000.456, 20], near.faces)
+    write_mesh(tmp_path / "a.ply", far)
+    done = run("encode", tmp_path / "a.ply", "-o", tmp_path / "a.bsm", "--preset", "lossless")
+    assert done.returncode == 10 and not (tmp_path / "a.bsm").exists() and "moves a vertex by 0.2" in done.stderr
+    way = done.stderr.split("in place of the preset, give ")[1].split()[:3]
+    done = run("encode", tmp_path / "a.ply", "-o", tmp_path / "a.bsm", "--keep-order", *way)
+    assert done.returncode == 0, done.stderr
+    assert np.abs(bsm.load(tmp_path / "a.bsm").positions - far.positions).max() <= float(way[1]) / 2 + 1e-9
+    grid = TriangleMesh(np.round(near.positions / 0.05) * 0.05 + 70_000, near.faces)
+    with pytest.raises(bsm.TargetError, match="grid-origin"):
+        bsm.encode(grid, preset="lossless")
+    encoder = bsm.Encoder(TriangleMesh(near.positions, near.faces), bsm.EncodeOptions(exact=True))
+    assert any("rounded to single precision, by" in note for note in encoder.notes)
+
+
+def test_floats_that_are_labels_stay_exact():
+    mesh = torus(20, 12)
+    rows = len(mesh.positions)
+    values = {"label": np.arange(rows) * 7 // rows, "id": np.random.default_rng(1).permutation(rows) * 37.0}
+    values["height"] = mesh.positions[:, 2]
+    attributes = [Attribute(name, column.astype(np.float32)) for name, column in values.items()]
+    labelled = TriangleMesh(mesh.positions, mesh.faces, attributes)
+    decoded = bsm.decode(bsm.encode(labelled, keep_order=True))
+    for name in ("label", "id"):
+        assert np.array_equal(attribute(decoded, name).values, attribute(labelled, name).values)
+    assert not np.array_equal(attribute(decoded, "height").values, attribute(labelled, "height").values)
