@@ -11,7 +11,17 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from bsm import Attribute, BsmError, FormatError, LimitError, MeshError, OptionError, TriangleMesh, TruncatedError
+from bsm import (
+    Attribute,
+    BsmError,
+    FormatError,
+    LimitError,
+    Limits,
+    MeshError,
+    OptionError,
+    TriangleMesh,
+    TruncatedError,
+)
 from bsm.api import decode_frames
 from bsm.cli import main
 from bsm.files.mesh import read_mesh, write_mesh
@@ -214,6 +224,121 @@ def test_stages_of_others(tmp_path):
     assert source.faces.tolist() == [[0, 2, 1], [0, 3, 2]]
     _, fine = frames_of(tmp_path / "a.usda", rate=48)
     assert len(fine) == 25 and np.allclose(fine[::2], frames)
+
+
+def area_vectors(mesh):
+    first, second, third = (mesh.positions[corner] for corner in mesh.faces.T)
+    return np.cross(second - first, third - first)
+
+
+@pytest.mark.parametrize("hand", ["rightHanded", "leftHanded"])
+def test_a_mirror_turns_the_faces(tmp_path, hand):
+    pytest.importorskip("pxr.Usd")
+    from pxr import Gf, UsdGeom
+
+    cube = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    mesh, stage = stage_of(tmp_path / "a.usda", [cube], (0,), hand=hand)
+    plain = read_mesh(tmp_path / "a.usda").mesh
+    UsdGeom.Xformable(mesh.GetPrim()).AddScaleOp().Set(Gf.Vec3f(-1, 1, 1))
+    stage.Save()
+    mirrored = read_mesh(tmp_path / "a.usda").mesh
+    assert mirrored.positions[:, 0].min() == -1 and np.allclose(area_vectors(mirrored), area_vectors(plain))
+
+
+def test_what_a_stage_loses_is_noted(tmp_path):
+    pytest.importorskip("pxr.Usd")
+    from pxr import Sdf, UsdGeom
+
+    mesh, stage = stage_of(tmp_path / "a.usda", [SQUARE], (0,))
+    mesh.CreateNormalsAttr([(0, 0, 1)] * 4)
+    UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("owner", Sdf.ValueTypeNames.String, UsdGeom.Tokens.constant).Set("me")
+    subset = UsdGeom.Subset.Define(stage, "/above/mesh/ears")
+    subset.CreateElementTypeAttr(UsdGeom.Tokens.face)
+    subset.CreateIndicesAttr([0])
+    for name in ("hidden", "guide"):
+        other = UsdGeom.Mesh.Define(stage, f"/above/{name}")
+        other.CreatePointsAttr(SQUARE.tolist())
+        other.CreateFaceVertexCountsAttr([4])
+        other.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
+    UsdGeom.Imageable(stage.GetPrimAtPath("/above/hidden")).MakeInvisible()
+    UsdGeom.Imageable(stage.GetPrimAtPath("/above/guide")).CreatePurposeAttr(UsdGeom.Tokens.guide)
+    stage.Save()
+    found = read_mesh(tmp_path / "a.usda")
+    assert len(found.mesh.positions) == 4
+    assert {
+        "left out: normals, owner",
+        "left out, face sets without a material: ears",
+        "left out, hidden: /above/hidden",
+        "left out, guides: /above/guide",
+    } <= set(found.notes)
+
+
+def test_instances_of_stages(tmp_path):
+    pytest.importorskip("pxr.Usd")
+    from pxr import Gf, Sdf, UsdGeom
+
+    _, stage = stage_of(tmp_path / "a.usda", [SQUARE], (0,))
+    stage.DefinePrim("/above").GetReferences().ClearReferences()
+    for number in range(3):
+        copy = UsdGeom.Xform.Define(stage, f"/copy{number}")
+        copy.GetPrim().GetReferences().AddInternalReference(Sdf.Path("/above"))
+        copy.GetPrim().SetInstanceable(True)
+        copy.AddTranslateOp().Set(Gf.Vec3d(0, 0, number + 1))
+    instancer = UsdGeom.PointInstancer.Define(stage, "/many")
+    tree = UsdGeom.Mesh.Define(stage, "/many/tree")
+    tree.CreatePointsAttr([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    tree.CreateFaceVertexCountsAttr([3])
+    tree.CreateFaceVertexIndicesAttr([0, 1, 2])
+    tree.AddScaleOp().Set(Gf.Vec3f(2, 2, 2))
+    instancer.CreatePrototypesRel().AddTarget("/many/tree")
+    instancer.CreateProtoIndicesAttr([0, 0, 0])
+    instancer.CreatePositionsAttr().Set([(10, 0, 0), (20, 0, 0), (30, 0, 0)], 0)
+    instancer.GetPositionsAttr().Set([(10, 0, 8), (20, 0, 8), (30, 0, 8)], 8)
+    instancer.CreateInvisibleIdsAttr([1])
+    stage.SetStartTimeCode(0)
+    stage.SetEndTimeCode(8)
+    stage.Save()
+    source, frames = frames_of(tmp_path / "a.usda")
+    assert frames.shape == (9, 4 * 4 + 2 * 3, 3)
+    assert sorted(set(frames[0, :16, 2])) == [0, 1, 2, 3]
+    assert np.allclose(frames[4, 16:], [[10, 0, 4], [12, 0, 4], [10, 2, 4], [30, 0, 4], [32, 0, 4], [30, 2, 4]])
+    assert {"/many[0]", "/many[2]"} < set(
+        source.metadata["part.names"].splitlines() if "part.names" in source.metadata else source.metadata.values()
+    )
+
+
+@pytest.mark.parametrize("way", ["nested", "points", "attributes"])
+def test_instances_that_multiply_are_refused_before_they_are_made(tmp_path, way):
+    pytest.importorskip("pxr.Usd")
+    from pxr import Sdf, UsdGeom
+
+    _, stage = stage_of(tmp_path / "a.usda", [SQUARE], (0,))
+    if way == "nested":  # 10 levels of 10 instances each
+        below = "/above"
+        for level in range(10):
+            for number in range(10):
+                prim = UsdGeom.Xform.Define(stage, f"/level{level}/copy{number}").GetPrim()
+                prim.GetReferences().AddInternalReference(Sdf.Path(below))
+                prim.SetInstanceable(True)
+            below = f"/level{level}"
+    elif way == "points":
+        instancer = UsdGeom.PointInstancer.Define(stage, "/many")
+        instancer.CreatePrototypesRel().AddTarget("/above/mesh")
+        instancer.CreateProtoIndicesAttr([0] * 200_000)
+        instancer.CreatePositionsAttr([(0, 0, 0)] * 200_000)
+    else:
+        for number in range(2000):
+            other = UsdGeom.Mesh.Define(stage, f"/mesh{number}")
+            other.CreatePointsAttr([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+            other.CreateFaceVertexCountsAttr([3])
+            other.CreateFaceVertexIndicesAttr([0, 1, 2])
+            primvar = UsdGeom.PrimvarsAPI(other).CreatePrimvar(
+                f"heat{number}", Sdf.ValueTypeNames.FloatArray, UsdGeom.Tokens.vertex
+            )
+            primvar.Set([0.0, 1.0, 2.0])
+    stage.Save()
+    with pytest.raises(LimitError):
+        read_mesh(tmp_path / "a.usda", limits=Limits.service())
 
 
 def test_stages_that_are_no_sequence(tmp_path, capsys):

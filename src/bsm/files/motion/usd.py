@@ -1,5 +1,7 @@
 """USD, read and written with usd-core: points with time samples, their units and the axis that points up."""
 
+from __future__ import annotations
+
 import os
 import shutil
 import sys
@@ -52,12 +54,18 @@ class Materials:
         self._shade, self._geom, self._path = pxr.UsdShade, pxr.UsdGeom, path
         self._known: dict[tuple[tuple[str, str | int | float], ...], int] = {}
         self._images: dict[str, int] = {}
+        self.sets: list[str] = []  # of faces, without a material
 
     def of_faces(self, prim: Any, faces: int, time: Any) -> Ints:
         """Return the number of each face's material; all faces without a material have one number."""
         numbers = np.full(faces, -1, np.int64)
         for subset in self._geom.Subset.GetAllGeomSubsets(self._geom.Imageable(prim)):
-            if subset.GetElementTypeAttr().Get() == self._geom.Tokens.face and self._bound(subset.GetPrim()):
+            if subset.GetElementTypeAttr().Get() != self._geom.Tokens.face:
+                continue
+            if not self._bound(subset.GetPrim()):
+                name = str(subset.GetPrim().GetName())
+                self.sets += [name] if name not in self.sets else []
+            else:
                 places = np.array(subset.GetIndicesAttr().Get(time) or [], np.int64)
                 numbers[places[(places >= 0) & (places < faces)]] = self._number(subset.GetPrim())
         if (numbers < 0).any():
@@ -249,6 +257,8 @@ class _Surface:
         return shader
 
 
+PER_PART, PER_VALUE = 4000.0, 24.0  # bytes of a mesh or an instance, and of each number of its attributes
+MOST_PRIMS, MOST_NAMED = 1 << 16, 12
 PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
 _OPENING, _CLOSING = ([ord(bracket) for bracket in brackets] for brackets in ("([{", ")]}"))
@@ -266,30 +276,23 @@ def import_usd() -> Any:
 # ----------------------------------------------------------------------------------------------------------------- in
 
 
-class _Part:
-    """A mesh of a stage: its faces once, its points at any time."""
+class _Shape:
+    """The faces and primvars of a mesh of a stage, which its instances share."""
 
-    def __init__(self, pxr: Any, prim: Any, time: float | None = None) -> None:
+    def __init__(self, pxr: Any, prim: Any, time: Any) -> None:
         mesh = pxr.UsdGeom.Mesh(prim)
-        self._pxr, self.prim, self._points = pxr, prim, mesh.GetPointsAttr()
+        self._pxr, self.prim, self.time, self.points = pxr, prim, time, mesh.GetPointsAttr()
         self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
-        self.time = pxr.Usd.TimeCode.EarliestTime() if time is None else pxr.Usd.TimeCode(time)
-        self.counts: Ints = np.array(self.counts_attr.Get(self.time) or [], np.int64)
-        self.corners: Ints = np.array(self.corners_attr.Get(self.time) or [], np.int64)
-        self.vertices = len(self._points.Get(self.time) or [])
+        self.counts: Ints = np.array(self.counts_attr.Get(time) or [], np.int64)
+        self.corners: Ints = np.array(self.corners_attr.Get(time) or [], np.int64)
+        self.vertices = len(self.points.Get(time) or [])
         if (self.counts < 0).any() or self.counts.sum() != len(self.corners):
             corners = f"{len(self.corners)} corners, not {self.counts.sum()}"
             raise FormatError(f"the faces of {prim.GetPath()} have {corners}")
-        self.turned = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
-
-    @property
-    def times(self) -> list[float]:
-        found = [time for attr in (self._points, *self.painted) for time in attr.GetTimeSamples()]
-        prim = self.prim
-        while prim and not prim.IsPseudoRoot():
-            found += self._pxr.UsdGeom.Xformable(prim).GetTimeSamples() if prim.IsA(self._pxr.UsdGeom.Xformable) else []
-            prim = prim.GetParent()
-        return found
+        self.left_handed = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
+        self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
+        self.left_out: list[str] = ["normals"] if mesh.GetNormalsAttr().HasAuthoredValue() else []
+        self.columns = list(self._columns())
 
     @property
     def painted(self) -> list[Any]:
@@ -298,34 +301,15 @@ class _Part:
         at_vertices = (primvar.GetAttr() for primvar in found if _DOMAINS.get(primvar.GetInterpolation()) == "vertex")
         return [attr for attr in at_vertices if attr.GetNumTimeSamples() > 1]
 
-    def at(self, time: float, cache: Any) -> Doubles:
-        code = self._pxr.Usd.TimeCode(time)
-        points = np.array(self._points.Get(code), np.float64).reshape(-1, 3)
-        arrays = (("counts", self.counts_attr, self.counts), ("corners", self.corners_attr, self.corners))
-        for name, attr, known in arrays:
-            if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(code), np.int64), known):
-                raise MeshError(
-                    f"{self.prim.GetPath()} has other faces at time {time:g} than before (their {name}); if they may "
-                    "change, --runs"
-                )
-        if len(points) != self.vertices:
-            where = f"{self.prim.GetPath()} has {len(points)} points at time {time:g}"
-            raise MeshError(f"{where} and {self.vertices} before")
-        matrix = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
-            return points @ matrix[:3, :3] + matrix[3, :3]
-
-    @property
-    def rows(self) -> dict[Domain, int]:
-        return {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
-
-    def columns(self) -> list[shapes.Column]:
-        found = []
+    def _columns(self) -> Iterator[shapes.Column]:
         for primvar in self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars():
             name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
             domain = _DOMAINS.get(primvar.GetInterpolation())
             value = primvar.Get(self.time)
-            if domain is None or value is None or not kind.endswith("[]") or name == "normals":
+            if value is None:
+                continue
+            self.left_out.append(name)
+            if domain is None or not kind.endswith("[]") or name == "normals":
                 continue
             values = np.array(value)
             values = values[:, None] if values.ndim == 1 else values
@@ -333,11 +317,89 @@ class _Part:
                 continue
             places = np.array(primvar.GetIndices(self.time) or np.arange(len(values)), np.int64)
             if len(places) == self.rows[domain] and 0 <= places.min(initial=0) <= places.max(initial=0) < len(values):
+                self.left_out.remove(name)
                 named_as, values, semantic = _meant(name, kind, values)
                 at_corners = domain == "corner"
                 table = values if at_corners else values[places]
-                found.append(shapes.Column(named_as, table, domain, semantic, places if at_corners else None))
+                yield shapes.Column(named_as, table, domain, semantic, places if at_corners else None)
+
+
+class _Instancer:
+    """The instances of a point instancer, which are placed at any time."""
+
+    def __init__(self, pxr: Any, prim: Any) -> None:
+        self._pxr, self.prim = pxr, prim
+        self._instancer = pxr.UsdGeom.PointInstancer(prim)
+        self._placed: tuple[float, Doubles] = (np.nan, np.empty((0, 4, 4)))
+        first = pxr.Usd.TimeCode.EarliestTime()
+        self.kinds: Ints = np.array(self._instancer.GetProtoIndicesAttr().Get(first) or [], np.int64)
+        mask = self._instancer.ComputeMaskAtTime(first)
+        self.numbers = np.flatnonzero(np.array(mask, np.bool_)) if mask else np.arange(len(self.kinds))
+        self.roots = [prim.GetStage().GetPrimAtPath(path) for path in self._instancer.GetPrototypesRel().GetTargets()]
+
+    @property
+    def times(self) -> list[float]:
+        every = (self._instancer.GetPositionsAttr(), self._instancer.GetOrientationsAttr())
+        return [time for attr in (*every, self._instancer.GetScalesAttr()) for time in attr.GetTimeSamples()]
+
+    def place(self, number: int, time: Any, cache: Any) -> Doubles:
+        """What places an instance, with its prototype's transform, in the world."""
+        if self._placed[0] != time.GetValue():
+            every = self._pxr.UsdGeom.PointInstancer.IgnoreMask
+            found = self._instancer.ComputeInstanceTransformsAtTime(
+                time, time, self._pxr.UsdGeom.PointInstancer.IncludeProtoXform, every
+            )
+            self._placed = time.GetValue(), np.array(found, np.float64).reshape(-1, 4, 4)
+        if number >= len(self._placed[1]):
+            raise MeshError(f"{self.prim.GetPath()} has {len(self._placed[1])} instances at {time}, and more before")
+        world: Doubles = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
+        placed: Doubles = self._placed[1][number] @ world
+        return placed
+
+
+class _Part:
+    """A mesh of a stage at its place: its faces once, its points at any time."""
+
+    def __init__(self, shape: _Shape, prim: Any, instance: tuple[_Instancer, int, Any] | None = None) -> None:
+        self.shape, self.prim, self._instance = shape, prim, instance
+        self.name = str(prim.GetPath()) if instance is None else f"{instance[0].prim.GetPath()}[{instance[1]}]"
+
+    def renewed(self, pxr: Any, time: float) -> _Part:
+        return _Part(_Shape(pxr, self.prim, pxr.Usd.TimeCode(time)), self.prim, self._instance)
+
+    def times(self, geom: Any) -> list[float]:
+        found = [time for attr in (self.shape.points, *self.shape.painted) for time in attr.GetTimeSamples()]
+        found += self._instance[0].times if self._instance else []
+        for prim in (self.prim, self._instance[0].prim) if self._instance else (self.prim,):
+            while prim and not prim.IsPseudoRoot():
+                found += geom.Xformable(prim).GetTimeSamples() if prim.IsA(geom.Xformable) else []
+                prim = prim.GetParent()
         return found
+
+    def matrix(self, time: Any, cache: Any) -> Doubles:
+        """What places the points in the world, from the right."""
+        found: Doubles = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
+        if self._instance is None:
+            return found
+        instancer, number, root = self._instance
+        base = np.array(cache.GetLocalToWorldTransform(root), np.float64)
+        placed: Doubles = found @ np.linalg.pinv(base) @ instancer.place(number, time, cache)
+        return placed
+
+    def at(self, time: Any, cache: Any) -> Doubles:
+        shape, when = self.shape, f"at time {time.GetValue():g}"
+        points = np.array(shape.points.Get(time), np.float64).reshape(-1, 3)
+        arrays = (("counts", shape.counts_attr, shape.counts), ("corners", shape.corners_attr, shape.corners))
+        for name, attr, known in arrays:
+            if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(time), np.int64), known):
+                raise MeshError(
+                    f"{self.name} has other faces {when} than before (their {name}); if they may change, --runs"
+                )
+        if len(points) != shape.vertices:
+            raise MeshError(f"{self.name} has {len(points)} points {when} and {shape.vertices} before")
+        matrix = self.matrix(time, cache)
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+            return points @ matrix[:3, :3] + matrix[3, :3]
 
 
 _DOMAINS: dict[str, Domain] = {"vertex": "vertex", "varying": "vertex", "uniform": "face", "faceVarying": "corner"}
@@ -383,53 +445,136 @@ class _Stage:
             # Skeletons move the points, in a layer that is not saved.
             self.stage.SetEditTarget(self.stage.GetSessionLayer())
             pxr.UsdSkel.BakeSkinning(self.stage.Traverse())
-        self.parts = [_Part(pxr, prim) for prim in self.stage.Traverse() if prim.IsA(pxr.UsdGeom.Mesh)]
-        self.parts = [part for part in self.parts if len(part.counts)]
+        self._materials = Materials(pxr, path)
+        self.notes: list[str] = []
+        self.parts = list(self._parts())
         if not self.parts:
-            raise FormatError("this stage has no meshes")
-        self.require_counts()
+            raise FormatError("this stage has no meshes" + "".join(f"; {note}" for note in self.notes))
+
+    def _parts(self) -> Iterator[_Part]:
+        """The meshes that are seen, once for each instance; what they come to is bounded before it is made."""
+        pxr, left = self.pxr, dict[str, list[str]]()
+        shapes_of = dict[str, _Shape]()
+        totals = dict.fromkeys(("vertices", "faces", "parts"), 0)
+        size = os.path.getsize(self._path)
+
+        def part(prim: Any, instance: tuple[_Instancer, int, Any] | None = None) -> Iterator[_Part]:
+            key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
+            if key not in shapes_of:
+                shapes_of[key] = _Shape(pxr, prim, pxr.Usd.TimeCode.EarliestTime())
+            shape = shapes_of[key]
+            totals["vertices"] += shape.vertices
+            totals["faces"] += int(shape.counts.sum()) - 2 * len(shape.counts)
+            totals["parts"] += 1
+            for name in ("vertices", "faces"):
+                require_count(name, totals[name], self._limits)
+            self._limits.check_memory(PER_PART * totals["parts"], totals["vertices"], size)
+            if len(shape.counts):
+                yield _Part(shape, prim, instance)
+
+        every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
+        for count, prim in enumerate(every):
+            if count == MOST_PRIMS:
+                raise LimitError(
+                    f"the stage has more than {MOST_PRIMS:,} prims with those of instances; export a part of it"
+                )
+            if hidden := self._hidden(prim):
+                left.setdefault(hidden, []).append(str(prim.GetPath()))
+            elif prim.IsA(pxr.UsdGeom.PointInstancer):
+                every.PruneChildren()
+                yield from self._instances(_Instancer(pxr, prim), part, left)
+            elif prim.IsA(pxr.UsdGeom.Mesh):
+                yield from part(prim)
+        widths = {(c.name, c.domain): c.values.shape[1] for shape in shapes_of.values() for c in shape.columns}
+        # Each part gets each attribute, which has no more values than there are corners.
+        numbers = sum(widths.values()) * (3 * totals["faces"] + totals["vertices"])
+        self._limits.check_memory(PER_VALUE * numbers, totals["vertices"], size)
+        self.notes += [f"left out, {why}: {', '.join(paths[:MOST_NAMED])}" for why, paths in left.items()]
+
+    def _instances(
+        self,
+        instancer: _Instancer,
+        part: Callable[[Any, tuple[_Instancer, int, Any]], Iterator[_Part]],
+        left: dict[str, list[str]],
+    ) -> Iterator[_Part]:
+        of_roots: list[list[Any]] = []
+        for root in instancer.roots:
+            prims = list(self.pxr.Usd.PrimRange.AllPrims(root)) if root else []
+            of_roots.append([prim for prim in prims if prim.IsA(self.pxr.UsdGeom.Mesh)])
+            inner = [str(prim.GetPath()) for prim in prims if prim.IsA(self.pxr.UsdGeom.PointInstancer)]
+            left.setdefault("instancers in prototypes", []).extend(inner) if inner else None
+        for number in instancer.numbers.tolist():
+            kind = int(instancer.kinds[number])
+            if not 0 <= kind < len(of_roots):
+                raise FormatError(f"{instancer.prim.GetPath()} names prototype {kind} of {len(of_roots)}")
+            for prim in of_roots[kind]:
+                yield from part(prim, (instancer, number, instancer.roots[kind]))
+
+    def _hidden(self, prim: Any) -> str:
+        """Why a mesh or an instancer is not seen; nothing if it is."""
+        geom = self.pxr.UsdGeom
+        if not (prim.IsA(geom.Mesh) or prim.IsA(geom.PointInstancer)):
+            return ""
+        seen = geom.Imageable(prim)
+        if seen.ComputeVisibility(self.pxr.Usd.TimeCode.EarliestTime()) == geom.Tokens.invisible:
+            return "hidden"
+        return "guides" if seen.ComputePurpose() == geom.Tokens.guide else ""
 
     @property
     def times(self) -> list[float]:
-        return sorted({time for part in self.parts for time in part.times})
+        return sorted({time for part in self.parts for time in part.times(self.pxr.UsdGeom)})
 
     def at(self, time: float) -> Doubles:
-        cache = self.pxr.UsdGeom.XformCache(self.pxr.Usd.TimeCode(time))
-        return np.concatenate([part.at(time, cache) for part in self.parts])
+        code = self.pxr.Usd.TimeCode(time)
+        cache = self.pxr.UsdGeom.XformCache(code)
+        return np.concatenate([part.at(code, cache) for part in self.parts])
 
+    def renew(self, time: float) -> None:
+        """Give the parts the faces and primvars that they have at a time."""
+        self.parts = [part.renewed(self.pxr, time) for part in self.parts]
+        require_count("vertices", sum(part.shape.vertices for part in self.parts), self._limits)
+        faces = sum(int(part.shape.counts.sum()) - 2 * len(part.shape.counts) for part in self.parts)
+        require_count("faces", faces, self._limits)
+
+    @property
     def changes(self) -> bool:
-        return any(a.GetNumTimeSamples() > 1 for part in self.parts for a in (part.counts_attr, part.corners_attr))
+        attrs = (attr for part in self.parts for attr in (part.shape.counts_attr, part.shape.corners_attr))
+        return any(attr.GetNumTimeSamples() > 1 for attr in attrs)
 
-    def require_counts(self) -> None:
-        require_count("vertices", sum(part.vertices for part in self.parts), self._limits)
-        require_count("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts), self._limits)
-
-    def mesh(self, positions: Doubles) -> shapes.MeshFile:
-        """The mesh of a frame, with everything; polygons are cut into triangles."""
-        parts, geom = self.parts, self.pxr.UsdGeom
-        begin = np.cumsum([0, *(part.vertices for part in parts)])
-        sizes = np.concatenate([part.counts for part in parts])
-        corners = np.concatenate([part.corners + first for part, first in zip(parts, begin)])
-        turned = np.repeat([part.turned for part in parts], [len(part.counts) for part in parts])
+    def mesh(self, time: float) -> shapes.MeshFile:
+        """The mesh at a time, with everything; polygons are cut into triangles."""
+        parts, geom, positions = self.parts, self.pxr.UsdGeom, self.at(time)
+        each = [part.shape for part in parts]
+        code = self.pxr.Usd.TimeCode(time)
+        cache = geom.XformCache(code)
+        begin = np.cumsum([0, *(shape.vertices for shape in each)])
+        sizes = np.concatenate([shape.counts for shape in each])
+        corners = np.concatenate([shape.corners + first for shape, first in zip(each, begin)])
+        mirrored = [np.linalg.det(part.matrix(code, cache)[:3, :3]) < 0.0 for part in parts]
+        ways = [shape.left_handed != other for shape, other in zip(each, mirrored)]
+        turned = np.repeat(ways, [len(shape.counts) for shape in each])
         order = _turned(sizes, turned)
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         metadata: dict[str, str | int | float | bytes] = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m")}
-        columns, lacking = shapes.joined_columns((part.columns() for part in parts), [part.rows for part in parts])
+        columns, lacking = shapes.joined_columns((shape.columns for shape in each), [shape.rows for shape in each])
         places = [None if column.indices is None else column.indices[order] for column in columns]
         columns = [replace(column, indices=where) for column, where in zip(columns, places)]
-        materials = Materials(self.pxr, self._path)
-        numbers = np.concatenate([materials.of_faces(part.prim, len(part.counts), part.time) for part in parts])
+        materials = self._materials
+        of_parts = [materials.of_faces(part.prim, len(part.shape.counts), part.shape.time) for part in parts]
+        numbers = np.concatenate(of_parts)
         if len(np.unique(numbers)) > 1:
             columns.append(shapes.Column("material", numbers[:, None], "face"))
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
         metadata |= of_materials
-        notes = [*lacking, *absent]
+        left = dict.fromkeys(name for shape in each for name in shape.left_out)
+        notes = [*lacking, *absent, *self.notes, *([f"left out: {', '.join(left)}"] if left else [])]
+        notes += [f"left out, face sets without a material: {', '.join(materials.sets)}"] if materials.sets else []
         if len(parts) == 1:
             metadata["name"] = parts[0].prim.GetName()
         else:
-            paths = [str(part.prim.GetPath()) for part in parts]
-            note, column, names = shapes.sorted_into_parts(paths, [len(part.counts) for part in parts])
+            counts = [len(shape.counts) for shape in each]
+            note, column, names = shapes.sorted_into_parts([part.name for part in parts], counts)
             notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
         polygons = shapes.Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata)
         return polygons.checked(self._limits)
@@ -459,7 +604,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
     require_count("frames", count, limits)
-    still = stage.mesh(stage.at(first))
+    still = stage.mesh(first)
 
     every = [first + number * codes / rate for number in range(count)]
     samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
@@ -467,13 +612,12 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *off, *still.notes)
     checked = checked_frames(path, map(stage.at, every), len(mesh.positions))
     meshes = None
-    if (wanted.runs and stage.changes()) or any(part.painted for part in stage.parts):
+    if (wanted.runs and stage.changes) or any(part.shape.painted for part in stage.parts):
 
         def changing() -> Iterator[TriangleMesh]:
             for time in every:
-                stage.parts = [_Part(stage.pxr, part.prim, time) for part in stage.parts]
-                stage.require_counts()
-                yield painted_like(mesh, stage.mesh(stage.at(time)).mesh)
+                stage.renew(time)
+                yield painted_like(mesh, stage.mesh(time).mesh)
 
         meshes = changing()
     return Frames(
@@ -492,7 +636,7 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile
     """The mesh of a stage at its first time; errors as of `read_usd`."""
     stage = _Stage(path, limits)
     times = stage.times
-    found = stage.mesh(stage.at(times[0] if times else 0.0))
+    found = stage.mesh(times[0] if times else 0.0)
     note = ("of the motion, the first time was taken",) if len(times) > 1 else ()
     return shapes.MeshFile(found.mesh, (*found.notes, *note))
 
