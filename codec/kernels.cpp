@@ -47,8 +47,9 @@ NB_MODULE(_kernels, m) {
           "painted"_a, Unlocked());
     m.def("paint_checker", checked<&paint_checker>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "steepness"_a,
           "dark"_a, "picture"_a, Unlocked());
-    m.def("likeness", checked<&likeness>, "first"_a, "second"_a, "wide"_a, "narrow"_a, "visible"_a, "plain"_a,
-          "scratch"_a, "sums"_a, "owner"_a, "blamed"_a, Unlocked());
+    m.def("averaged", checked<&averaged>, "samples"_a, "small"_a, Unlocked());
+    m.def("contrast", checked<&contrast>, "first"_a, "second"_a, "half"_a, "steady"_a, "scratch"_a, "sums"_a,
+          Unlocked());
     m.def("hash_columns", &hash_columns, "columns"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());

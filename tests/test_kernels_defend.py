@@ -14,9 +14,9 @@ from bsm import SequenceEncoder, SequenceOptions, TriangleMesh, decode, decode_s
 from bsm.bitstream import _kernels as of_bytes
 from bsm.codec import _kernels as of_arrays
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.look.measure import AttributeLook, LookMetric
+from bsm.codec.look.measure import AttributeLook
 from bsm.codec.signal.smooth import local_frames
-from bsm.codec.static.choice.settling import Sensitivity
+from bsm.codec.static.choice.settling import Settler
 from bsm.options import encode_options
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
@@ -26,8 +26,8 @@ from tools.vectors.meshes import tangled
 
 STAGES = (
     *("find_fronts", "chain_blocks", "reaches_all", "suspend", "smooth_all", "place_block", "back_into_unit"),
-    *("show_frames", "draw_shaded", "likeness", "shown_normals", "collect_creases", "hang_creases", "settle_levels"),
-    *("paint_checker", "paint_colours"),
+    *("show_frames", "draw_shaded", "averaged", "contrast", "shown_normals", "collect_creases", "hang_creases"),
+    *("settle_levels", "paint_checker", "paint_colours"),
 )
 """Of the codec's kernels those that do whole stages; others are called by what has looked at its arrays."""
 NAMING, BEYOND = {"draw_shaded", "shown_normals", "collect_creases", "hang_creases", *STAGES[-3:]}, 10**6
@@ -108,10 +108,10 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     encoder = SequenceEncoder(faces, SequenceOptions(threads=1, step=0.01), len(positions))
     decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
     frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
-    seen = Sensitivity(bare.positions, bare.faces, graph_of_faces(bare.faces, size), LookMetric(bare), 0.01)
+    seen = Settler(bare.positions, bare.faces, graph_of_faces(bare.faces, size))
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))
     corners = bare.positions[bare.faces].reshape(-1, 9)
-    AttributeLook(bare, "color", corners)
+    assert AttributeLook(bare, "color", corners).distance(bare.positions, corners) == 0.0
     AttributeLook(bare, "texcoord", np.ascontiguousarray(corners[:, :6]))
     names = {*KERNELS} - NOTHING_SHORT
     assert not names - set(refusals), "kernels that this test does not reach"

@@ -4,8 +4,9 @@
 
 #include "bitstream/kernel.h"
 
-int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow, double visible,
-    double plain, Singles2 scratch, Doubles sums, ConstInts2 owner, Doubles blamed);
+int64_t averaged(ConstSingles2 samples, Singles2 small);
+int64_t contrast(ConstSingles2 first, ConstSingles2 second, ConstSingles half, double steady, Singles2 scratch,
+    Doubles sums);
 int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts,
     ConstInts around, double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals);
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,

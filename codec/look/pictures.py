@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.welding import weld
@@ -20,33 +20,25 @@ Normals = npt.NDArray[np.float32]  # of the corners of faces, shape (m, 9)
 CREASE = math.cos(math.radians(40.0))  # cosine of the angle between faces from which on shading is not smooth
 _HALF_CREASE = math.cos(math.radians(19.9))
 MOST_AROUND = 128  # faces around a vertex, above which its corners are shaded as their faces are
-VISIBLE = 12.0 / 255.0  # difference of shades, after the narrow blur, that is seen
-PLAIN = 48.0 / 255.0  # difference that is plain; where it fills a square, a part is gone
-POOLED = 4  # the power by which the worst pixels of a picture count most
-SQUARE = 64.0  # pixels of such a square
 BACKGROUND = 1.0
-TOWARDS = (
-    *((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)),
-    *((7, 0, 401), (7, 0, -401)),
-    *((x, y, z) for x, y in ((101, 101), (-101, 101), (-101, -101), (101, -101)) for z in (100, -100)),
-)
-"""Where the camera is, from the middle of the mesh: around it, above and below, and at the corners of a cube."""
-FEW = (0, 3, 6, 9, 12)  # those from which a mesh looks about as it does from all
+TOWARDS = ((2, 2, 1), (-2, -2, -1), (-2, 1, 2), (2, -1, -2), (1, -2, 2), (-1, 2, -2))
+"""Directions of the camera, from the middle of the mesh: both ends of three oblique axes at right angles."""
+SAMPLES = 4  # samples along each side of a pixel, which is their mean
 LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
 AIR = 1.03  # the side of the picture over the longer side of what it shows
-LEAST_PIXELS, MOST_PIXELS = 512, 2048
+LEAST_PIXELS, MOST_PIXELS = 512, 2048  # samples along the side of a picture
 FEWEST_PIXELS = 16  # if many faces cover each other and `LEAST_PIXELS` would take too long
-FACE_PIXELS = 8  # by which a picture of more than the least pixels grows for each face, at most
-EDGE_PIXELS = 2.0  # of a mean edge, where `MOST_PIXELS` and `MOST_COVERED` allow it
+FACE_PIXELS = 8  # by which a picture of more than the least samples grows for each face, at most
+EDGE_PIXELS = 2.0  # samples along a mean edge, where `MOST_PIXELS` and `MOST_COVERED` allow it
 MOST_COVERED, COVERED_BY_FACE, ROW = 5 * LEAST_PIXELS**2, 16, 4
-"""Pixels that faces may cover in a picture, each as often as it is covered, and how many more for each face; and pixels
-that take as long to cover as a row of a face takes."""
+"""Samples that faces may cover in a picture, each as often as it is covered, and how many more for each face; and
+samples that take as long to cover as a row of a face takes."""
 CHECKS, DARK, TEXELS = 8, 0.35, 128  # of a checker: squares a side, how bright dark ones are, texels of their sides
+STEADY = 0.02  # variance of shades that hides half of a squared difference
 _GRID = 2.0**24
-EMPTY = 2  # work of a pixel that no face covers, where covering one is 1
-_SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
-_SCRATCH_ROWS, _TILE = 75, 8
-_NOWHERE, _NOBODY = np.empty((0, 0), np.int32), np.empty(0)
+EMPTY = 2  # work of a sample that no face covers, where covering one is 1
+_SPREAD, _REACH = 1.5, 5  # standard deviation of the blur, and its reach, in pixels
+_SCRATCH_ROWS, _SCRATCH_COLUMNS, _TILE = 52, 18, 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,34 +76,41 @@ class Shape:
 
 
 class Canvas:
-    """Room for pictures, shape (pixels, pixels), one after another."""
+    """Room for pictures, one after another: `samples` along each side, which make a quarter as many pixels."""
 
-    def __init__(self, pixels: int) -> None:
-        self.picture, self._depth, self._lengths = (np.empty((pixels, pixels), np.float32) for _ in "123")
-        self.owner = np.empty((pixels, pixels), np.int32)
-        self._tiles = np.empty((-(-pixels // _TILE),) * 2, np.float32)
+    def __init__(self, samples: int) -> None:
+        self.samples, self._depth, self._lengths = (np.empty((samples, samples), np.float32) for _ in "123")
+        self.owner = np.empty((samples, samples), np.int32)
+        self._tiles = np.empty((-(-samples // _TILE),) * 2, np.float32)
         self._placed = np.empty((0, 3))
 
     def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix) -> Picture:
-        """A picture of a mesh, lit alike on both sides of its faces; `owner`: which face each pixel shows, -1: none."""
+        """Draw a mesh, lit alike on both sides of its faces; `owner` is the face that each sample shows, or -1."""
         self._placed = np.empty(positions.shape)
         room = self._placed, np.empty(len(faces), np.int32), self._depth, self._lengths, self._tiles
-        _kernels.draw_shaded(positions, faces, normals, camera, *room, self.picture, self.owner)
-        return self.picture
+        _kernels.draw_shaded(positions, faces, normals, camera, *room, self.samples, self.owner)
+        return averaged(self.samples)
 
     def in_colours(self, faces: Faces, colours: Matrix) -> list[Picture]:
-        """What was drawn last, in red, in green and in blue, given those of corners, shape (m, 9)."""
-        painted = np.empty((3, *self.picture.shape), np.float32)
+        """Return the last picture in red, in green and in blue, given those of corners, shape (m, 9)."""
+        painted = np.empty((3, *self.samples.shape), np.float32)
         _kernels.paint_colours(
-            self.owner, self._placed, faces, colours, self.picture, painted.reshape(-1, len(self.owner))
+            self.owner, self._placed, faces, colours, self.samples, painted.reshape(-1, len(self.owner))
         )
-        return list(painted)
+        return [averaged(samples) for samples in painted]
 
     def checkered(self, faces: Faces, places: Matrix, steepness: Matrix) -> list[Picture]:
-        """What was drawn last, under a checker at places of corners, shape (m, 6), and with its steepness on faces."""
-        picture = self.picture.copy()
-        _kernels.paint_checker(self.owner, self._placed, faces, places * CHECKS, steepness, DARK, picture)
-        return [picture]
+        """Return the last picture under a checker at places of corners, shape (m, 6), with its steepness on faces."""
+        samples = self.samples.copy()
+        _kernels.paint_checker(self.owner, self._placed, faces, places * CHECKS, steepness, DARK, samples)
+        return [averaged(samples)]
+
+
+def averaged(samples: Picture) -> Picture:
+    """Return pixels: the means of squares of samples."""
+    pixels = np.empty((samples.shape[0] // SAMPLES, samples.shape[1] // SAMPLES), np.float32)
+    _kernels.averaged(samples, pixels)
+    return pixels
 
 
 def axes(towards: tuple[int, int, int]) -> Matrix:
@@ -169,6 +168,7 @@ class Size:
         wanted = max(LEAST_PIXELS, math.ceil(min(EDGE_PIXELS * extent / edge, MOST_PIXELS)))
         grown = math.isqrt(LEAST_PIXELS**2 + FACE_PIXELS * len(faces))
         pixels = max(FEWEST_PIXELS, min(wanted, grown, most_pixels, int(min(most, MOST_PIXELS))))
+        pixels -= pixels % SAMPLES
         return cls(pixels, (EMPTY + covered) * pixels**2 + rows * pixels, float(areas.max()))
 
 
@@ -184,20 +184,17 @@ def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Mat
     return steepness
 
 
-def difference(first: Picture, second: Picture, owner: Indices = _NOWHERE, blamed: Matrix = _NOBODY) -> Matrix:
-    """Sums over pixels that either picture, shape (h, w), covers; shape (5,). To `blamed`, shape (m,), comes how unlike
-    those are that show each face, by `owner`."""
-    sums = np.zeros(5)
-    scratch = np.empty((_SCRATCH_ROWS, first.shape[1] + 2 * _SPREADS["wide"][1]), np.float32)
-    _kernels.likeness(first, second, _WIDE, _NARROW, VISIBLE, PLAIN, scratch, sums, owner, blamed)
-    sums[4] = (sums[4] / first.size) ** (1.0 / POOLED)
+def difference(first: Picture, second: Picture) -> Matrix:
+    """Return how unlike two pictures are, and the largest difference of blurred pixels; shape (2,)."""
+    sums, scratch = np.empty(2), np.empty((_SCRATCH_ROWS, first.shape[1] + _SCRATCH_COLUMNS), np.float32)
+    _kernels.contrast(first, second, _BLUR, STEADY, scratch, sums)
+    sums[0] = math.sqrt(sums[0] / first.size)
     return sums
 
 
-def _half(name: str) -> Picture:
-    spread, reach = _SPREADS[name]
-    weights = [math.exp(-0.5 * (k / spread) ** 2) for k in range(reach + 1)]
+def _half_blur() -> Picture:
+    weights = [math.exp(-0.5 * (k / _SPREAD) ** 2) for k in range(_REACH + 1)]
     return np.array([weight / (2 * sum(weights) - weights[0]) for weight in weights], np.float32)
 
 
-_WIDE, _NARROW = _half("wide"), _half("narrow")
+_BLUR = _half_blur()

@@ -28,7 +28,7 @@ INLINE double first_center(double x, double size) { return -floor_of(-clamped(x 
 INLINE double behind_center(double x, double size) { return floor_of(clamped(x + 0.5, size)); }
 
 /* Depths are whole numbers, so that faces at one place are at one depth, whatever their corners. */
-INLINE float depth_of(double z) { return (float)__builtin_rint(z); }
+INLINE float depth_of(double z) { return (float)((z + WHOLE) - WHOLE); }
 
 INLINE float shade_of(float facing, float length) {
     return AMBIENT + DIFFUSE * (length > DARK ? __builtin_fabsf(facing) / __builtin_sqrtf(length) : 0.0f);
@@ -187,6 +187,61 @@ INLINE void cover(const Group *g, int rows, double size, uint64_t *inside) {
     for (int k = 0; k < LANES; k++) inside[k] = (uint64_t)(int64_t)found[0][k] | (uint64_t)(int64_t)found[1][k] << 32;
 }
 
+typedef double Eight __attribute__((vector_size(8 * LANES)));
+typedef int64_t EightLongs __attribute__((vector_size(8 * LANES)));
+typedef float EightSingles __attribute__((vector_size(4 * LANES)));
+typedef int32_t EightInts __attribute__((vector_size(4 * LANES)));
+typedef EightSingles UnalignedSingles __attribute__((aligned(4), may_alias));
+typedef EightInts UnalignedInts __attribute__((aligned(4), may_alias));
+
+INLINE Eight all_within(Eight x) {
+    Eight one = (Eight){0.0} + 1.0;
+    EightLongs above = x > 0.0, below = x < 1.0;
+    return (Eight)(above & ((below & (EightLongs)x) | (~below & (EightLongs)one)));
+}
+
+INLINE bool any_of(EightInts lanes) {
+    int32_t any = 0;
+    for (int k = 0; k < LANES; k++) any |= lanes[k];
+    return any != 0;
+}
+
+INLINE void keep(EightInts mask, EightInts values, void *to) {
+    UnalignedInts *at = to;
+    *at = (mask & values) | (~mask & *at);
+}
+
+/* As `draw_pixel`, for the pixels of `LANES` columns. */
+INLINE void draw_span(Face face, double inverse, const double *n, const double *light, int32_t number, int64_t row,
+                      int64_t column, Canvas on) {
+    const double *a = face.a, *b = face.b, *c = face.c;
+    const Eight lanes = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5};
+    double down = (double)row + 0.5 - a[1];
+    double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+    Eight across = ((double)column + lanes) - a[0];
+    Eight s = all_within((across * cy - down * cx) * inverse), r = all_within((bx * down - by * across) * inverse);
+    Eight depth = ((a[2] + s * (b[2] - a[2]) + r * (c[2] - a[2])) + WHOLE) - WHOLE;
+    EightSingles z = __builtin_convertvector(depth, EightSingles);
+    int64_t pixel = row * on.picture.columns + column;
+    EightSingles before = *(const UnalignedSingles *)(on.depth.data + pixel);
+    EightInts nearer = z > before, same = z == before;
+    if (any_of(nearer)) {
+        Eight q = 1.0 - s - r;
+        Eight nx = q * n[0] + s * n[3] + r * n[6];
+        Eight ny = q * n[1] + s * n[4] + r * n[7];
+        Eight nz = q * n[2] + s * n[5] + r * n[8];
+        EightSingles facing = __builtin_convertvector(nx * light[0] + ny * light[1] + nz * light[2], EightSingles);
+        EightSingles length = __builtin_convertvector(nx * nx + ny * ny + nz * nz, EightSingles);
+        keep(nearer, (EightInts){0} + number, on.owner.data + pixel);
+        keep(nearer, (EightInts)z, on.depth.data + pixel);
+        keep(nearer, (EightInts)facing, on.picture.data + pixel);
+        keep(nearer, (EightInts)length, on.lengths.data + pixel);
+    }
+    if (any_of(same))
+        for (int k = 0; k < LANES; k++)
+            if (same[k]) draw_pixel(face, inverse, n, light, number, row, column + k, on);
+}
+
 INLINE void draw_rows(const Group *g, int at, Face face, const double *n, const double *light, int32_t number,
                       Canvas on) {
     int64_t end = (int64_t)g->end[at];
@@ -197,9 +252,13 @@ INLINE void draw_rows(const Group *g, int at, Face face, const double *n, const 
             from[k] = span.from;
             to[k] = span.to;
         }
-        for (int k = 0; k < LANES && row + k < end; k++)
-            for (int64_t column = (int64_t)from[k]; column < (int64_t)to[k]; column++)
+        for (int k = 0; k < LANES && row + k < end; k++) {
+            int64_t column = (int64_t)from[k];
+            for (; column + LANES <= (int64_t)to[k]; column += LANES)
+                draw_span(face, g->inverse[at], n, light, number, row + k, column, on);
+            for (; column < (int64_t)to[k]; column++)
                 draw_pixel(face, g->inverse[at], n, light, number, row + k, column, on);
+        }
     }
 }
 

@@ -49,7 +49,7 @@ WIDEST = 1.4  # logarithm of the largest weight, and of one over the smallest
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
 TRIES = 20
-_PIXEL = 4 * 14  # bytes of a `LookMetric` for each pixel of its pictures' side, squared
+_PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
 
 class Candidate(Protocol):
@@ -194,7 +194,7 @@ class StepSearch:
     def _seen(self, key: tuple[int, int], decoded: Matrix) -> float:
         if key not in self._metrics:
             metric = self._metric(*key)
-            held = _PIXEL * metric.pixels**2 if metric else 0
+            held = int(_PIXEL * metric.pixels**2) if metric else 0
             if held <= self._room:
                 self._room -= held
                 self._metrics[key] = metric
@@ -202,8 +202,7 @@ class StepSearch:
             metric = self._metrics[key]
         if metric is None:
             return 0.0
-        few, whole = metric.glance(decoded, *((math.inf, math.inf) if key[1] == SMALL else (0.0, math.inf)))
-        return (whole or few).moving / self._promise.look
+        return metric.look(decoded).moving / self._promise.look
 
     def _metric(self, index: int, most_pixels: int) -> LookMetric | None:
         """None for a frame of which nothing is seen."""

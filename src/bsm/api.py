@@ -641,7 +641,7 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     Returns
     -------
     Look
-        `distance` and its parts: `dissimilarity` (1 - SSIM) and `visible` (share of pixels).
+        `distance` and its parts: `unlike` (mean difference of shades) and `gone` (largest difference).
 
     Raises
     ------

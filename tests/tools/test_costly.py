@@ -6,11 +6,11 @@ from random import Random
 import pytest
 
 import bsm
-from bsm.codec.look.measure import MOST_WORK, WORK_PER_FACE, LookMetric
+from bsm.codec.look.measure import LookMetric
 from tools.attack.costly import Recipe, changed, drawn, encoded, search
 
-FEWER = 4.0  # a search for a stream may draw this many times its budget before it skips everything optional
-WORST = 5.0  # and where it looks at attributes, too: some 5 s
+FEWER = 2.5e8  # samples that a search may draw, about a second
+WORST = 6e8  # and where it looks at attributes, too
 
 
 @pytest.fixture
@@ -31,7 +31,7 @@ def test_what_is_drawn_for_small_files_is_bounded_whatever_covers_what(metrics, 
     taken = encoded(Recipe(shape, vertices, faces, 0.0, "none", "balanced", 1).ply, "balanced")
     assert taken.outcome.endswith(" bytes")
     assert metrics
-    assert sum(metric._drawn_pictures * metric._size.work for metric in metrics) < FEWER * MOST_WORK
+    assert sum(metric._drawn_pictures * metric._size.work for metric in metrics) < FEWER
 
 
 def test_recipes_are_files_that_are_read_and_mutants_are_others():
@@ -59,4 +59,4 @@ def test_what_is_drawn_for_the_worst_files_that_a_search_has_found_is_bounded(me
         recipe = Recipe("grid", vertices, faces, 0.0, "normal", "near-lossless", 18864366)
         bsm.encode(bsm.load(recipe.ply), preset=recipe.preset, threads=1)
     drawn = sum(metric._drawn_pictures * metric._size.work for metric in metrics)
-    assert 0 < drawn < WORST * (MOST_WORK + WORK_PER_FACE * faces)
+    assert 0 < drawn < WORST

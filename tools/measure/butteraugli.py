@@ -17,12 +17,12 @@ import numpy as np
 
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
-from bsm.codec.look.pictures import Canvas, Picture, Shape, cameras
+from bsm.codec.look.pictures import SAMPLES, Canvas, Picture, Shape, cameras
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS
 from tools.replicate.fetch import fetch_meshes
 
-PIXELS, FINER, SIDES = 1024, 2, 6
+PIXELS = 1024
 NAMED, EVERY = (1500, 25_000), 4
 GOOD_ENOUGH = 3.3
 BITS = 11
@@ -33,10 +33,8 @@ def drawn(mesh: TriangleMesh, original: TriangleMesh) -> list[Picture]:
     low, high = box_around(original.positions)
     placed, filling = ((m.positions - (low + high) / 2) / np.linalg.norm(high - low) for m in (mesh, original))
     placed, faces = np.ascontiguousarray(placed), np.ascontiguousarray(mesh.faces, np.int32)
-    normals, canvas = Shape.of(placed, faces).normals(placed), Canvas(PIXELS * FINER)
-    sides = cameras(filling, PIXELS * FINER)[:SIDES]
-    shape = PIXELS, FINER, PIXELS, FINER
-    return [canvas.draw(placed, faces, normals, side).reshape(shape).mean(axis=(1, 3)) for side in sides]
+    normals, canvas = Shape.of(placed, faces).normals(placed), Canvas(PIXELS * SAMPLES)
+    return [canvas.draw(placed, faces, normals, side) for side in cameras(filling, PIXELS * SAMPLES)]
 
 
 def norm(first: Picture, second: Picture) -> float:

@@ -23,7 +23,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.sequence import gop, step_search
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.signal import transform
-from bsm.codec.static.choice import blocks, search
+from bsm.codec.static.choice import blocks, grids, search
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
@@ -102,9 +102,8 @@ TOOLS: dict[str, Tool] = {
     ),
     "choice of coefficients by rate": Tool({}, [(transform, "BIT_WORTH", 1e-9)]),
     "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
-    "weights of what is seen": Tool({}, [(blocks.Refined, "_sensitivity", None)]),
     "frames along normals": Tool({}, [(blocks, "local_frames", _upright)], decodes=False),
-    "unfolding of faces": Tool({}, [(search, "unfolded", lambda found, *_: found)]),
+    "unfolding of faces": Tool({}, [(blocks, "turned", lambda _: None), (grids, "turned", lambda _: None)]),
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),

@@ -17,7 +17,7 @@ from tools.replicate.pictures import SIDES, Gallery
 
 MEASURES = {
     "look": "our look",
-    "facets": "1 - SSIM in facets",
+    "facets": "difference in facets",
     "FLIP": "FLIP",
     "Hausdorff": "Hausdorff distance",
     "RMS": "RMS distance",

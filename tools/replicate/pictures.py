@@ -7,9 +7,9 @@ import numpy as np
 from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
-from bsm.codec.look.pictures import Canvas, Picture, Shape, cameras, difference
+from bsm.codec.look.pictures import Canvas, Picture, Shape, averaged, cameras, difference
 
-SIDES = (0, 3, 6, 9)
+SIDES = (0, 2, 4, 5)
 PIXELS = 256
 LIGHT = (0.35, 0.5, 0.79)  # right, up, towards the camera
 
@@ -51,10 +51,10 @@ class Gallery:
         return picture
 
     def facets(self, mesh: TriangleMesh) -> float:
-        """1 - SSIM over what is covered, in facets."""
-        drawn = [self.drawn(mesh, side, flat=True) for side in SIDES]
-        sums = np.sum([difference(first, second) for first, second in zip(self._facets, drawn, strict=True)], axis=0)
-        return float(sums[0] / sums[2])
+        """Mean difference of shades, in facets."""
+        drawn = [averaged(self.drawn(mesh, side, flat=True)) for side in SIDES]
+        pairs = zip(map(averaged, self._facets), drawn, strict=True)
+        return float(np.mean([difference(first, second)[0] for first, second in pairs]))
 
 
 def _across(first: Matrix, second: Matrix) -> Matrix:

@@ -16,7 +16,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import AttributeLook, has_look, own_normals
-from bsm.codec.look.pictures import FEW, Normals
+from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
@@ -109,7 +109,7 @@ class Input:
             seen = [metric.distance(positions)]
         else:
             normals = self.carried[free].normals(positions)
-            seen = [metric.bare_distance(positions), metric.shaded(positions, normals)]
+            seen = [metric.bare(positions).distance, metric.shaded(positions, normals)]
         seen += [look.distance(positions, self.carried[at].at_corners) for at, look in self.looks]
         return "" if bounds.keeps(positions, max(seen)) else bounds.had
 
@@ -171,7 +171,7 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Attrib
     )
 
     def near(step: int) -> bool:
-        return look_of.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners, FEW) <= most
+        return look_of.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners) <= most
 
     step = steps[_first(near, 0, len(steps) - 1)]
     if attribute.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:

@@ -17,7 +17,7 @@ from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, e
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
 from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate, turned
-from bsm.codec.static.choice.settling import RATIO, Sensitivity
+from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
@@ -153,18 +153,17 @@ ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
 UNSEEN_RATIO = 2.0
 """How much coarser levels in the plane are than those along the normal, where it is flat: for distances alone."""
-PULLED, STEADY, NEAR = 0.085, 0.3, 16.0
+PULLED, STEADY, NEAR = 0.12, 0.3, 16.0
 """Where a look is asked for, what a bit is worth at a look of 1, over the mean cost of an error of one step along the
 normal, and the power of the look that it goes with; and how far a vertex may be brought from its place, in steps of the
 layer."""
 MENDED_ASIDE = 3.0  # or so many of its own steps in the plane, which are wide where the surface is flat
 ROOM = 1.8  # of steps that are within reach: their diagonal over the reach
-FOLDED = 0.02  # edges folded over, for each face, of which more are not mended: that takes long, and blocks do not suit
-NOISE = 0.008
-"""Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
+FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh
+BLUNT = 0.8  # about the step of a layer over that of a grid of the same look
 ASLANT = 2.2
-"""The most that steps in the plane are, where all errors are bound, over those that would be right if errors counted
-alike, seen or not."""
+"""The most that steps in the plane are, where all errors are bound, over those that would be right if errors in all
+directions counted alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -310,7 +309,7 @@ class Refined:
 
     @cached_property
     def first(self) -> float:
-        return self._bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
+        return self._bounds.first_step * (1.0 if self._settler is None else BLUNT)
 
     def at(self, step: float) -> Candidate:
         return self._begun if math.isclose(step, self.first) else self._made(step)
@@ -321,11 +320,12 @@ class Refined:
 
     def _made(self, step: float) -> Candidate:
         base = self._base
-        if self._sensitivity is not None:
-            found = self._leveled(step, base, *self._evened(step, self._sensitivity))
+        if self._settler is not None:
+            found = self._leveled(step, base, *self._evened(step, self._settler))
             shaper, most = self._bounds.measures.shaper, FOLDED * len(self._prepared.mesh.faces)
-            few = shaper.folded(found.positions) - shaper.most_folded < most
-            return (few and turned(found)) or found
+            if shaper.folded(found.positions) - shaper.most_folded >= most:
+                return replace(found, suits=False)
+            return turned(found) or found
         if self._bounds.contract.angle < ANY_ANGLE:
             layer = Layer(single(step), RATIO)
             levels = self._shaped(base, layer)
@@ -344,11 +344,11 @@ class Refined:
             other = self._bounds.measures.shaper.unfold(positions, levels, directions, reach, flat)
             return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
 
-        evened = self._sensitivity is not None
+        evened = self._settler is not None
         return Candidate(step, positions, partial(base.refined, layer, levels, positions), unfold, evened)
 
-    def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels, Matrix]:
-        """Levels that cost little where seen, elsewhere only as exact as bounds ask; and their known steps."""
+    def _evened(self, step: float, settler: Settler) -> tuple[Layer, Levels, Matrix]:
+        """Levels that are worth their bits; and their known steps."""
         base, bounds = self._base, self._bounds
         kept, worth = dict[float, tuple[Layer, Levels, Matrix]](), PULLED * self._look**STEADY
 
@@ -360,7 +360,7 @@ class Refined:
             layer = Layer(single(step), min(max(ASLANT * even / step, 1.0), widest))
             steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
             reach = np.minimum(bounds.reaches, NEAR * layer.step)
-            levels = seen.levels(base.offsets, base.frames, steps, known, worth, reach, even)
+            levels = settler.levels(base.offsets, base.frames, steps, known, worth, reach, even)
             return layer, *base.within(bounds.reaches, layer, levels)
 
         def excess(even: float) -> float:
@@ -377,9 +377,8 @@ class Refined:
     @cached_property
     def _base(self) -> RefinementBase:
         """The blocks of all steps: those of about the right one."""
-        seen, least = self._sensitivity, smallest_step(self._prepared.size)
-        even = self.first if seen is None else seen.even_step(self._look)
-        return self._spectral.base(max(BASE * math.sqrt(even), least), self._bounds.measures.near.within(BLOCKS))
+        step = max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size))
+        return self._spectral.base(step, self._bounds.measures.near.within(BLOCKS))
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""
@@ -391,11 +390,10 @@ class Refined:
         return shaper.levels(base.positions, wanted, directions, aim)
 
     @cached_property
-    def _sensitivity(self) -> Sensitivity | None:
-        """None: nothing is asked of pictures, or to be seen in them."""
-        metric = self._bounds.measures.look if self._look < math.inf else None
-        if metric is None:
-            return None
-        noise = NOISE * self._look * self._bounds.measures.shaper.character.mean_edge
-        positions, faces = self._prepared.positions, self._prepared.mesh.faces
-        return Sensitivity(positions, faces, self._prepared.graph, metric, noise)
+    def _settler(self) -> Settler | None:
+        """None: nothing is asked of pictures."""
+        return (
+            None
+            if self._look == math.inf
+            else Settler(self._prepared.positions, self._prepared.mesh.faces, self._prepared.graph)
+        )

@@ -18,11 +18,10 @@ from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
+from bsm.codec.static.targets import ANY_ANGLE, Contract
 
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 """Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
-NEARLY = 0.87, 1.08  # shares of what is asked for outside of which a few sides are enough
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
 MARGIN = 1e-9  # of a bound on distances, for what rounding may add
 MENDED = 4.0  # steps that a vertex may be off where folds are mended: farther ones stand out as spikes
@@ -59,6 +58,11 @@ class Measures:
         return Reference(self.prepared.positions, self.prepared.mesh.faces)
 
     @cached_property
+    def seen_step(self) -> float:
+        """A step on which rounding is about as visible as it may be at a look of 1, in BSM units."""
+        return self.shaper.character.step_of(ANGLE_OF_LOOK, COARSEST)
+
+    @cached_property
     def look(self) -> LookMetric | None:
         """None: nothing of the mesh can be seen."""
         own = () if self._normals is None else (Attribute("normal", self._normals.reshape(-1, 3), "corner", "normal"),)
@@ -80,8 +84,8 @@ class Candidate:
     positions: Matrix
     make: Callable[[], Draft]
     unfold: Callable[[bool], "Candidate | None"] = lambda flat: None
+    suits: bool = True  # whether its way suits the mesh
     evened: bool = False  # whether another search than that for the step keeps the bounds that all vertices count in
-    folded: bool = False  # whether too many edges are folded over
 
     @cached_property
     def draft(self) -> Draft:
@@ -107,32 +111,16 @@ class Bounds:
         self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
 
-    def excess(self, slack: float = SLACK) -> Callable[..., tuple[float, float | None]]:
-        """The logarithm of the largest share of a bound, for one search, and the look from all sides where that was
-        looked at: a few of them tell enough elsewhere, for what all tell beside these is about as it was before, and
-        above `most`."""
-        skew, near = 1.0, NEARLY
-
-        def excess(candidate: Candidate, most: float = math.inf) -> tuple[float, float | None]:
-            nonlocal skew, near
-            positions = candidate.positions
-            farther, angle, visual = self._shares(positions)
-            shares = (angle,) if candidate.evened and max(farther, visual) <= 1.0 else (farther, angle, visual)
-            least = 0.0 if NEARLY[0] < max(shares) <= 1.0 else near[0]  # a search may end where another bound is near
-            ends = least, min(near[1], most)
-            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in ends))
-            if whole is not None:
-                near = math.exp(-slack), math.exp(slack / 2.0)  # about what the search ends with
-                skew = max(whole, LEAST) / max(few, LEAST)
-            look = skew * few if whole is None else whole
-            self.measures.near.by(TRY)
-            return math.log(max(*shares, look / self.contract.look, LEAST)), whole
-
-        return excess
+    def excess(self, candidate: Candidate) -> float:
+        """The logarithm of the largest share of a bound that depends on the step."""
+        farther, angle, visual, look = self._shares(candidate.positions)
+        shares = (angle, look) if candidate.evened and max(farther, visual) <= 1.0 else (farther, angle, visual, look)
+        self.measures.near.by(TRY)
+        return math.log(max(*shares, LEAST))
 
     def spread(self, positions: Matrix) -> float:
         """Return the logarithm of the largest share of the bounds that all vertices count in, seen or not."""
-        farther, _, visual = self._shares(positions)
+        farther, _, visual = self._measured(positions)
         return math.log(max(farther, visual, LEAST))
 
     @property
@@ -140,20 +128,12 @@ class Bounds:
         """None: no look is asked for, or nothing can be seen."""
         return None if self.contract.look == math.inf else self.measures.look
 
-    def breaks(self, positions: Matrix) -> bool:
-        """Whether some sides show, one after another, that positions look far worse than they may."""
-        metric = self.metric
-        return metric is not None and metric.breaks(self._decoded(positions), NEARLY[1] ** 3 * self.contract.look)
-
     def keeps(self, positions: Matrix, look: float | None = None) -> bool:
-        """Whether all bounds are kept, from all sides, from which the look may be known."""
-        shares = self._shares(positions)
-        if look is None:
-            look = self._glance(positions, 0.0, math.inf)[1] if max(shares) <= 1.0 else math.inf
-        look = (look or 0.0) / self.contract.look
-        if self._best is None or (shares[0], look, *shares) < self._best:
-            self._best = (shares[0], look, *shares)
-        return max(*shares, look) <= 1.0
+        """Whether all bounds are kept; `look`, where it is known otherwise."""
+        shares = self._shares(positions, look)
+        if self._best is None or shares < self._best:
+            self._best = shares
+        return max(shares) <= 1.0
 
     def quality(self, positions: Matrix) -> float:
         """How good positions are where as good ones as possible are wanted: less is better."""
@@ -169,11 +149,12 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
-        if self.contract.look == math.inf:
+        if self.metric is None:
             return self.even_step
-        step, positions = self.rough_step, self.measures.prepared.positions
-        few, _ = self._glance(np.rint(positions / step) * step, math.inf, math.inf)
-        return step * min(max(self.contract.look / max(few, LEAST), 0.1), 10.0)
+        # From one step for all looks, so that a stricter one begins with a finer step.
+        step, positions = self.measures.seen_step, self.measures.prepared.positions
+        seen = self._look(np.rint(positions / step) * step)
+        return min(step * self.contract.look * min(max(1.0 / max(seen, LEAST), 0.1), 10.0), COARSEST)
 
     @cached_property
     def even_step(self) -> float:
@@ -181,7 +162,7 @@ class Bounds:
         step, positions = COARSEST, self.measures.prepared.positions
         for _ in range(3):
             # Of errors, or of their squares.
-            step /= math.sqrt(max(*self._shares(np.rint(positions / step) * step), LEAST))
+            step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
         return min(step, COARSEST)
 
     @property
@@ -189,11 +170,16 @@ class Bounds:
         """The bounds that the best positions broke that were seen."""
         if self._best is None:
             return "nothing"
-        contract, (_, look, farther, angle, visual) = self.contract, self._best
+        contract, (farther, angle, visual, look) = self.contract, self._best
         return contract.worded(farther, angle * contract.angle, look * contract.look, visual * contract.visual)
 
-    def _shares(self, positions: Matrix) -> tuple[float, float, float]:
-        """Shares of the bounds on distances, on the angle of normals, and on the visual error."""
+    def _shares(self, positions: Matrix, look: float | None = None) -> tuple[float, float, float, float]:
+        """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
+        look = self._look(positions) if look is None else look
+        return *self._measured(positions), look / self.contract.look
+
+    def _measured(self, positions: Matrix) -> tuple[float, float, float]:
+        """Shares of the bounds that are not in pictures."""
         contract, measures = self.contract, self.measures
         moved = np.sqrt(np.square(positions - measures.prepared.positions).sum(axis=1))
         farther = float(np.divide(moved, self.reaches, out=np.zeros_like(moved), where=moved > 0.0).max(initial=0.0))
@@ -201,13 +187,8 @@ class Bounds:
         visual = measures.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
         return farther, angle, visual
 
-    def _glance(self, positions: Matrix, least: float, most: float) -> tuple[float, float | None]:
-        """Distances in pictures, from a few sides and, if that is within these numbers, from all."""
-        metric = self.metric
-        if metric is None:
-            return 0.0, 0.0
-        few, whole = metric.glance(self._decoded(positions), least, most)
-        return few.distance, None if whole is None else whole.distance
+    def _look(self, positions: Matrix) -> float:
+        return 0.0 if self.metric is None else self.metric.with_room(self._decoded(positions))
 
     def _decoded(self, positions: Matrix) -> Matrix:
         """As a decoder has them."""

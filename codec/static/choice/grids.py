@@ -4,7 +4,6 @@ import math
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -17,9 +16,9 @@ from bsm.bitstream.fields.grid import find_lattice, ordered
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
-from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate
+from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate, turned
 from bsm.codec.static.choice.shaping import SAMPLE, Aim
-from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft, Prepared
+from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 
@@ -140,7 +139,6 @@ FINEST_BITS, PARTS_OF_OCTAVE, WIDER, APART = 16, 128, 1.4, 1.02
 """Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are compared
 between one and twice it; how much coarser ones may be than one that is about right; and how far apart, at least, those
 are that are coarser."""
-MOST_PARTS = 256  # of models of few vertices: cells along the longest side
 
 
 def made_on(positions: Matrix) -> float | None:
@@ -170,11 +168,10 @@ def made_on(positions: Matrix) -> float | None:
 class Gridded:
     """Grids of one mesh, at one step after another; what a nat is worth in angles that a step bends a mean face by."""
 
-    def __init__(self, prepared: Prepared, bounds: Bounds, worth: float, low: Matrix | None = None) -> None:
+    def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
-        self._reach = float(bounds.reaches.min())
         self._worth = worth
-        low = prepared.mesh.positions.min(axis=0) if low is None else low
+        low = prepared.mesh.positions.min(axis=0)
         narrow = low.astype(np.float32)
         fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
         self._hold = single if fine else float
@@ -193,19 +190,16 @@ class Gridded:
     def first(self) -> float:
         return min(self._bounds.first_step, COARSEST)
 
-    def guess(self) -> float:
-        """About the bytes that it takes; of a model nobody can tell."""
-        character = self._shaper.character
-        return 0.0 if character.is_model else character.entropy(self._bounds.rough_step)
-
     def at(self, step: float) -> Candidate:
         unit = self._prepared.units.scale
         held = single(max(step, self.least) * unit)
         places = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
-            aim = Aim(self._worth * step / self._shaper.character.mean_edge, min(self._reach, NEAR_PLACE * step), 3)
+            reach = min(float(self._bounds.reaches.min()), NEAR_PLACE * step)
+            aim = Aim(self._worth * step / self._shaper.character.mean_edge, reach, 3)
             places = self._shaper.places(places, self._low, held / unit, aim)
-        return self._placed(held, places)
+        candidate = self._placed(held, places)
+        return turned(candidate) or candidate
 
     def _placed(self, held: float, places: Levels) -> Candidate:
         """Places from the origin on, some below it, perhaps."""
@@ -223,22 +217,11 @@ class Gridded:
         return replace(candidate, unfold=unfold)
 
     def made(self) -> Iterator[Candidate]:
-        """The grid that the mesh was made on; of few vertices counted from its zero, too."""
+        """The grid that the mesh was made on."""
         step = made_on(self._prepared.mesh.positions)
         if step is not None:  # wherever coarser ones are looked for, from what looks about right on
-            few = self._prepared.graph.size < FEW_VERTICES
-            for make in (self.counted, self.at) if few else (self.at,):
-                made = make(step / self._prepared.units.scale)
-                yield replace(made, step=max(made.step, self._bounds.rough_step))
-
-    def counted(self, step: float) -> Candidate:
-        """A grid of this step with places that are counted from where the mesh's unit begins: shorter to write."""
-        held = single(step * self._prepared.units.scale)
-        places = np.floor(self._prepared.mesh.positions / held + 0.5).astype(np.int32)
-        least = places.min(axis=0)
-        corner = tuple(map(int, least)) if least.any() else ()
-        grid = Grid((0.0, 0.0, 0.0), held, tuple(map(int, np.ptp(places, axis=0))), corner=corner)
-        return self._candidate(grid, places - least)
+            made = self.at(step / self._prepared.units.scale)
+            yield replace(made, step=max(made.step, self._bounds.rough_step))
 
     def smooth(self, right: float) -> Iterator[Candidate]:
         """Grids on which the mesh takes less than on those beside them, as where it was made on one.
@@ -250,10 +233,7 @@ class Gridded:
         steps |= {extent * 2.0 ** (-k / PARTS_OF_OCTAVE) for k in range(FINEST_BITS * PARTS_OF_OCTAVE)}
         tried = sorted(step for step in steps if step <= WIDER * right)
         entropies = np.array([character.entropy(step) for step in tried])
-        low = (entropies[1:-1] <= np.minimum(entropies[:-2], entropies[2:])) & (
-            entropies[1:-1] < character.entropy(right)
-        )
-        found = np.flatnonzero(low) + 1
+        found = np.flatnonzero(entropies[1:-1] <= np.minimum(entropies[:-2], entropies[2:])) + 1
         made, last = [i for i in found if tried[i] <= right], right
         made.sort(key=lambda i: float(entropies[i]))
         for i in found:
@@ -261,20 +241,6 @@ class Gridded:
                 made.append(i)
                 last = tried[i]
         yield from (self.at(tried[i]) for i in made)
-
-    def fitting(self) -> Iterator[Candidate]:
-        """Grids that a model of few vertices fits better than all coarser ones, from its corner or from its zero."""
-        extent, closest = float(extent_of(self._prepared.positions).max()), math.inf
-        farthest = float(np.abs(self._prepared.mesh.positions).max()) / self._prepared.units.scale
-        far = farthest > MOST_LARGEST * extent / MOST_PARTS
-        for parts, make in product(range(1, MOST_PARTS), (self.at,) if far else (self.counted, self.at)):
-            if not single(extent / parts * self._prepared.units.scale) > 0.0:
-                return  # beyond the range of numbers
-            candidate = make(extent / parts)
-            off = float(np.square(candidate.positions - self._prepared.positions).sum(axis=1).max())
-            if off <= closest:
-                closest = off
-                yield candidate
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))

@@ -67,7 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         seen: Look | None = None
         more: dict[str, Any] = {}
         if args.look or args.picture:
-            progress.stage("comparing from all sides")
+            progress.stage("comparing pictures")
             from bsm.codec.look.measure import AttributeLook, LookMetric, look_values
 
             if args.picture:
@@ -98,10 +98,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
     lines += [f"{name:<18} {'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
     if seen:
-        parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly, "
-        parts += f"striking {seen.striking:.2g}"
+        parts = f"mean difference of shades {seen.unlike:.3g}, largest {seen.gone:.3g}"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
-        lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
+        lines.append(f"{'look in facets':<19}{more['flat']:.4g}\n")
         lines += [
             f"{name:<18} {value:.4g}\n"
             for name in ATTRIBUTE_LOOKS.values()
@@ -286,7 +285,7 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
     return {
         "look_worst": max(look.moving for look in found),
         "look_mean": float(np.mean([look.moving for look in found])),
-        "dissimilarity_worst": max(look.dissimilarity for look in found),
+        "unlike_worst": max(look.unlike for look in found),
     }
 
 

@@ -171,8 +171,8 @@ def test_the_progress_of_a_search_grows_to_the_whole(promise: Promise | None) ->
 def test_a_moving_look_is_what_pictures_differ_by() -> None:
     positions, faces = bending(1)
     seen = LookMetric(TriangleMesh(positions[0], faces), threads=1).look(positions[0] * 1.01)
-    assert seen.dissimilarity > 0.0
-    assert seen.moving == pytest.approx((seen.dissimilarity / 0.05) ** 0.8)
+    assert seen.unlike > 0.0
+    assert seen.moving == pytest.approx((seen.unlike / 0.029) ** (4 / 3))
 
 
 def test_presets_are_ordered() -> None:

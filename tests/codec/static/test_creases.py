@@ -7,11 +7,10 @@ import pytest
 
 from bsm import TriangleMesh
 from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
-from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import CREASE
 from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice import settling
-from bsm.codec.static.choice.settling import WITHIN, Creases, Sensitivity, creases_of
+from bsm.codec.static.choice.settling import WITHIN, Creases, Settler, creases_of
 from tests.shapes import torus
 
 MESH = torus(60, 9)
@@ -92,10 +91,11 @@ def test_levels_keep_creases(monkeypatch):
     steps = np.tile((0.002, 0.006, 0.006), (count, 1))
     creases = creases_of(positions, faces)
     broken, errors = [], []
-    for shaded in (0.0, settling.SHADED):
-        monkeypatch.setattr(settling, "SHADED", shaded)
-        sensitivity = Sensitivity(positions, faces, graph, LookMetric(TriangleMesh(positions, faces)), 0.002)
-        levels = sensitivity.levels(offsets, frames, steps, lambda _: steps, 0.05, np.full(count, np.inf))
+    for shaded in (0.0, settling.CREASED):
+        monkeypatch.setattr(settling, "CREASED", shaded)
+        levels = Settler(positions, faces, graph).levels(
+            offsets, frames, steps, lambda _: steps, 0.05, np.full(count, np.inf)
+        )
         error = levels * steps - offsets
         broken.append(wrong(creases, positions + np.einsum("na,nad->nd", error, frames.reshape(-1, 3, 3))).mean())
         errors.append(np.sqrt(np.square(error).mean()))

@@ -88,17 +88,6 @@ def test_it_is_found_however_much_coarser_a_grid_would_do(meshes: Path) -> None:
     assert sizes[0] <= 1.01 * sizes[1] < sizes[2]
 
 
-def test_a_small_model_counts_its_cells_from_the_origin() -> None:
-    corners = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
-    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    faces = [face for a, b, c, d in sides for face in ((a, b, c), (a, c, d))]
-    encoder = Encoder(TriangleMesh(corners, faces))
-    data = encoder.encode()
-    assert encoder.draft().header.corner == (-1, -1, -1)
-    assert np.array_equal(decode(data).positions, encoder.mesh.positions)
-    assert len(data) <= 59
-
-
 def test_faces_that_rounding_turns_over_are_turned_back_within_reach() -> None:
     mesh = curved(patch(24, 24))
     random = np.random.default_rng(3)

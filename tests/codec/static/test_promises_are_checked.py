@@ -67,8 +67,6 @@ BROKEN = {
 def test_a_broken_search_is_found_out(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     mesh, options, owner, attribute, broken = BROKEN[name]
     monkeypatch.setattr(owner, attribute, broken)
-    if name == "whether bounds are kept":
-        monkeypatch.setattr(search, "unfolded", lambda found, *_: found)
     with pytest.raises((bsm.VerificationError, bsm.TargetError)) as caught:
         list(Encoder(mesh, EncodeOptions(threads=1, **options)).chunks())
     assert exit_of(caught.value).code == 10

@@ -1,0 +1,105 @@
+/* How much two pictures differ: squared differences, which count less where shades vary around them. */
+#include "codec/look/look.h"
+
+#define REACH 5 /* pixels to each side that the blur reaches */
+#define KEPT (2 * REACH + 1)
+#define BACKGROUND 1.0f
+#define COVERED 0.999f
+enum { FIRST, SECOND, SQUARES, PRODUCT, FIELDS, SUMS = 2, LANES = 8 /* sums side by side */ };
+
+/* Pixels of `small`: means of squares of samples. */
+KERNEL int64_t averaged(ConstSingles2 samples, Singles2 small) {
+    int64_t side = small.rows > 0 ? samples.rows / small.rows : 0;
+    if (side < 1 || samples.rows != side * small.rows || samples.columns != side * small.columns) return MISUSED;
+    float share = 1.0f / (float)(side * side);
+    for (int64_t row = 0; row < small.rows; row++) {
+        float *to = small.data + row * small.columns;
+        for (int64_t i = 0; i < small.columns; i++) to[i] = 0.0f;
+        for (int64_t y = 0; y < side; y++) {
+            const float *from = samples.data + (row * side + y) * samples.columns;
+            for (int64_t i = 0; i < small.columns; i++) {
+                float sum = 0.0f;
+                for (int64_t j = 0; j < side; j++) sum += from[side * i + j];
+                to[i] += sum;
+            }
+        }
+        for (int64_t i = 0; i < small.columns; i++) to[i] *= share;
+    }
+    return 0;
+}
+
+INLINE void blur(const float *restrict from, float *restrict to, int64_t count, const float *weights) {
+    for (int64_t i = 0; i < count; i++) {
+        const float *at = from + i + REACH;
+        float sum = weights[0] * at[0];
+        for (int64_t k = 1; k <= REACH; k++) sum += weights[k] * (at[-k] + at[k]);
+        to[i] = sum;
+    }
+}
+
+/* The same down a column of rows that are kept in a ring; the one at hand is at `middle`. */
+INLINE void blur_down(const float *restrict rows, int64_t stride, int64_t middle, float *restrict to, int64_t count,
+                      const float *weights) {
+    const float *center = rows + middle * stride, *above[REACH], *below[REACH];
+    for (int64_t k = 0; k < REACH; k++) {
+        above[k] = rows + (middle + KEPT - 1 - k) % KEPT * stride;
+        below[k] = rows + (middle + 1 + k) % KEPT * stride;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        float sum = weights[0] * center[i];
+        for (int64_t k = 0; k < REACH; k++) sum += weights[k + 1] * (above[k][i] + below[k][i]);
+        to[i] = sum;
+    }
+}
+
+/* The products of a row of both pictures that are blurred, with background around it, above and below. */
+INLINE void take_row(ConstSingles2 first, ConstSingles2 second, int64_t row, int64_t stride, float *fields) {
+    float *x = fields, *y = x + stride, *squares = y + stride, *product = squares + stride;
+    for (int64_t i = 0; i < stride; i++) x[i] = y[i] = BACKGROUND;
+    for (int64_t i = 0; row >= 0 && row < first.rows && i < first.columns; i++) {
+        x[REACH + i] = first.data[row * first.columns + i];
+        y[REACH + i] = second.data[row * first.columns + i];
+    }
+    for (int64_t i = 0; i < stride; i++) {
+        squares[i] = x[i] * x[i] + y[i] * y[i];
+        product[i] = x[i] * y[i];
+    }
+}
+
+/* `half` is the blur from its middle on. To `sums`: over pixels that either picture covers, blurred squared differences
+ * over `steady` and both variances; and the largest difference of blurred pixels. */
+KERNEL int64_t contrast(ConstSingles2 first, ConstSingles2 second, ConstSingles half, double steady, Singles2 scratch,
+                        Doubles sums) {
+    int64_t n = first.columns, stride = n + KEPT - 1 + LANES;
+    if (first.rows != second.rows || first.columns != second.columns || half.size != REACH + 1 || sums.size != SUMS ||
+        scratch.columns < stride || scratch.rows < FIELDS * (KEPT + 2))
+        return MISUSED;
+    float *padded = scratch.data, *down = padded + FIELDS * stride, *ring = down + FIELDS * stride;
+    float base = (float)steady, most = 0.0f;
+    double found[LANES] = {0.0};
+    for (int64_t row = -REACH; row < first.rows + REACH; row++) {
+        int64_t place = (row + KEPT) % KEPT, at = row - REACH;
+        take_row(first, second, row, stride, padded);
+        for (int field = 0; field < FIELDS; field++)
+            blur(padded + field * stride, ring + (field * KEPT + place) * stride, n, half.data);
+        if (at < 0) continue;
+        for (int field = 0; field < FIELDS; field++)
+            blur_down(ring + field * KEPT * stride, stride, at % KEPT, down + field * stride, n, half.data);
+        const float *one = first.data + at * n, *other = second.data + at * n;
+        float *unlike = down;
+        for (int64_t i = 0; i < n; i++) {
+            float x = down[i], y = down[stride + i], squares = down[SQUARES * stride + i];
+            float change = squares - 2.0f * down[PRODUCT * stride + i], spread = squares - (x * x + y * y);
+            float weighed = (change > 0.0f ? change : 0.0f) / (base + (spread > 0.0f ? spread : 0.0f));
+            float apart = __builtin_fabsf(x - y);
+            most = apart > most ? apart : most;
+            unlike[i] = (one[i] < COVERED) | (other[i] < COVERED) ? weighed : 0.0f;
+        }
+        for (int64_t i = n; i < n + LANES - 1; i++) unlike[i] = 0.0f;
+        for (int64_t i = 0; i < n; i += LANES)
+            for (int64_t k = 0; k < LANES; k++) found[k] += (double)unlike[i + k];
+    }
+    sums.data[0] = 0.0, sums.data[1] = (double)most;
+    for (int k = 0; k < LANES; k++) sums.data[0] += found[k];
+    return 0;
+}
