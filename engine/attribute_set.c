@@ -112,16 +112,13 @@ static int64_t expected_rows(const Attributes *attributes, const Attribute *attr
         + loose_rows(&attribute->declaration, numbering);
 }
 
-bool check_rows(const Attributes *attributes, const Numbering *numbering) {
-    for (int k = 0; k < MOST_ATTRIBUTES; k++) {
-        const Attribute *attribute = attributes->list[k];
-        if (attribute == NULL || attribute->declaration.coding == RECOMPUTED) continue;
-        int64_t expected = expected_rows(attributes, attribute, numbering);
-        if (attribute->declaration.rows != expected)
-            return FAIL(attributes->context, CORRUPT, "attribute '$' has # values where # belong",
-                attribute->declaration.rows, expected, .name = attribute->declaration.name);
-    }
-    return true;
+bool check_rows(const Attributes *attributes, int64_t index, const Numbering *numbering) {
+    const Attribute *attribute = attributes->list[index];
+    if (attribute == NULL || attribute->declaration.coding == RECOMPUTED) return true;
+    int64_t expected = expected_rows(attributes, attribute, numbering);
+    return attribute->declaration.rows == expected
+        || FAIL(attributes->context, CORRUPT, "attribute '$' has # values where # belong", attribute->declaration.rows,
+            expected, .name = attribute->declaration.name);
 }
 
 /* The values of an attribute as vertices of a mesh of their own (D 3.1). */
@@ -151,7 +148,8 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
     double m = (double)attributes->faces.rows;
     if (attributes->begun) return true;
     attributes->begun = true;
-    if (!check_rows(attributes, numbering)) return false;
+    for (int k = 0; k < MOST_ATTRIBUTES; k++)
+        if (!check_rows(attributes, k, numbering)) return false;
     for (int k = 0; k < MOST_ATTRIBUTES; k++) {
         Attribute *attribute = attributes->list[k];
         if (attribute == NULL) continue;

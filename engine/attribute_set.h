@@ -26,8 +26,8 @@ void begin_attributes(Attributes *attributes, Context *context, const Header *he
 void end_attributes(Attributes *attributes);
 bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams,
     Arena *scratch);
-/* Whether all of them have as many rows as they must (D 1.2). */
-bool check_rows(const Attributes *attributes, const Numbering *numbering);
+/* Whether an attribute has as many rows as it must (D 1.2), if it is there. */
+bool check_rows(const Attributes *attributes, int64_t index, const Numbering *numbering);
 /* What is needed before values come, or where none do. */
 bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch);
 /* `places`: values of a grid, if all of them are there, otherwise none. */

@@ -451,17 +451,15 @@ static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
     forget_frames(gops);
     GopContext decoding = {.gop = gop};
     if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)) return false;
-    for (int k = 0; k < gops->tracks; k++) {
+    for (int i = 1; i <= gops->tracks; i++) {
+        int k = i % gops->tracks; /* the positions come last in the payload */
         const GopField *field = gop->field + k;
+        Bank bank;
         if (field->step > 0) {
             if (!decode_basis(context, field, gop->coded, &gops->frames, scratch, gops->basis + k)) return false;
         } else {
             gops->basis[k] = (Doubles2){NULL, field->width * gop->coded, 0};
         }
-    }
-    for (int k = 0; k < gops->tracks; k++) {
-        const GopField *field = gop->field + k;
-        Bank bank;
         if (!zero_ints(scratch, coded_rows(gops) * field->components, decoding.levels + k)
             || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), decoding.found + k))
             return false;
@@ -546,7 +544,8 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         || !time_cosines(gop->frames, &gops->frames, &decoding.time))
         return false;
     if (gops->together != gop->frames) release_all(&gops->levels);
-    for (int k = 0; k < gops->tracks; k++) {
+    for (int i = 1; i <= gops->tracks; i++) {
+        int k = i % gops->tracks;
         const GopField *field = gop->field + k;
         Track *track = gops->track + k;
         int64_t columns = track->width * gop->frames;

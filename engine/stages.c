@@ -142,8 +142,9 @@ static bool accept_attribute(bsmdec *decoder, const Packet *packet) {
     if (!mesh->has_attributes)
         begin_attributes(&mesh->attributes, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena);
     mesh->has_attributes = true;
-    return declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch)
-        || tolerate_error(decoder, -1, true);
+    if (!declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch))
+        return tolerate_error(decoder, -1, true);
+    return decoder->tolerant || check_rows(&mesh->attributes, packet->index, &mesh->numbering);
 }
 
 /* All positions are there, or known to be lost. */

@@ -79,7 +79,6 @@ bool graph_of(bsmdec *decoder) {
 bool announce(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (mesh->announced) return true;
-    if (mesh->has_attributes && !decoder->tolerant && !check_rows(&mesh->attributes, &mesh->numbering)) return false;
     mesh->announced = true;
     return emit_event(decoder, BSMDEC_CONNECTIVITY, 0, 0);
 }

@@ -107,7 +107,7 @@ def test_integers_of_any_size(items: list[tuple[int, int]]) -> None:
     for count, value in items:
         assert decoder.uniform(count) == value % count
         assert reference.read_unsigned(decoder, model, (0,), 3, 0) == value
-    decoder.decode_rest()
+    decoder.finish()
 
 
 def lines(text: str) -> list[str]:

@@ -80,16 +80,16 @@ def _numbers(
     return changed
 
 
-def _seams(change: Callable[[bytes], bytes], error: str, probes: str) -> Bad:
-    def make() -> bytes:
-        payload = next(payload for kind, payload in frames_of(_all()) if kind == ATTRIBUTE)
-        cursor = Cursor(payload)
-        head = write_varint(cursor.varint())
-        entries = cursor.take(cursor.varint())
-        changed = head + write_varint(len(entries)) + entries + change(cursor.rest())
-        return with_payload(_all(), ATTRIBUTE, changed)
+def _cut_seams(which: int, change: Callable[[bytes], bytes]) -> bytes:
+    cursor = Cursor([payload for kind, payload in frames_of(_all()) if kind == ATTRIBUTE][which])
+    head = write_varint(cursor.varint())
+    entries = cursor.take(cursor.varint())
+    changed = head + write_varint(len(entries)) + entries + change(cursor.rest())
+    return with_payload(_all(), ATTRIBUTE, changed, which)
 
-    return Bad(probes, error, make)
+
+def _seams(change: Callable[[bytes], bytes], error: str, probes: str) -> Bad:
+    return Bad(probes, error, lambda: _cut_seams(0, change))
 
 
 def _without(kind: int, which: int) -> Callable[[list[Any]], list[Any]]:
@@ -166,6 +166,11 @@ BAD_ATTRIBUTES: dict[str, Bad] = {
         "an ATTRIBUTE of an unknown origin where HEADER belongs",
         "unsupported",
         lambda: stream_of(_moved(ATTRIBUTE, 0)(frames_of(with_declaration(_all(), 0, origin=64)))),
+    ),
+    "bad-attribute-rows-next": Bad(
+        "more rows than groups of corners, before seams that end early",
+        "corrupt",
+        lambda: with_declaration(_cut_seams(1, lambda data: data[:2]), 0, rows=200),
     ),
     "bad-attribute-rows-faces": _declared("more rows than faces", 3, rows=113),
     "bad-attribute-rows-limit": _declared("more values than are granted", 0, "limit", rows=2**31 - 1),

@@ -5,11 +5,13 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from functools import cache
+from unittest.mock import patch
 
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
+from bsm.codec.sequence.verification import SequenceVerifier
 from tools.surgery import Cursor, Frames, change_entries, frames_of, header_entries, stream_of, with_header
 from tools.vectors.bad import Bad, unlike
-from tools.vectors.good_sequences import SEQUENCES
+from tools.vectors.good_sequences import SEQUENCES, _runs
 
 Edit = Callable[[bytes], bytes]
 
@@ -79,6 +81,48 @@ def _stretches(*codes: int) -> Callable[[], bytes]:
 def _back(frames: int) -> Edit:
     """Next frames that start from those so far before them."""
     return lambda data: data[:6] + bytes([frames]) + data[7:]
+
+
+def _fields(attribute: Edit, positions: Edit) -> Edit:
+    """Edit the field of the first attribute that a GOP codes, and that of positions, which comes after it."""
+
+    def edit(data: bytes) -> bytes:
+        cursor = Cursor(data)
+        cursor.take(1)
+        cursor.varint()
+        for _ in range(2 * cursor.varint()):
+            cursor.varint()
+        assert cursor.varint() == 3
+        cursor.varint()
+        begin = cursor.at
+        field = attribute(cursor.take(cursor.varint()))
+        others = cursor.at
+        for _ in range(2):
+            cursor.varint()
+            cursor.take(cursor.varint())
+        head = data[:begin] + write_varint(len(field)) + field + data[others : cursor.at]
+        return head + positions(cursor.rest())
+
+    return edit
+
+
+def _shorter(field: bytes) -> bytes:
+    return field[:-12]
+
+
+def _longer(field: bytes) -> bytes:
+    return field + bytes(20)
+
+
+def _keeping(meshes: int, *kinds: int) -> Callable[[], bytes]:
+    """Tori that come again, by an encoder for decoders that keep more meshes than they do."""
+
+    def make() -> bytes:
+        trusting = patch.object(SequenceVerifier, "take", lambda verifier, chunk, **_: chunk)
+        with trusting, patch("bsm.codec.sequence.encoder.KEPT_MESHES", meshes):
+            return _runs("", *((kind, 1) for kind in kinds)).make()
+
+    return make
 
 
 def _headers_of(frames: Frames) -> list[int]:
@@ -265,6 +309,22 @@ BAD_SEQUENCES: dict[str, Bad] = {
         "a run that has a mesh again which is kept no longer",
         "corrupt",
         lambda: _with_run(_base("runs-many"), 11, run=[11, 0], vertices=12, faces=24),
+    ),
+    "bad-sequence-again-ninth": Bad(
+        "a run that has the ninth of the latest meshes again", "corrupt", _keeping(9, *range(3, 12), 3)
+    ),
+    "bad-sequence-again-older": Bad(
+        "a mesh that is gone, since another one has come again", "corrupt", _keeping(9, *range(3, 11), 3, 11, 4)
+    ),
+    "bad-sequence-moving-attribute-first": Bad(
+        "an attribute that ends early, before positions that end late",
+        "truncated",
+        _gop(_fields(_shorter, _longer), base="moving"),
+    ),
+    "bad-sequence-moving-attribute-later": Bad(
+        "an attribute that ends late, before positions that end early",
+        "corrupt",
+        _gop(_fields(_longer, _shorter), base="moving"),
     ),
     "bad-sequence-again-next": Bad(
         "a run whose first frame refers to one of another",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -68,7 +69,7 @@ def _runs(probes: str, *pieces: tuple[int, int], **options: object) -> Good:
     return Good(probes, make)
 
 
-def _moving(probes: str, *kinds: int, **options: object) -> Good:
+def _moving(probes: str, *kinds: int, heats: Sequence[int] = (0, 1, 2, 3), **options: object) -> Good:
     """Return frames of tori of 4 n vertices, with a color, a velocity, and an attribute that pauses."""
 
     def make() -> bytes:
@@ -80,7 +81,7 @@ def _moving(probes: str, *kinds: int, **options: object) -> Good:
                 Attribute("color", (128 + 120 * np.sin(mesh.positions + 0.3 * t)).astype(np.uint8), "vertex", "color"),
                 Attribute("part", np.arange(len(mesh.positions)) // 10),
                 Attribute("velocity", np.stack([np.cos(0.2 * t) * x, y * z], axis=1).astype(np.float32)),
-                Attribute("heat", np.round(300.0 + x * (t if t < 4 else 0), 3)),
+                Attribute("heat", np.round(300.0 + x * (heats[t] if t < len(heats) else 0), 3)),
             )
             frames.append(replace(mesh, positions=mesh.positions * (1 + 0.02 * t), attributes=attributes))
         chosen = SequenceOptions(**{**vars(BASE), "runs": True, **options})
@@ -105,6 +106,7 @@ def _returning(probes: str, *times: int) -> Good:
     return Good(probes, make)
 
 
+_PAUSING = (0, 3, 1, 4, 0, 0, 0, 0, 2, 5, 1, 3)
 SEQUENCES: dict[str, Good] = {
     "good-sequence-one": _sequence("a sequence of one frame", 1),
     "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8),
@@ -121,6 +123,12 @@ SEQUENCES: dict[str, Good] = {
     "good-sequence-runs": _runs("faces that change and return", (8, 3), (6, 2), (8, 4), (5, 1), gop=3),
     "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), low_delay=1, gop=4),
     "good-sequence-runs-many": _runs("more meshes than are kept", *((kind, 1) for kind in (*range(3, 13), 5, 12))),
+    "good-sequence-runs-again": _runs(
+        "a mesh that comes again counts as of that run", *((kind, 1) for kind in (*range(3, 11), 3, 11, 3))
+    ),
+    "good-sequence-moving-pause": _moving(
+        "an attribute that pauses for a GOP, and inherits nothing after it", *[10] * 12, heats=_PAUSING, gop=4
+    ),
     "good-sequence-splits": _parting("ORDER with copies, until some part"),
     "good-sequence-moving": _moving("attributes that move, one of them in the first GOP only", *[10] * 8, gop=4),
     "good-sequence-moving-ordered": _moving("the same, with an order of vertices", *[8] * 3, keep_order=True),
