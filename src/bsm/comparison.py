@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import cKDTree
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError, public
@@ -156,8 +157,8 @@ class Pair:
     joined: bool
 
 
-def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = None) -> Pair:
-    """Find which vertices of meshes, all of whose vertices are in faces, are the same."""
+def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = None, *, by_place: bool = False) -> Pair:
+    """Find which vertices of meshes, all of whose vertices are in faces, are the same; if need be `by_place`."""
     attributed = bool(original.attributes)
     kept = [np.arange(len(mesh.faces)) for mesh in (original, decoded)]
     joined = order is None
@@ -175,6 +176,9 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             else:
                 whole = join(decoded, keep=False)
                 decoded, kept[1] = whole.mesh, whole.kept
+    if by_place and joined and len(original.positions) == len(decoded.positions):
+        nearest = cKDTree(original.positions).query(decoded.positions)[1]
+        order = nearest if len(np.unique(nearest)) == len(nearest) else None
     positions = in_order_of(original, decoded, order)
     none = np.empty(0, np.int64)
     pairs = paired_corners(original, decoded, order) if attributed else (none, none)

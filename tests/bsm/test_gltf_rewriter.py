@@ -141,6 +141,8 @@ def test_weights_of_all_sets_have_one_sum():
     total = sum(after.numbers(named[f"WEIGHTS_{k}"]).sum(axis=1) for k in range(2))
     assert found.coded == 1
     np.testing.assert_allclose(total, 1, atol=1e-12)
+    kept = np.hstack([after.numbers(named[f"WEIGHTS_{k}"]) for k in range(2)])
+    assert np.abs(kept[:, None] - weights[None]).max(axis=2).min(axis=1).max() < 1 / 255
     found, after = rewritten(built, {"preset": "lossless"})
     named = first(after)["attributes"]
     kept = np.hstack([after.numbers(named[f"WEIGHTS_{k}"]) for k in range(2)])
@@ -367,6 +369,32 @@ def test_a_scene_is_restored(tmp_path):
     assert after.view(built.tree["extensions"]["EXT_whatever"]["view"]) == b"keep"
     assert main(["decode", small, "-f", "-o", str(tmp_path / "d.ply")]) == 0
     assert len(bsm.load(tmp_path / "d.ply").faces) == 768
+
+
+def test_scenes_are_compared_primitive_by_primitive(tmp_path, capsys):
+    """Two primitives that share their vertices are one stream, whose faces have another order."""
+    built, _ = ring({"_ID": np.arange(384, dtype=np.uint16)[:, None], "COLOR_0": np.full((384, 4), 0.5, np.float32)})
+    faces = torus(24, 16).faces.astype(np.uint16)
+    given = first(built)
+    built.tree["meshes"][0]["primitives"] = [
+        {**given, "indices": built.array(some.reshape(-1))} for some in (faces[:300], faces[300:])
+    ]
+    built.tree["meshes"].append({"primitives": [{"attributes": given["attributes"], "mode": 0}]})
+    original, small = str(tmp_path / "a.glb"), str(tmp_path / "b.glb")
+    (tmp_path / "a.glb").write_bytes(built.bytes)
+    assert main(["glb", original, "-o", small]) == 0
+    capsys.readouterr()
+    assert main(["compare", original, small, "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["primitives"]
+    assert [(row["mesh"], row["primitive"]) for row in rows] == [(0, 0), (0, 1), (1, 0)]
+    for row in rows[:2]:
+        assert 0 < row["max_error_relative"] < 1e-4
+        assert row["attributes"]["_ID"]["max_error"] == 0 and row["attributes"]["COLOR_0"]["max_error"] < 0.003
+    assert "not_compared" in rows[2]
+    assert main(["compare", original, small]) == 0
+    assert "mesh 0, primitive 1: the farthest vertex is" in capsys.readouterr().out
+    assert main(["info", small]) == 0
+    assert "scene of 3 primitives, 1 streams" in capsys.readouterr().out
 
 
 def errors_of(paths):

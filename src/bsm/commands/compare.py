@@ -21,7 +21,7 @@ from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.comparison import Pair, compare_meshes, in_order_of, order_of_used, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
-from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import GLTF, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Loops, Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
@@ -59,7 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    if _compare_sequences(args, console):
+    if _compare_scenes(args, console) or _compare_sequences(args, console):
         return
     with console.progress("reading") as progress:
         whole = [_load(path, args, console) for path in (args.original, args.decoded)]
@@ -152,6 +152,43 @@ def _errors(compared: dict[str, Any], unit: str) -> str:
         f"the farthest vertex is {length(compared['max_error'], unit)} off, {share:.3g} % of the diagonal; root mean "
         f"square {length(rms, unit)}; faces are turned by {compared['angle_deg']:.3g} degrees, in the mean by area"
     )
+
+
+def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
+    """Compare two scenes of glTF primitive by primitive, if they have the same ones."""
+    paths = (args.original, args.decoded)
+    if not all(Path(path).suffix[1:].lower() in GLTF for path in paths):
+        return False
+    from bsm.gltf.compress import as_shares
+    from bsm.gltf.document import as_format_error, read_document
+
+    with as_format_error():
+        sides = [read_document(path, limits_of(args.limits)) for path in paths]
+        listed = [[len(mesh["primitives"]) for mesh in side.items("meshes")] for side in sides]
+        whole = args.map or args.picture or args.look or args.permutation
+        if whole or listed[0] != listed[1]:
+            if not whole:
+                console.note("the scenes have different primitives: they are compared as one mesh each")
+            return False
+        rows: list[dict[str, Any]] = []
+        for number, primitives in enumerate(zip(*(side.primitives() for side in sides), strict=True)):
+            place = int(np.searchsorted(np.cumsum(listed[0]), number, side="right"))
+            row: dict[str, Any] = {"mesh": place, "primitive": number - sum(listed[0][:place])}
+            try:
+                first, second = (as_shares(side, primitive) for side, primitive in zip(sides, primitives, strict=True))
+                rows.append(row | _compared(first, second, pair(first, second, by_place=True), args, console))
+            except MeshError as error:
+                rows.append(row | {"not_compared": str(error)})
+    if args.json:
+        print_json({"primitives": rows})
+        return True
+    for row in rows:
+        said = f"not compared: {row['not_compared']}" if "not_compared" in row else sentence(row, "meters")
+        print(f"mesh {row['mesh']}, primitive {row['primitive']}: {said}")
+        for name, errors in row.get("attributes", {}).items():
+            values = "not there any more" if errors is None else ", ".join(f"{k} {v:.4g}" for k, v in errors.items())
+            print(f"  {printable(name)}: {values}")
+    return True
 
 
 def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:

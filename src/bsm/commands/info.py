@@ -4,11 +4,13 @@ import argparse
 import base64
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.inspection import StreamInfo, inspect_stream
+from bsm.files.mesh import GLTF, by_name
 from bsm.files.motion.frames import MOST_LISTED, Loops, describe_runs
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream
@@ -26,7 +28,7 @@ class InfoJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_inputs(parser, "stream, folder of tiles, or - for standard input")
+    add_inputs(parser, "stream, scene of glTF with streams, folder of tiles, or - for standard input")
     parser.add_argument("--loops", action="store_true", help="decode sequences, and list frames that repeat others")
     add_limits_flag(parser)
 
@@ -40,6 +42,10 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     limits = limits_of(args.limits)
     if is_tiles(args.input):
         return {"input": args.input, **open_tiles(args.input).manifest}
+    if Path(args.input).suffix[1:].lower() in GLTF:
+        document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
+        streams = {n: summarise(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
+        return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
     chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
     summary = summarise(inspect_stream(iter(chunks), limits))
     if args.loops and summary["header"]["sequence"]:
@@ -97,6 +103,9 @@ def _needs(info: StreamInfo) -> dict[str, bool]:
 def _worded(summary: Facts) -> str:
     if "shards" in summary:
         return "\n".join(_tile_lines(summary))
+    if "streams" in summary:
+        head = f"scene of {summary['primitives']} primitives, {len(summary['streams'])} streams"
+        return "\n\n".join([head, *(f"bufferView {n}: {_worded(found)}" for n, found in summary["streams"].items())])
     total = summary["bytes"]["total"]
     sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
     shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]

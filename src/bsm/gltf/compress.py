@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import copy
-import dataclasses
 import io
 import json
+import math
 import multiprocessing
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any, Self
 from urllib.parse import quote
 
@@ -20,7 +20,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from bsm.bitstream.errors import BsmError, FormatError, OptionError, UnsupportedError, imported
+from bsm.bitstream.errors import BsmError, FormatError, MeshError, OptionError, UnsupportedError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
@@ -57,7 +57,7 @@ _SEMANTICS: dict[str, tuple[Semantic, int]] = {
 _GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
 _QUALITIES = {"NORMAL": "10bits", "TANGENT": "9bits", "COLOR_0": "8bits"}
 _TURN = "0.002"  # of what targets add to directions: a tenth of a degree
-_COARSEST = 2.0**-13  # of the range of texture coordinates: 12 bits
+_COARSEST, _FINEST = 12, 22  # bits of texture coordinates; with more, they are exact
 _TEXELS, _SIDE = 0.25, 2048  # how many texels they may be off, and pixels of the side of an image that is not known
 _SHORT = 1 << 10  # indices from which on 16 bits of each are worth their words
 _WHOLE = 2**24  # up to which single precision has all whole numbers
@@ -89,6 +89,8 @@ def like(document: gltf.Document, primitive: Tree) -> str:
 def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     primitives = [same[0] for same in bundle]
+    if primitives[0].get("mode", TRIANGLES) not in (TRIANGLES, STRIP, FAN):
+        return "points or lines"
     indexes = [*{index for primitive in primitives for index in arrays_of(primitive).values()}]
     indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
     # Accessors may share bytes.
@@ -134,6 +136,18 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
         attributes.append(Attribute(PIECE, numbers.astype(np.uint16), "face"))
     mesh = TriangleMesh(positions.astype(np.float64), corners.astype(np.int32), tuple(attributes), {})
     return Carried(mesh, accessors, qualities, opens)
+
+
+def as_shares(document: gltf.Document, primitive: Tree) -> TriangleMesh:
+    """A primitive as one mesh, whose normalized integers are the numbers that they stand for."""
+    found = as_mesh(document, [[primitive]], exact=True)
+    if isinstance(found, str):
+        raise MeshError(found)
+    shares = [
+        replace(a, values=_floats(a.values, True)) if found.accessors[a.name][1] or a.name == "COLOR_0" else a
+        for a in found.mesh.attributes
+    ]
+    return replace(found.mesh, attributes=tuple(shares))
 
 
 def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | str:
@@ -184,17 +198,20 @@ def _levels(weights: Mapping[str, Array]) -> dict[str, Array]:
     shares = [a / np.float64(1 if a.dtype.kind == "f" else np.iinfo(a.dtype).max) for a in weights.values()]
     table = np.hstack(shares)
     total = table.sum(axis=1, keepdims=True)
-    levels = np.floor(table / np.maximum(total, 1e-9) * 255)
-    levels[np.arange(len(levels)), table.argmax(axis=1)] += np.where(total[:, 0] > 0, 255 - levels.sum(axis=1), 0)
+    exact = np.where(total > 0, table / np.maximum(total, 1e-30) * 255, 0)
+    levels = np.floor(exact)
+    ranks = np.argsort(np.argsort(levels - exact, axis=1, kind="stable"), axis=1)
+    levels += ranks < np.where(total > 0, 255, 0) - levels.sum(axis=1, keepdims=True)  # the largest remainders go up
     ends = np.cumsum([share.shape[1] for share in shares])[:-1]
-    return dict(zip(weights, np.split(np.clip(levels, 0, 255).astype(np.uint8), ends, axis=1), strict=True))
+    return dict(zip(weights, np.split(levels.astype(np.uint8), ends, axis=1), strict=True))
 
 
 def _quality(name: str, array: Array, extent: float, texel: Callable[[str], float]) -> str | None:
     """The quality of an attribute of floats; None: that which meshes have by default."""
     target, _, base = name.rpartition("/")
     if base.startswith("TEXCOORD_"):
-        return repr(min(_COARSEST * (float(np.ptp(array, axis=0).max()) or 1.0), _TEXELS * texel(base)))
+        bits = math.ceil(math.log2(max(float(np.ptp(array, axis=0).max()) / (2 * _TEXELS * texel(base)), 1.0)))
+        return f"{max(bits, _COARSEST)}bits" if bits <= _FINEST else "exact"
     if name in _QUALITIES:
         return _QUALITIES[name]
     if target and base == "POSITION":
@@ -419,7 +436,7 @@ class Compressed:
     coded: int
     left: dict[str, int]
     fallback: bytes = b""
-    notes: Mapping[str, int] = dataclasses.field(default_factory=dict)
+    notes: Mapping[str, int] = field(default_factory=dict)
     error: tuple[float, float] = (0.0, 0.0)
 
 

@@ -73,6 +73,13 @@ class Document:
         """The extensions by which geometry is compressed."""
         return [name for name in (EXTENSION, DRACO, *MESHOPT) if name in self.tree.get("extensionsUsed", [])]
 
+    @property
+    def streams(self) -> list[int]:
+        """The bufferViews that are streams."""
+        held = (view.get("extensions", {}).get(EXTENSION) for view in self.items("bufferViews"))
+        moving = (mesh.get("extensions", {}).get(EXTENSION) for mesh in self.items("meshes"))
+        return sorted({int(how["stream"]) for how in (*held, *moving) if how})
+
     def items(self, name: str) -> list[Tree]:
         found = self.tree.get(name, [])
         if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
