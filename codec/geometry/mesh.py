@@ -17,6 +17,10 @@ from bsm.codec.geometry.attributes import Attribute
 Metadata = Mapping[str, str | int | float | bytes]  # whatever an author wants to say of a mesh
 
 
+class NoFacesError(MeshError):
+    """A mesh or a file has no faces, which only a frame of a sequence may lack."""
+
+
 @public
 @dataclass(frozen=True, eq=False)
 class TriangleMesh:
@@ -67,7 +71,7 @@ class TriangleMesh:
             row = int(np.argmin(np.isfinite(positions).all(axis=1)))
             raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
         if faces.size == 0:
-            raise MeshError("the mesh has no faces; point clouds are not supported")
+            raise NoFacesError("the mesh has no faces; point clouds are not supported")
         if faces.ndim != 2 or faces.shape[1] != 3:
             raise MeshError(f"faces must have shape (m, 3), not {faces.shape}; triangulate polygons first")
         if faces.dtype.kind not in "iu":

@@ -24,6 +24,21 @@ Frame: TypeAlias = npt.ArrayLike | TriangleMesh
 SHOWN = ("material.", "image.")  # metadata of materials and images begin with these
 
 
+EMPTY = "empty_frame"
+"""The attribute of faces of a run that stands for frames without faces: its one triangle has no area."""
+
+
+def empty_frame() -> TriangleMesh:
+    """Return the mesh that stands for a frame without faces."""
+    mark = Attribute(EMPTY, np.ones((1, 1), np.uint8), "face", "generic")
+    return TriangleMesh(np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0)]), np.array([(0, 1, 2)]), (mark,))
+
+
+def is_empty(attributes: Iterable[Attribute]) -> bool:
+    """Whether attributes are those of a frame without faces."""
+    return any(attribute.name == EMPTY for attribute in attributes)
+
+
 @dataclass(frozen=True, eq=False)
 class Run:
     """Frames that share their faces."""

@@ -14,7 +14,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.console import Console, watched
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
@@ -342,6 +342,7 @@ def encode_frames(
     """
     from bsm.codec.sequence.encoder import SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions
+    from bsm.codec.sequence.runs import is_empty
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
@@ -349,14 +350,23 @@ def encode_frames(
     check_mapping("metadata", entries)
     given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
     chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
-    frames = map(as_mesh, meshes)
+    frames = map(_as_frame if chosen is None or chosen.runs else as_mesh, meshes)
     first = next(frames, None)
     if first is None:
         raise MeshError("a sequence needs at least one frame")
-    attributes = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
+    attributes = [a for a in first.attributes if a.semantic != "normal" and not is_empty([a])]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
     encoder = SequenceEncoder(first.faces, chosen, count, entries, attributes)
     return _joined(encoder, chain([first], frames), progress)
+
+
+def _as_frame(given: Any) -> TriangleMesh:
+    from bsm.codec.sequence.runs import empty_frame
+
+    try:
+        return as_mesh(given)
+    except NoFacesError:
+        return empty_frame()
 
 
 def decode_frames(

@@ -110,6 +110,46 @@ def test_meshes_of_a_glb_take_turns(stream, tmp_path):
             assert np.allclose(np.ptp(part, axis=0), shown, atol=0.05)
 
 
+NOTHING = {"obj": "# nothing\n", "off": "OFF\n0 0 0\n"}
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "off", "stl"])
+@pytest.mark.parametrize("places", [(2,), (0, 5, 8)])
+def test_frames_without_faces_come_back(tmp_path, capsys, kind, places):
+    paths = written(tmp_path / "capture", capture(), kind)
+    for place in places:
+        if kind in NOTHING:
+            paths[place].write_text(NOTHING[kind])
+        elif kind == "stl":
+            paths[place].write_bytes(bytes(84))
+        else:
+            head = ["ply", "format ascii 1.0", "element vertex 1", "property float x", "property float y"]
+            head += ["property float z", "element face 0", "property list uchar int vertex_indices", "end_header"]
+            paths[place].write_text("\n".join([*head, "1 2 3", ""]))
+    assert run("encode", tmp_path / "capture", "-o", tmp_path / "a.bsm", "--runs", "--look", 1) == 0
+    assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "back" / f"%03d.{kind}") == 0
+    assert run("encode", tmp_path / "capture", "-f", "-o", tmp_path / "b.bsm") == 3
+    assert "--runs, frames may be without" in capsys.readouterr().err
+    for number, mesh in enumerate(capture()):
+        back = tmp_path / "back" / f"{number:03d}.{kind}"
+        if number in places:
+            with pytest.raises(bsm.MeshError, match="no faces"):
+                read_mesh(str(back))
+        else:
+            assert len(read_mesh(str(back)).mesh.faces) == len(mesh.faces)
+
+
+def test_frames_without_faces_go_to_usd_and_come_back(tmp_path):
+    pytest.importorskip("pxr.Usd")
+    nothing = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
+    meshes = [*capture(((10, 2),)), nothing, nothing, *capture(((7, 1),))]
+    (tmp_path / "a.bsm").write_bytes(bsm.encode_frames(meshes))
+    assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.usda", "-q") == 0
+    assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", "--runs", "-q") == 0
+    assert [len(frame.faces) for frame in bsm.decode_frames(tmp_path / "b.bsm")] == [120, 120, 1, 1, 84]
+    assert run("decode", tmp_path / "b.bsm", "-o", tmp_path / "a.glb", "-q") == 0
+
+
 def test_usd_has_time_samples_of_faces(stream, tmp_path, capsys):
     pytest.importorskip("pxr.Usd")
     assert run("decode", stream, "-o", tmp_path / "a.usdc", "-q") == 0

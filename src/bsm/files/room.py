@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.mesh import NoFacesError
 
 Ints = npt.NDArray[np.int64]
 Doubles = npt.NDArray[np.float64]
@@ -213,7 +214,7 @@ def require_room(kind: str, data: bytes, limits: Limits) -> None:
             require_count(name, count, limits)
         vertices = counts["vertices"]
         if not counts["faces"] and not data.startswith((b"f ", b"f\t")) and b"\0" not in data:
-            raise MeshError("the file has no faces; point clouds are not supported")
+            raise NoFacesError("the file has no faces; point clouds are not supported")
     memory = LINE * lines + WORD * _words(data)
     granted = limits.memory_for(vertices, len(data))
     if memory > granted:

@@ -19,6 +19,7 @@ from bsm.bitstream.errors import BsmError, CorruptError, OptionError, Unsupporte
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.runs import is_empty
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.mesh import GLTF, USD_FORMATS, WRITTEN_FORMATS, by_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
@@ -91,8 +92,9 @@ def sequence_writer(
             def take(frame: Positions, faces: Faces | None = None) -> None:
                 nonlocal present, fresh
                 present = present if faces is None else faces
-                shared.loses(write_mesh(shared.mesh(frame, present, with_metadata=fresh)))
-                fresh = False
+                mesh = shared.mesh(frame, present, with_metadata=fresh)
+                shared.loses(write_mesh(mesh))
+                fresh = fresh and is_empty(mesh.attributes)
 
             yield take
         return

@@ -13,7 +13,7 @@ from bsm import _kernels
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats.metadata import (
     Library,
     Written,
@@ -344,7 +344,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     if "tristrips" in names:
         raise MeshError("this PLY file holds triangle strips; convert it to faces (MeshLab does when it saves)")
     if "vertex" not in names or "face" not in names:
-        raise MeshError("this PLY file has no faces; point clouds are not supported")
+        raise NoFacesError("this PLY file has no faces; point clouds are not supported")
     body = data[header.size :]
     tables = tables_of(header, body)
     vertex, face = tables["vertex"], tables["face"]

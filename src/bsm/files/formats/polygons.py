@@ -12,7 +12,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import MeshError, imported, public
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats.metadata import fitting, named
 from bsm.files.room import Doubles, Ints, require_count, single_suffices
 
@@ -213,7 +213,7 @@ class Polygons:
         memory = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
         limits.check_memory(memory * triangles + PER_CORNER * len(corners), len(positions), received)
         if not (sizes > 0).any():
-            raise MeshError("the file has no faces; point clouds are not supported")
+            raise NoFacesError("the file has no faces; point clouds are not supported")
         outside = (corners < 0) | (corners >= len(positions))
         if outside.any():
             index = int(corners[np.argmax(outside)])

@@ -18,7 +18,7 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import Written, first
 from bsm.files.formats.polygons import Array, Column, Polygons, named_column
@@ -227,7 +227,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
             numbers.of(shape[key]) for key in (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))
         )
     except KeyError:
-        raise MeshError("this VTP file has no faces; point clouds are not supported") from None
+        raise NoFacesError("this VTP file has no faces; point clouds are not supported") from None
     if coordinates.shape != (points, 3) or len(ends) != polygons or {corners.dtype.kind, ends.dtype.kind} - {*"iu"}:
         raise CorruptError("this VTP file has not as many points or polygons as it says")
     stops: Ints = ends[:, 0].astype(np.int64)

@@ -14,14 +14,23 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import has
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.runs import SHOWN, can_move, moved_to, other_faces
+from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
+from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
+from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import about, is_pipe, is_url
 
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
 _SIGNED, _DECIMALS = re.compile(r"-?\d+"), re.compile(r"((?:(?<![^\W_])-)?\d+(?:\.\d+)?)")
+NOTHING = {
+    "obj": b"# a frame without faces\n",
+    "off": b"OFF\n0 0 0\n",
+    "ply": b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+    b"element face 0\nproperty list uchar int vertex_indices\nend_header\n",
+    "stl": bytes(84),
+}
+"""Files of a frame without faces."""
 _PLACE = re.compile(r"%(0?)(\d*)d")
 
 
@@ -129,12 +138,17 @@ def read_files(
 
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
-            return read_mesh(names[number], file_format, limits, reader).mesh
+            try:
+                return read_mesh(names[number], file_format, limits, reader).mesh
+            except NoFacesError as error:
+                if runs:
+                    return empty_frame()
+                raise MeshError(f"{error}; with --runs, frames may be without") from error
 
     first = read(0)
     if runs:
         moving = [attribute.name for attribute in first.attributes if attribute.semantic == "normal"]
-        kept = tuple(attribute for attribute in first.attributes if attribute.semantic != "normal")
+        kept = tuple(a for a in first.attributes if a.semantic != "normal" and a.name != EMPTY)
         notes = [f"left out, for they move: {', '.join(moving)}"] if moving else []
         if same := [attribute.name for attribute in kept if not can_move(attribute)]:
             notes.append(f"{', '.join(same)}: as the first frame of each run has them")
@@ -206,7 +220,8 @@ def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[
     def write(mesh: TriangleMesh) -> tuple[str, ...]:
         number = next(numbers)
         target = pattern.parent / _PLACE.sub(lambda place: f"{number:{place[1]}{place[2]}d}", pattern.name)
-        file = written_mesh(mesh, kind, target)
+        nothing = NOTHING.get(kind) if is_empty(mesh.attributes) else None
+        file = written_mesh(mesh, kind, target) if nothing is None else Written(nothing)
         was_there = target.exists()
         if not was_there:
             written.extend([target, *(target.parent / name for name in file.beside)])

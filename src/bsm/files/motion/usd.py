@@ -19,7 +19,8 @@ from bsm.bitstream.errors import FormatError, LimitError, MeshError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
+from bsm.codec.sequence.runs import EMPTY, empty_frame, is_empty
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import (
@@ -617,7 +618,13 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
         def changing() -> Iterator[TriangleMesh]:
             for time in every:
                 stage.renew(time)
-                yield painted_like(mesh, stage.mesh(time).mesh)
+                try:
+                    found = stage.mesh(time).mesh
+                except NoFacesError:
+                    if not wanted.runs:
+                        raise
+                    found = empty_frame()
+                yield painted_like(mesh, found)
 
         meshes = changing()
     return Frames(
@@ -727,13 +734,14 @@ def _begun(
 
 def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
     shown = formats.face_numbers(frame, "material") if materials else None
-    return [attribute for attribute in frame.attributes if attribute is not shown]
+    return [attribute for attribute in frame.attributes if attribute is not shown and attribute.name != EMPTY]
 
 
 def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMesh, time: float) -> None:
     """Let the mesh have the faces and attributes of a frame from a time on."""
-    mesh.GetFaceVertexCountsAttr().Set(pxr.Vt.IntArray(len(frame.faces), 3), time)
-    corners = np.ascontiguousarray(frame.faces.reshape(-1))
+    faces = frame.faces[:0] if is_empty(frame.attributes) else frame.faces
+    mesh.GetFaceVertexCountsAttr().Set(pxr.Vt.IntArray(len(faces), 3), time)
+    corners = np.ascontiguousarray(faces.reshape(-1))
     mesh.GetFaceVertexIndicesAttr().Set(pxr.Vt.IntArray.FromNumpy(corners), time)
     bind_materials(pxr, mesh, frame, materials, time)
     for attribute in _others(frame, materials):
