@@ -135,9 +135,9 @@ def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int)
 
 
 NEAR_PLACE = 3.0  # how far shaping may bring a vertex from its place, in cells, where bounds are wide
-FINEST_BITS, PARTS_OF_OCTAVE, WIDER, APART = 16, 128, 1.4, 1.02
+FINEST_BITS, PARTS_OF_OCTAVE, FINER, WIDER, APART = 16, 128, 8.0, 1.4, 1.02
 """Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are compared
-between one and twice it; how much coarser ones may be than one that is about right; and how far apart, at least, those
+between one and twice it; how much finer and coarser steps may be than one that is about right; and how far apart those
 are that are coarser."""
 
 
@@ -191,6 +191,14 @@ class Gridded:
         return min(self._bounds.first_step, COARSEST)
 
     def at(self, step: float) -> Candidate:
+        return self.begun if math.isclose(step, self.first) else self._made(step)
+
+    @cached_property
+    def begun(self) -> Candidate:
+        """The result of the first step."""
+        return self._made(self.first)
+
+    def _made(self, step: float) -> Candidate:
         unit = self._prepared.units.scale
         held = single(max(step, self.least) * unit)
         places = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
@@ -231,7 +239,7 @@ class Gridded:
         character, extent = self._shaper.character, float(extent_of(self._prepared.positions).max())
         steps = {extent / ((1 << bits) - 1) for bits in range(1, FINEST_BITS)}
         steps |= {extent * 2.0 ** (-k / PARTS_OF_OCTAVE) for k in range(FINEST_BITS * PARTS_OF_OCTAVE)}
-        tried = sorted(step for step in steps if step <= WIDER * right)
+        tried = sorted(step for step in steps if right / FINER <= step <= WIDER * right)
         entropies = np.array([character.entropy(step) for step in tried])
         found = np.flatnonzero(entropies[1:-1] <= np.minimum(entropies[:-2], entropies[2:])) + 1
         made, last = [i for i in found if tried[i] <= right], right

@@ -20,6 +20,8 @@ from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import SLACK, SLACK_OF_LOOK, STEEPEST, TRIES, Contract, secant
 
+SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
+QUICK_TRIES = 3  # steps of each way, where encoding shall be quick
 SMOOTH = 6  # grids that are tried of those that suit a model, and twice as many by the best effort
 
 
@@ -87,7 +89,9 @@ class Search:
         ]
         for way in self._ways(bounds, contract.look):
             least = min((candidate.draft.size for candidate, _ in kept), default=math.inf)
-            found = widest(way, bounds, least, patient=self._options.effort == "best")
+            if isinstance(way, Gridded) and kept and SHAPED * grid.begun.draft.size > least:
+                break
+            found = widest(way, bounds, least, tries=self._tries)
             kept += [] if found is None else [(found, way)]
         for candidate in self._made_on(bounds, [candidate for candidate, _ in kept]):
             least = min(other.draft.size for other, _ in kept)
@@ -148,6 +152,10 @@ class Search:
         found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c.positions)]
         return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
 
+    @property
+    def _tries(self) -> int:
+        return {"quick": QUICK_TRIES, "best": 3 * TRIES}.get(self._options.effort, TRIES)
+
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
         if metric is None:
@@ -172,7 +180,7 @@ class Search:
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids near one that was found, on which a model may have been made."""
         steps = [candidate.step for candidate in found if candidate.draft.places is not None]
-        if not steps or not self._measures.shaper.character.is_sharp:
+        if not steps or self._options.quick or not self._measures.shaper.character.is_sharp:
             return
         tries = SMOOTH * (2 if self._options.effort == "best" else 1)
         for candidate in islice(Gridded(self._prepared, bounds, 1.0).smooth(max(steps)), tries):
@@ -182,7 +190,7 @@ class Search:
 
 
 def widest(
-    way: Way, bounds: Bounds, most_bytes: float = math.inf, first: float | None = None, patient: bool = False
+    way: Way, bounds: Bounds, most_bytes: float = math.inf, first: float | None = None, tries: int = TRIES
 ) -> Candidate | None:
     """Return the smallest candidate found that keeps the bounds; None if it would not be smaller than `most_bytes`."""
     kept = list[Candidate]()
@@ -198,7 +206,7 @@ def widest(
         return over if over < sure else None
 
     slack = SLACK_OF_LOOK if isinstance(way, Refined) and bounds.contract.look < math.inf else SLACK
-    tries, slack = (3 * TRIES, slack / 4.0) if patient else (TRIES, slack)
+    slack = slack / 4.0 if tries > TRIES else slack
     with suppress(LimitError):  # blocks that decoders would refuse
         secant(at, min(max(first or way.first, way.least), way.most), way.least, way.most, tries, slack=slack)
     smallest = min(kept, key=lambda candidate: candidate.draft.size, default=None)
