@@ -118,15 +118,6 @@ export class BSMGeometry extends BufferGeometry {
         }
     }
 
-    /** Numbers of the stream's vertices, `width` for each, as those of the drawn ones. */
-    spread(numbers: Float32Array, width: number): Float32Array {
-        const { parted } = this;
-        if (!parted) return numbers;
-        const spread = new Float32Array(width * parted.length);
-        parted.forEach((vertex, i) => spread.set(numbers.subarray(width * vertex, width * vertex + width), width * i));
-        return spread;
-    }
-
     private begin({ vertices, corners, loose }: BegunPicture): void {
         this.refuseIfWhole();
         this.points = new Float32Array(3 * vertices);

@@ -58,18 +58,13 @@ export class Pool {
     private warned = false;
 
     constructor(
-        private source: Source = here,
+        private readonly source: Source = here,
         private limit = LIMIT,
     ) {}
 
     /** Use at most this many threads. */
     setLimit(limit: number): void {
         this.limit = Math.max(1, limit);
-    }
-
-    /** Take threads and kernels from elsewhere, from now on. */
-    setSource(source: Source): void {
-        this.source = source;
     }
 
     /** Have a thread and the kernels of a build ready. */

@@ -118,7 +118,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
                 const label = active.getAttribute("aria-label") ?? (active as HTMLInputElement).labels?.[0]?.textContent;
                 return (label ?? active.textContent ?? "").trim().split(/[\n,.(:]/)[0].trim();
             });
-        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Save a turntable", "Dark or light", "Settings", "Light from", "Background", "Turn by itself", "Cut the stream", "Link", "Stream again", "Licenses", "Smooth", "Color"];
+        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Save a turntable", "Dark or light", "Keys", "Settings", "Light from", "Background", "Turn by itself", "Cut the stream", "Link", "Stream again", "Licenses", "Smooth", "Color"];
         await page.locator("canvas").focus();
         const met = [await name()];
         for (let k = 0; k < expected.length - 1; k++) {
@@ -187,13 +187,21 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await page.goto(savedPage(folder, { three: whole }, { main: 1, facts, layers: [layer("Original", 64 * whole.length), layer("BSM", whole.length, 0.0075), layer("Draco", 2000, 0)] }));
         await page.waitForSelector("body[data-layers='3']");
         await page.waitForFunction(() => document.body.innerText.includes("64 times smaller"));
-        assert.match(await page.locator("[data-part=facts]").innerText(), /Draco at this look[^]*4 kB 11 bits[^]*0.90[^]*promised[^]*1\u00a0%[^]*promised 2\u00a0%/);
+        assert.match(await page.locator("[data-part=facts]").innerText(), /Look\s+0.90 of 1 promised[^]*1\u00a0%[^]*promised 2\u00a0%[^]*Draco at this look[^]*4 kB 11 bits/);
         const redOf = async (): Promise<number> => {
             await page.waitForTimeout(300);
             const { red } = colorsIn(await page.locator("canvas").screenshot());
             return red;
         };
+        assert.equal(await page.locator("[data-part=claim]").innerText(), "64 times smaller, look 0.90 of 1");
         assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
+        await page.keyboard.press("?");
+        assert.match(await page.getByRole("region", { name: "Keys" }).innerText(), /wipe, or one mesh/);
+        await page.keyboard.press("Escape");
+        assert.ok(await page.getByRole("region", { name: "Keys" }).isHidden());
+        await page.keyboard.press("1");
+        assert.ok(await page.getByRole("radio", { name: "Wipe" }).isDisabled(), "the original is not compared with itself");
+        await page.keyboard.press("2");
         await page.keyboard.press("e");
         await page.waitForFunction(() => document.body.innerText.includes("Distance from the original"));
         assert.match(await page.locator("[data-part=scale]").innerText(), /0\u00a0%[^]*0.5\u00a0%[^]*1\u00a0%\n0.02/);

@@ -3,10 +3,11 @@
 import math
 import multiprocessing
 import signal
+import time
 from bisect import bisect_left
 from collections.abc import Callable, Generator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from multiprocessing.connection import Connection
 from pathlib import PurePath
@@ -137,9 +138,12 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
 def made(name: str, data: bytes, mesh: TriangleMesh, preset: str, report: Callable[[str, float], None]) -> Content:
     """A mesh file encoded, and beside its original; `report` hears what begins, and what share is done."""
     report("encoding", 0.0)
+    begin = time.perf_counter()
     stream = encode(mesh, preset=preset)
+    seconds = time.perf_counter() - begin
     report("comparing", _ENCODING)
-    return compared(name, stream, mesh, size=len(data), preset=preset)
+    content = compared(name, stream, mesh, size=len(data), preset=preset)
+    return replace(content, facts={**content.facts, "seconds": seconds})
 
 
 def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:

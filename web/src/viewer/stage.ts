@@ -1,7 +1,10 @@
 /** Camera, light, and meshes on a canvas: one alone, two behind a wipe, or two side by side. */
-import { BufferAttribute, type BufferGeometry, DirectionalLight, DoubleSide, Group, HemisphereLight, type Material, MathUtils, Matrix4, Mesh, MeshBasicMaterial, MeshPhongMaterial, MeshStandardMaterial, NeutralToneMapping, PerspectiveCamera, PMREMGenerator, Scene, Spherical, type Texture, Vector3, WebGLRenderer } from "three";
+import {
+    BufferAttribute, type BufferGeometry, type DataTexture, DirectionalLight, DoubleSide, Group, type Material, MathUtils, Matrix4, Mesh, MeshBasicMaterial,
+    MeshStandardMaterial, NeutralToneMapping, PerspectiveCamera, PlaneGeometry, PMREMGenerator, Scene, Spherical, Vector3, WebGLRenderer,
+} from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
+import { GROUND, shadowOf, studio } from "./light";
 
 const TURN = Math.PI / 24;
 const ZOOM = 1.1;
@@ -9,10 +12,12 @@ const FIELD = (30 / 180) * Math.PI; // that is seen of the shorter side
 const AROUND = 1.06 / Math.sin(FIELD / 2); // distance from which a ball of radius 1 is seen whole
 const FILLED = 0.94; // of the picture
 const DOCK = 70; // pixels of the controls at the bottom
-const CLAY = 0xcfc9bf;
+const CLAY = 0xcdc6ba;
 const WHITE = 0xffffff;
-const PALE = 0.3; // of materials, the most that mirrors where there is nothing to mirror
+const VIEW = new Spherical(1, 72 * MathUtils.DEG2RAD, 35 * MathUtils.DEG2RAD); // from where one looks first
+const OPEN = 0.35; // length of the mean normal of a mesh that has a front
 const THUMB = 44; // pixels of the handle of the wipe
+const [QUIET, SMOOTH] = [400, 2]; // milliseconds, and by how much pixels are finer then
 const FILM = 5000; // milliseconds of a turntable
 const RATE = 30;
 
@@ -22,7 +27,7 @@ export type Shading = "smooth" | "flat" | "wire";
 /** A mesh, plain or in materials of its own. */
 class Drawn {
     readonly holder = new Group();
-    readonly clay = new MeshPhongMaterial({ color: CLAY, specular: 0x2c2c2c, shininess: 16, side: DoubleSide });
+    readonly clay = new MeshStandardMaterial({ color: CLAY, roughness: 0.6, side: DoubleSide });
     clothes: MeshStandardMaterial[] = [];
     mesh?: Mesh<BufferGeometry, Material | Material[]>;
 
@@ -40,9 +45,18 @@ class Drawn {
         [this.clothes, this.mesh] = [[], undefined];
     }
 
-    get materials(): (MeshPhongMaterial | MeshStandardMaterial)[] {
+    get materials(): MeshStandardMaterial[] {
         return [this.clay, ...this.clothes];
     }
+}
+
+/** Whether something draws that was made for it, and no program. */
+function isFast(): boolean {
+    const context = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+    const named = context?.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? context?.RENDERER;
+    const name = named ? String(context!.getParameter(named)) : "software";
+    context?.getExtension("WEBGL_lose_context")?.loseContext();
+    return !/software|swiftshader|llvmpipe|basic render/i.test(name);
 }
 
 export class Stage {
@@ -55,16 +69,17 @@ export class Stage {
     private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
     private readonly scene = new Scene();
     private readonly controls: OrbitControls;
-    private readonly lights = new Group();
+    private readonly fast = isFast();
+    private readonly key = new DirectionalLight(WHITE, 1.5);
+    private readonly ground = new Mesh(new PlaneGeometry(GROUND, GROUND), new MeshBasicMaterial({ color: 0, transparent: true, depthWrite: false, toneMapped: false }));
     private readonly wires = new MeshBasicMaterial({ wireframe: true, color: 0x101418, transparent: true, opacity: 0.35 });
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private readonly drawn = [new Drawn(), new Drawn(), new Drawn()];
     private readonly tiles = new Group();
-    private readonly fast = isFast();
-    private room?: Texture;
     private shading: Shading = "smooth";
     private stale = true;
+    private moved = 0;
     private touched = false;
     private size = [1, 1];
 
@@ -78,19 +93,19 @@ export class Stage {
         this.controls.autoRotateSpeed = 4;
         this.controls.addEventListener("change", () => this.redraw());
         this.controls.addEventListener("start", () => (this.touched = true));
-        this.camera.position.set(0.85, 0.5, 1.7).setLength(AROUND / 2);
-        for (const [color, strength, ...place] of [[0xfff6ea, 2.1, -1.7, 2, 2.1], [0xd6e4ff, 0.55, 3, 0.2, 1.2], [WHITE, 1.2, 0.5, 2, -3]]) {
-            const light = new DirectionalLight(color, strength);
-            light.position.set(place[0], place[1], place[2]);
-            this.lights.add(light, light.target);
-        }
-        this.camera.add(this.lights);
-        this.scene.add(this.camera, new HemisphereLight(WHITE, 0x8d8478, 0.7), this.turned);
+        this.camera.position.setFromSpherical(VIEW).setLength(AROUND / 2);
+        const { texture, probe } = studio();
+        // A program that draws would need seconds for reflections.
+        if (this.fast) this.scene.environment = new PMREMGenerator(this.renderer).fromEquirectangular(texture).texture;
+        else this.scene.add(probe);
+        this.light = 0;
+        this.ground.rotation.x = -Math.PI / 2;
+        this.ground.visible = false;
+        this.scene.add(this.key, this.ground, this.turned);
         this.turned.add(this.tiles, ...this.drawn.map(({ holder }) => holder));
         canvas.addEventListener("keydown", (event) => this.turn(event));
     }
 
-    /** Show a geometry as the mesh of a number. */
     show(index: number, geometry: BufferGeometry): void {
         this.drawn[index].put(geometry);
         this.shade(this.shading);
@@ -106,8 +121,8 @@ export class Stage {
         this.redraw();
     }
 
-    /** Have points of meshes in the middle, and fill the picture, unless somebody chose another place. */
-    fill(samples: ArrayLike<number>[], turn?: [number, number, number]): void {
+    /** Have points of meshes in the middle, and fill the picture from a place before the front, unless the reader chose another one. */
+    fill(samples: ArrayLike<number>[], turn?: [number, number, number], normals?: BufferAttribute): void {
         const [low, high] = [new Vector3(Infinity, Infinity, Infinity), new Vector3(-Infinity, -Infinity, -Infinity)];
         const point = new Vector3();
         const each = (act: () => void): void => {
@@ -119,12 +134,22 @@ export class Stage {
         each(() => (low.min(point), high.max(point)));
         if (this.touched || !(low.x <= high.x)) return;
         this.place(low.clone().add(high).divideScalar(2).toArray(), low.distanceTo(high) || 1, turn);
+        const front = new Vector3();
+        for (let i = 0; i < (normals?.count ?? 0); i++) front.add(point.fromBufferAttribute(normals!, i));
+        front.divideScalar(normals?.count || 1).applyEuler(this.turned.rotation);
+        const begin = VIEW.clone();
+        if (Math.hypot(front.x, front.z) > OPEN) begin.theta += Math.atan2(front.x, front.z);
+        this.camera.position.setFromSpherical(begin);
+        this.controls.update();
         const [width, height] = this.size;
         const towards = this.turned.matrixWorld.clone().premultiply(new Matrix4().makeRotationFromQuaternion(this.camera.quaternion.clone().invert()));
         const seen = FILLED * Math.tan(this.camera.fov / 2 / MathUtils.RAD2DEG);
         const [wide, tall] = [seen * (width / height), Math.max(seen * (1 - (2 * DOCK) / height), seen / 2)];
         let far = 0.1;
+        const placed = new Vector3();
+        this.ground.position.y = Infinity;
         each(() => {
+            this.ground.position.y = Math.min(this.ground.position.y, placed.copy(point).applyMatrix4(this.turned.matrixWorld).y);
             point.applyMatrix4(towards);
             far = Math.max(far, point.z + Math.abs(point.x) / wide, point.z + Math.abs(point.y) / tall);
         });
@@ -132,12 +157,22 @@ export class Stage {
         this.redraw();
     }
 
-    /** Take all meshes away. */
+    /** Draw the shadow of a mesh on the ground below it. */
+    shadow(geometry: BufferGeometry): void {
+        const { ground, turned } = this;
+        if (ground.position.y === Infinity) return;
+        ground.material.alphaMap = shadowOf(geometry, turned.matrixWorld, ground.position.y, (ground.material.alphaMap as DataTexture | null) ?? undefined);
+        ground.material.needsUpdate ||= !ground.visible;
+        ground.visible = true;
+        this.redraw();
+    }
+
     clear(): void {
         for (const shown of this.drawn) shown.clear();
+        this.ground.visible = false;
         this.tiles.clear();
         this.touched = false;
-        this.camera.position.setLength(AROUND / 2);
+        this.camera.position.setFromSpherical(VIEW).setLength(AROUND / 2);
         this.controls.target.set(0, 0, 0);
         this.redraw();
     }
@@ -160,17 +195,10 @@ export class Stage {
     get eye(): { place: Vector3; pixels: number } {
         this.turned.updateWorldMatrix(true, false);
         const place = this.turned.worldToLocal(this.camera.position.clone());
-        return { place, pixels: this.canvas.height / (2 * Math.tan(this.camera.fov / 2 / MathUtils.RAD2DEG)) };
+        return { place, pixels: (this.size[1] * devicePixelRatio) / (2 * Math.tan(this.camera.fov / 2 / MathUtils.RAD2DEG)) };
     }
 
-    /** Give a mesh materials of its own, which mirror a bright room where that is quick. */
     dress(index: number, clothes: MeshStandardMaterial[]): void {
-        // A program that draws would need seconds for the room.
-        if (this.fast) this.room ??= new PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04).texture;
-        for (const material of clothes) {
-            if (this.room) [material.envMap, material.envMapIntensity] = [this.room, 0.3];
-            else material.metalness = Math.min(material.metalness, PALE); // there is nothing that metal could mirror
-        }
         this.drawn[index].clothes = clothes;
         this.shade(this.shading);
     }
@@ -201,9 +229,10 @@ export class Stage {
         this.redraw();
     }
 
-    /** Let light come from another side, in degrees. */
     set light(angle: number) {
-        this.lights.rotation.y = angle * MathUtils.DEG2RAD;
+        const turn = angle * MathUtils.DEG2RAD;
+        this.scene.environmentRotation.y = turn;
+        this.key.position.set(-1.2, 1.9, 1.5).applyAxisAngle(this.scene.up, turn);
         this.redraw();
     }
 
@@ -224,15 +253,18 @@ export class Stage {
         this.stale = true;
     }
 
-    /** Draw, if there is anything new. */
+    /** Draw, if there is anything new; where a program draws, edges are smooth once nothing moves. */
     step(): void {
         this.controls.update();
-        if (this.stale) this.draw();
+        const now = performance.now();
+        if (this.stale) this.renew(1, now);
+        else if (!this.fast && now - this.moved > QUIET && this.renderer.getPixelRatio() === devicePixelRatio) this.renew(SMOOTH, this.moved);
     }
 
     /** The picture as it is seen, with what stands below each side. */
     picture(labels: string[], [ink, near, far]: string[], canvas = document.createElement("canvas")): HTMLCanvasElement {
         this.draw();
+        const ratio = this.renderer.getPixelRatio();
         const { width, height } = this.canvas;
         [canvas.width, canvas.height] = [width, height];
         const pen = canvas.getContext("2d")!;
@@ -242,15 +274,14 @@ export class Stage {
         pen.fillStyle = back;
         pen.fillRect(0, 0, width, height);
         pen.drawImage(this.canvas, 0, 0);
-        const seam = (this.mode === "one" ? 0 : this.seam) * devicePixelRatio;
+        const seam = (this.mode === "one" ? 0 : this.seam) * ratio;
         [pen.fillStyle, pen.textAlign] = [ink, "center"];
-        pen.font = `600 ${15 * devicePixelRatio}px system-ui, sans-serif`;
+        pen.font = `600 ${15 * ratio}px system-ui, sans-serif`;
         if (seam > 0) pen.fillRect(seam - 1, 0, 2, height);
-        [[0, seam], [seam, width]].forEach(([from, to], side) => to > from && pen.fillText(labels[side], (from + to) / 2, height - 18 * devicePixelRatio));
+        [[0, seam], [seam, width]].forEach(([from, to], side) => to > from && pen.fillText(labels[side], (from + to) / 2, height - 18 * ratio));
         return canvas;
     }
 
-    /** A film of one turn. */
     async film(labels: string[], colors: string[], report: (share: number) => void): Promise<Blob> {
         const canvas = this.picture(labels, colors);
         const type = ["video/mp4", "video/webm"].find((name) => MediaRecorder.isTypeSupported(name));
@@ -274,12 +305,18 @@ export class Stage {
         return new Blob(parts, { type });
     }
 
-    /** Give back what the machine's graphics hold. */
     dispose(): void {
         this.controls.dispose();
         this.clear();
         this.renderer.dispose();
         this.renderer.forceContextLoss(); // a page may have few contexts, and forgets none by itself
+    }
+
+    private renew(finer: number, moved: number): void {
+        this.moved = moved;
+        const ratio = finer * devicePixelRatio;
+        if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+        this.draw();
     }
 
     private draw(): void {
@@ -313,15 +350,13 @@ export class Stage {
         mesh.add(edges);
     }
 
-    /** Let vertices have colors, or not. */
-    private whiten(clay: MeshPhongMaterial, on: boolean): void {
+    private whiten(clay: MeshStandardMaterial, on: boolean): void {
         if (clay.vertexColors === on) return;
         clay.vertexColors = on;
         clay.color.set(on ? WHITE : CLAY);
         clay.needsUpdate = true;
     }
 
-    /** Fit the camera to the canvas and the mode. */
     fit(): void {
         const { clientWidth, clientHeight } = this.canvas.parentElement!;
         if (clientWidth !== this.size[0] || clientHeight !== this.size[1]) this.renderer.setSize(clientWidth, clientHeight, false);
@@ -351,11 +386,4 @@ export class Stage {
         this.touched = true;
         this.from(place);
     }
-}
-
-/** Whether something draws that was made for it; where programs do, smooth edges would take most of the time. */
-function isFast(): boolean {
-    const context = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
-    context?.getExtension("WEBGL_lose_context")?.loseContext();
-    return context !== null;
 }

@@ -5,39 +5,12 @@ import { imagesOf, materialsOf, turnOf } from "../materials";
 import { errorLike, type Header, type LossEvent } from "../index";
 import type { Pool, StreamDecoding } from "../pool";
 import { colorsOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
-import { bytesOf, type Place } from "./inlined";
+import { counted, element, factsOf, percent, sized, spent, type Content, type Row } from "./facts";
+import { bytesOf } from "./inlined";
 import { Playback } from "../playback";
 import { Stage, type Mode, type Shading } from "./stage";
 import { TileSet, wholeOf } from "./tiles";
 import template from "./view.html";
-
-/** A mesh: its stream, the size of the file, and the error of each vertex, if it is known. */
-export interface Layer extends Place {
-    title: string;
-    detail: string;
-    size: number;
-    off?: Place;
-}
-
-/** What is shown, as `bsm.viewer.page` lists it; `main` is the stream that arrives, the others are there at once. */
-export interface Content {
-    name: string;
-    main: number;
-    layers: Layer[];
-    facts: {
-        preset?: string | null;
-        promised?: { look?: number; farthest?: number };
-        look?: number;
-        farthest?: number;
-        theta?: number;
-        diagonal?: number;
-        draco?: { bytes: number; bits: number } | null;
-    };
-    /** Whether it is still being written, so that what was before one came is not missed. */
-    live?: boolean;
-    /** The folder of a mesh in tiles. */
-    tiles?: string;
-}
 
 /** Encodes a file: lines of what is done, and the share of it; then what there is to be shown. */
 export type Encode = (file: File, preset: string, report: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
@@ -53,27 +26,6 @@ function extentOf({ center, scale, grid, lattice }: Header): { center: number[];
     return { center: center.map((origin, d) => origin + (cell * grid[d]) / 2), diagonal: cell * Math.max(Math.hypot(...grid), 1) };
 }
 
-function counted(count: number): string {
-    return count.toLocaleString("en");
-}
-
-function spent(milliseconds: number): string {
-    return milliseconds < SECOND ? `${Math.ceil(milliseconds)} ms` : `${(milliseconds / SECOND).toFixed(2)} s`;
-}
-
-function sized(bytes: number): string {
-    const [number, unit] = bytes < 1e3 ? [bytes, "bytes"] : bytes < 1e7 ? [bytes / 1e3, "kB"] : [bytes / 1e6, "MB"];
-    return `${number.toLocaleString("en", { maximumFractionDigits: number < 100 && unit !== "bytes" ? 1 : 0 })} ${unit}`;
-}
-
-function percent(share: number): string {
-    return `${Number((100 * share).toPrecision(2))}\u00a0%`;
-}
-
-function times(ratio: number): string {
-    return ratio.toLocaleString("en", { maximumFractionDigits: ratio < 10 ? 1 : 0 });
-}
-
 /** The controls and the canvas, in any element of a page; it says how far it is in `data-state`. */
 export class View {
     private readonly stage: Stage;
@@ -87,10 +39,8 @@ export class View {
     private stream = new Uint8Array(0);
     private length = 0;
     private whole = false;
-    /** Frames that had gone by when a live stream was entered. */
     private missed = 0;
     private geometry = new BSMGeometry();
-    /** All layers that are there, and how far their vertices are off. */
     private geometries: (BSMGeometry | undefined)[] = [];
     private offs: (Float32Array | undefined)[] = [];
     private readonly dressed = new Set<number>();
@@ -100,20 +50,20 @@ export class View {
     private started = 0;
     private firstDrawn?: number;
     private completed?: number;
-    /** Milliseconds of decoding alone. */
     private alone?: number;
     /** Whether the layers beside the stream are there, or on their way. */
     private accompanied = false;
     private losses: LossEvent[] = [];
     private over = true;
-    /** Whether the decoder knows that no more bytes come. */
     private ended = false;
     private shown = true;
     private stale = false;
     private frameShown = -1;
+    /** Milliseconds that a sequence has played, and when that was. */
+    private clock = 0;
+    private before = 0;
     private closed = false;
     private tiles?: TileSet;
-    /** From where tiles were chosen; undefined before the first time. */
     private looked?: string;
     private choose: (index: number) => void = () => this.restart();
     private working?: AbortController;
@@ -194,7 +144,6 @@ export class View {
         this.tiles = tiles;
     }
 
-    /** Take bytes of the stream. */
     receive(bytes: Uint8Array): void {
         const length = this.length + bytes.length;
         if (length > this.stream.length) {
@@ -209,19 +158,16 @@ export class View {
         if (all) this.cut.value = this.cut.max;
     }
 
-    /** Take note that all bytes have come. */
     finish(): void {
         this.whole = true;
     }
 
-    /** Say that there is nothing to show. */
     fail(problem: string): void {
         this.over = true;
         this.complain(problem);
         this.root.dataset.state = "failed";
     }
 
-    /** Stop, and give back what it holds. */
     close(): void {
         this.closed = true;
         this.watch.disconnect();
@@ -261,7 +207,7 @@ export class View {
         on("frame", "input", ({ value }) => this.playback?.seek(Math.min(Number(value), this.geometry.frames.length - 1)));
         on("loop", "change", ({ checked }) => this.playback && (this.playback.loop = checked));
         on("theme", "click", () => (root.dataset.theme = this.isDark ? "light" : "dark"));
-        on("panel", "click", (button) => button.setAttribute("aria-expanded", String((this.part("panel").hidden = !this.part("panel").hidden) === false)));
+        for (const part of ["panel", "keys"]) on(part, "click", () => this.unfold(part));
         on("picture", "click", () => this.stage.picture(...this.captions).toBlob((blob) => blob && this.save(blob, "png")));
         on("film", "click", (button) => void this.film(button));
         on("cancel", "click", () => this.working?.abort());
@@ -283,6 +229,15 @@ export class View {
         if (matchMedia("(min-width: 45rem)").matches) this.part("more").setAttribute("open", "");
     }
 
+    /** Show a part and hide the other one, or hide it. */
+    private unfold(part: string): void {
+        for (const each of ["panel", "keys"]) {
+            const hidden = each !== part || !this.part(each).hidden;
+            this.part(each).hidden = hidden;
+            this.control(each).setAttribute("aria-expanded", String(!hidden));
+        }
+    }
+
     private key({ key: typed, target, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
         if (ctrlKey || metaKey || altKey || (target as HTMLElement).matches("select, [type=number]")) return;
         const key = typed.toLowerCase();
@@ -297,7 +252,9 @@ export class View {
             const light = this.control<HTMLInputElement>("light");
             light.value = String(((Number(light.value) + 210) % 360) - 180);
             this.stage.light = Number(light.value);
-        } else if (key === "h") this.root.toggleAttribute("data-bare");
+        } else if (key === "?") this.unfold("keys");
+        else if (key === "escape") this.unfold("");
+        else if (key === "h") this.root.toggleAttribute("data-bare");
     }
 
     private paint(scheme: Scheme): void {
@@ -314,7 +271,6 @@ export class View {
         return this.root.dataset.theme ? this.root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
     }
 
-    /** Offer a way to color, or not. */
     private allow(scheme: Scheme, allowed: boolean): void {
         const option = this.scheme.querySelector<HTMLOptionElement>(`[value=${scheme}]`)!;
         option.hidden = option.disabled = !allowed;
@@ -329,12 +285,9 @@ export class View {
         this.part("modes").hidden = layers.length < 2;
         part.replaceChildren(part.querySelector("legend")!);
         layers.forEach(({ title, detail, size }, i) => {
-            const [label, input, small] = [document.createElement("label"), document.createElement("input"), document.createElement("small")];
-            Object.assign(input, { type: "radio", name: "layer", value: String(i), disabled: i !== main, checked: i === main });
-            small.textContent = `${sized(size)}${detail ? `, ${detail}` : ""}`;
-            label.append(input, title, small);
+            const input = Object.assign(document.createElement("input"), { type: "radio", name: "layer", value: String(i), disabled: i !== main, checked: i === main });
             input.addEventListener("change", () => this.compare());
-            part.append(label);
+            part.append(element("label", "", input, new Text(title), element("small", `${sized(size)}${detail ? `, ${detail}` : ""}`)));
         });
         this.root.querySelector<HTMLInputElement>("[name=mode][value=one]")!.checked = true;
         this.allow("error", false);
@@ -365,6 +318,7 @@ export class View {
             this.geometries[i] = geometry;
             this.stage.show(i, geometry);
             await this.dress(geometry, i);
+            this.recolor(); // it is seen only as it is to look
             this.root.querySelector<HTMLInputElement>(`[name=layer][value="${i}"]`)!.disabled = false;
             if (i === 0) this.root.querySelector<HTMLInputElement>("[name=mode][value=wipe]")!.click();
         }
@@ -378,6 +332,7 @@ export class View {
         const chosen = Number(this.picked("layer") || content.main);
         const mode = (this.picked("mode") || "one") as Mode;
         // The original beside itself says nothing.
+        (this.part("modes") as HTMLFieldSetElement).disabled = chosen === 0 && content.main > 0;
         stage.mode = chosen === 0 ? "one" : mode;
         stage.sides = [0, chosen];
         stage.wipe = Number(wipe.value) / Number(wipe.max);
@@ -538,7 +493,6 @@ export class View {
         );
     }
 
-    /** Go on for one picture. */
     private step(now: number): void {
         this.stage.step();
         this.playOn(now);
@@ -563,7 +517,6 @@ export class View {
         return Math.floor(Math.min(Number(this.cut.value), link));
     }
 
-    /** Put the geometry on the stage, if it is not there. */
     private show(): void {
         const { header, metadata } = this.geometry;
         if (this.shown || this.closed) return;
@@ -602,7 +555,8 @@ export class View {
         const { frames } = geometry;
         const every = Math.ceil(frames.length / SAMPLED);
         const samples = frames.length > 0 ? frames.filter((_, i) => i % every === 0).map(({ positions }) => positions) : [geometry.getAttribute("position")?.array ?? []];
-        this.stage.fill(samples, turnOf(geometry.metadata));
+        this.stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
+        if (geometry.getIndex()) this.stage.shadow(geometry);
         this.headline();
         if (this.accompanied) void this.dress(geometry, content.main);
         else void this.beside(content).catch((error: unknown) => this.complain(`Only the stream is shown. ${error instanceof Error ? error.message : error}`));
@@ -649,10 +603,13 @@ export class View {
         this.part("sequence").hidden = !playback;
         if (!playback) return;
         const there = geometry.frames.length;
-        playback.step(now, there, this.over);
+        this.clock += (now - this.before) * Number(this.control<HTMLSelectElement>("speed").value);
+        this.before = now;
+        playback.step(this.clock, there, this.over);
         if (playback.frame !== this.frameShown) {
             this.frameShown = playback.frame;
             geometry.showFrame(this.frameShown);
+            if (this.over) this.stage.shadow(geometry);
             this.stale = true;
         }
         const total = Math.max(geometry.header!.frames - missed, there);
@@ -668,7 +625,6 @@ export class View {
         this.frame.setAttribute("aria-valuetext", `frame ${place}`);
     }
 
-    /** Color what is there. */
     private recolor(): void {
         const { content, geometries, offs, stage } = this;
         const scheme = content.tiles === undefined ? (this.scheme.value as Scheme) : "plain";
@@ -685,55 +641,21 @@ export class View {
         this.say("legend", LEGENDS[scheme]);
         const unit = this.geometry.metadata.get("unit");
         const ticks = scheme === "error" ? [0, 0.5, 1].map((share) => [`${percent((share * top) / diagonal)}`, `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`]) : scheme === "blocks" ? [["first"], ["last"]] : [["not"], ["refined"]];
-        const list = this.part("scale").querySelector("ol")!;
-        list.replaceChildren(
-            ...ticks.map(([text, small]) => {
-                const item = document.createElement("li");
-                item.textContent = text;
-                if (small) item.append(Object.assign(document.createElement("small"), { textContent: small }));
-                return item;
-            }),
-        );
+        this.part("scale").querySelector("ol")!.replaceChildren(...ticks.map(([text, small]) => element("li", text, ...(small ? [element("small", small)] : []))));
     }
 
-    /** What there is to be proud of. */
     private headline(): void {
-        const { layers, main, facts, tiles } = this.content;
-        if (tiles) return;
-        const { header, frames } = this.geometry;
-        const size = layers[main].size || this.length;
-        const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
-        const plain = main > 0 ? layers[0].size : 12 * (vertices * Math.max(frames.length, 1) + faces);
-        const old = document.createElement("s");
-        old.textContent = `${sized(plain)} → `;
-        this.part("figures").replaceChildren(...(header || main > 0 ? [old] : []), size > 0 ? sized(size) : "");
-        const ratio = plain / Math.max(size, 1);
-        this.say("claim", size > 0 && ratio > 1 ? `${times(ratio)} times smaller${main > 0 ? "" : frames.length > 1 ? " than its frames as float32" : " than plain arrays"}` : "");
-        const { look, farthest, theta, promised = {}, draco } = facts;
-        const rows: [string, string, string?][] = [];
-        if (draco) rows.push(["Draco at this look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
-        if (look !== undefined) rows.push([look <= 1 ? "Looks the same" : "Look, 1 is the same", look.toFixed(2), promised.look ? `of at most ${promised.look} that was promised` : ""]);
-        if (farthest !== undefined) rows.push(["Farthest vertex", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
-        if (theta !== undefined) rows.push(["Normals", `${theta.toFixed(1)}°`, "off on average"]);
-        const took = this.alone ?? this.completed;
-        if (took !== undefined) rows.push(["Decoded here in", spent(took)]);
-        if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
-        if (frames.length > 1) rows.push(["Sequence", `${counted(frames.length)} frames`, `${sized(Math.round(size / frames.length))} a frame`]);
+        const { content, geometry, length, alone, completed } = this;
+        if (content.tiles) return;
+        const { plain, size, claim, rows } = factsOf(content, length, geometry.frames.length, geometry.header, alone ?? completed);
+        this.part("figures").replaceChildren(...(geometry.header || content.main > 0 ? [element("s", `${sized(plain)} → `)] : []), size > 0 ? sized(size) : "");
+        this.say("claim", claim);
         this.listRows(rows);
     }
 
-    /** Write the table of what was measured. */
-    private listRows(rows: [string, string, string?][]): void {
+    private listRows(rows: Row[]): void {
         this.part("more").hidden = rows.length === 0;
-        this.part("facts").replaceChildren(
-            ...rows.flatMap(([name, value, more]) => {
-                const [term, text] = [document.createElement("dt"), document.createElement("dd")];
-                term.textContent = name;
-                text.textContent = value;
-                if (more) text.append(Object.assign(document.createElement("small"), { textContent: ` ${more}` }));
-                return [term, text];
-            }),
-        );
+        this.part("facts").replaceChildren(...rows.flatMap(([name, value, more]) => [element("dt", name), element("dd", value, ...(more ? [element("small", ` ${more}`)] : []))]));
     }
 
     private report(): void {

@@ -1,7 +1,8 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { Pool } from "../pool";
 import { bytesOf, fetched, inlined, served } from "./inlined";
-import { View, type Content, type Encode } from "./view";
+import type { Content } from "./facts";
+import { View, type Encode } from "./view";
 
 declare const LICENSES: string;
 

@@ -1,0 +1,86 @@
+/** The numbers of the result card, in the words of the command line. */
+import type { Header } from "../index";
+import type { Place } from "./inlined";
+
+const SECOND = 1000;
+
+/** A mesh: its stream, the size of the file, and the error of each vertex, if it is known. */
+export interface Layer extends Place {
+    title: string;
+    detail: string;
+    size: number;
+    off?: Place;
+}
+
+/** What is shown, as `bsm.viewer.page` lists it; `main` is the stream that arrives, the others are there at once. */
+export interface Content {
+    name: string;
+    main: number;
+    layers: Layer[];
+    facts: {
+        preset?: string | null;
+        promised?: { look?: number; farthest?: number };
+        look?: number;
+        farthest?: number;
+        theta?: number;
+        seconds?: number;
+        diagonal?: number;
+        draco?: { bytes: number; bits: number } | null;
+    };
+    /** Whether it is still being written, so that what was before one came is not missed. */
+    live?: boolean;
+    tiles?: string;
+}
+
+/** A term, its value, and more about it. */
+export type Row = [string, string, string?];
+
+export function counted(count: number): string {
+    return count.toLocaleString("en");
+}
+
+export function spent(milliseconds: number): string {
+    return milliseconds < SECOND ? `${Math.ceil(milliseconds)} ms` : `${(milliseconds / SECOND).toFixed(2)} s`;
+}
+
+export function sized(bytes: number): string {
+    const [number, unit] = bytes < 1e3 ? [bytes, "bytes"] : bytes < 1e7 ? [bytes / 1e3, "kB"] : [bytes / 1e6, "MB"];
+    return `${number.toLocaleString("en", { maximumFractionDigits: number < 100 && unit !== "bytes" ? 1 : 0 })} ${unit}`;
+}
+
+export function percent(share: number): string {
+    return `${Number((100 * share).toPrecision(2))}\u00a0%`;
+}
+
+function times(ratio: number): string {
+    return ratio.toLocaleString("en", { maximumFractionDigits: ratio < 10 ? 1 : 0 });
+}
+
+/** An element with text, and others in it. */
+export function element(tag: string, text: string, ...inside: Node[]): HTMLElement {
+    const made = document.createElement(tag);
+    made.textContent = text;
+    made.append(...inside);
+    return made;
+}
+
+/** Sizes of the original and the stream, what is claimed of them, and the rows below. */
+export function factsOf({ layers, main, facts }: Content, length: number, frames: number, header?: Header, took?: number): { plain: number; size: number; claim: string; rows: Row[] } {
+    const size = layers[main].size || length;
+    const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
+    const plain = main > 0 ? layers[0].size : 12 * (vertices * Math.max(frames, 1) + faces);
+    const ratio = plain / Math.max(size, 1);
+    const than = main > 0 ? "" : frames > 1 ? " than its frames as float32" : " than plain arrays";
+    const { look, farthest, theta, seconds, promised = {}, draco } = facts;
+    const looks = look === undefined ? "" : promised.look ? `look ${look.toFixed(2)} of ${promised.look}` : `look ${look.toFixed(2)}`;
+    const rows: Row[] = [];
+    if (look !== undefined) rows.push(["Look", looks.slice(5), promised.look ? "promised; up to 1 it looks alike" : "up to 1 it looks alike"]);
+    if (farthest !== undefined) rows.push(["Farthest vertex", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
+    if (theta !== undefined) rows.push(["Normals", `${theta.toFixed(1)}°`, "off on average"]);
+    if (draco) rows.push(["Draco at this look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
+    if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
+    if (took !== undefined) rows.push(["Decoded here in", spent(took)]);
+    if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
+    if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
+    return { plain, size, claim: [size > 0 && ratio > 1 ? `${times(ratio)} times smaller${than}` : "", looks].filter(Boolean).join(", "), rows };
+}
