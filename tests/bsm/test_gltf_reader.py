@@ -10,8 +10,7 @@ import bsm
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.gltf.coding import COMPONENTS
-from bsm.gltf.document import glb
-from tests.bsm.test_gltf import scene
+from tests.bsm.test_gltf import glb, scene
 from tests.shapes import torus
 
 TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
@@ -375,6 +374,22 @@ except bsm.LimitError as error:
     command = [sys.executable, "-c", script, str(tmp_path / "a.glb"), str(animated)]
     taken = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60).stdout
     assert int(taken) < 60, "megabytes"
+
+
+def test_skins_of_many_nodes_are_counted():
+    """Ten thousand nodes with a skin of ten thousand joints."""
+    built = one({"JOINTS_0": (np.zeros((4, 4), np.uint8),), "WEIGHTS_0": (np.eye(4, dtype=np.float32),)})
+    built.tree["skins"] = [{"joints": [0] * 10_000}]
+    built.nodes({}, *({"mesh": 0, "skin": 0} for _ in range(10_000)))
+    with pytest.raises(bsm.LimitError, match="work"):
+        built.read()
+
+
+def test_an_old_gltf_is_named():
+    built = one()
+    built.tree["asset"] = {"version": "1.0"}
+    with pytest.raises(bsm.FormatError, match=r"glTF 1\.0"):
+        built.read()
 
 
 def test_images_that_share_bytes_are_counted():

@@ -13,7 +13,7 @@ from bsm.cli import main
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import Document, read_document
-from tests.bsm.test_gltf import VALIDATOR, WEB, coded_of
+from tests.bsm.test_gltf import VALIDATOR, WEB, coded_of, glb
 from tests.bsm.test_gltf_reader import Built
 from tests.shapes import torus
 
@@ -395,6 +395,22 @@ def test_scenes_are_compared_primitive_by_primitive(tmp_path, capsys):
     assert "mesh 0, primitive 1: the farthest vertex is" in capsys.readouterr().out
     assert main(["info", small]) == 0
     assert "scene of 3 primitives, 1 streams" in capsys.readouterr().out
+
+
+def test_references_that_lead_nowhere_and_numbers_that_are_none_are_errors():
+    for spoil in (
+        lambda tree: tree.update(images=[{"bufferView": 99}]),
+        lambda tree: tree.update(skins=[{"joints": [0], "inverseBindMatrices": 99}]),
+        lambda tree: tree["nodes"][0].update(translation=[0, 0, float("inf")]),
+    ):
+        built, _ = ring()
+        spoil(built.tree)
+        text = json.dumps(built.tree | {"buffers": [{"byteLength": len(built.data)}]}).replace("Infinity", "1e999")
+        data = glb(json.loads(text), built.data) if "1e999" not in text else None
+        document = Document(data or text.encode())
+        document._binary = built.data
+        with pytest.raises(bsm.FormatError):
+            compress(document, FINE)
 
 
 def errors_of(paths):

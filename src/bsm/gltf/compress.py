@@ -577,6 +577,9 @@ class _Rewritten(gltf.Growing):
             kind: {holder[key] for holder, key in references(document.tree, kind)}
             for kind in ("accessors", "bufferViews")
         }
+        for kind, numbers in self._before.items():
+            for number in numbers:
+                document.item(kind, number)
         self._moved: set[int] = set()  # bufferViews whose bytes are in the new buffer
         self._coded = False
         self._virtual = 0  # bytes of what decoders fill

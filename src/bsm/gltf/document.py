@@ -58,6 +58,8 @@ class Document:
             raise FormatError(f"this is no glTF: {error}") from error
         if not isinstance(tree, dict) or not isinstance(tree.get("asset"), dict):
             raise FormatError("this is no glTF: it says nothing of itself as an asset")
+        if not str(version := tree["asset"].get("version", "2.0")).startswith("2"):
+            raise FormatError(f"this is glTF {str(version)[:20]}, and only glTF 2.0 is read; convert it first")
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
         self._sides: dict[object, int] = {}
@@ -284,14 +286,6 @@ def _chunks(data: bytes) -> tuple[bytes, bytes]:
     return data[20:start], data[start + 8 : start + 8 + size] if kind == _BINARY else b""
 
 
-def head_of_glb(tree: Tree, size: int) -> bytes:
-    """What stands in a .glb before the `size` bytes of its first buffer, a multiple of four."""
-    text = json.dumps(tree, separators=(",", ":"), ensure_ascii=False).encode(errors="replace")
-    text += b" " * (-len(text) % 4)
-    head = struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + size, len(text), _JSON)
-    return head + text + struct.pack("<II", size, _BINARY)
-
-
 class Growing:
     """A tree that grows, and the bytes of its buffer, which wait in a file."""
 
@@ -327,7 +321,12 @@ class Growing:
         return self.view(np.pad(rows, ((0, 0), (0, -size % 4))).tobytes(), byteStride=size + -size % 4)
 
     def write(self, file: IO[bytes]) -> None:
-        file.write(head_of_glb(self.tree, self.size))
+        text = json.dumps(self.tree, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode(
+            errors="replace"
+        )
+        text += b" " * (-len(text) % 4)
+        file.write(struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + self.size, len(text), _JSON) + text)
+        file.write(struct.pack("<II", self.size, _BINARY))
         self._file.seek(0)
         shutil.copyfileobj(self._file, file)
 
@@ -335,11 +334,6 @@ class Growing:
         written = io.BytesIO()
         self.write(written)
         return written.getvalue()
-
-
-def glb(tree: Tree, data: bytes) -> bytes:
-    data += b"\0" * (-len(data) % 4)
-    return head_of_glb(tree, len(data)) + data
 
 
 def side_of_image(data: bytes) -> int:

@@ -482,6 +482,7 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
     """Read a scene at rest as one mesh: vertices and faces in the order of the file."""
     with as_format_error(), np.errstate(all="ignore"):  # what is not finite is refused later
         scene = Scene(document, None, document.limits)
+        document.limits.check_work(3 * scene.work, scene.vertices, document.received)
         found = _joined(scene, document, 0.0, document.limits)
         lost = Counter(scene.notes)
         counts = [f"{note}: {count}" for note, count in lost.items()]
