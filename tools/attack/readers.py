@@ -690,12 +690,13 @@ def read_all(path: Path, limits: Limits) -> Taken:
         return Taken(f"{type(error).__name__}: {error}", vertices=vertices, shown=shown)
 
 
-def problems(cases: list[Case], limits: str) -> Iterator[str]:
-    """Where reading takes more than it may, or something else than a mesh or an error of ours comes out."""
+def problems(cases: list[Case], limits: str, most: float = 1.0) -> Iterator[str]:
+    """Where reading takes more than `most` of what it may, or what comes out is neither a mesh nor an error of ours."""
     with tempfile.TemporaryDirectory() as folder:
         works = [partial(reading, case.make, Path(folder), NAMED_LIMITS[limits]()) for case in cases]
         for case, taken in zip(cases, taken_by_each(works, MOST_SECONDS), strict=True):
-            if problem := taken.problem(*bounds(limits, taken)):
+            memory, seconds = bounds(limits, taken)
+            if problem := taken.problem(most * memory, most * seconds):
                 yield f"{case.name} ({limits}): {problem}"
 
 

@@ -1,0 +1,368 @@
+"""`python -m tools.attack uses`: files that say something once and use it many times.
+
+Nodes, skins, primitives, targets and animations of glTF, items and components of 3MF, references and instancers of
+USD, nodes and controllers of COLLADA, materials and images of OBJ. Half of each file is what is used, and half are
+its uses, so that reading could take the product of both. What reading takes is held against the law (M 14.8, M 14.9).
+"""
+
+from __future__ import annotations
+
+import argparse
+import base64
+import importlib.util
+import json
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from tools.attack.readers import DATA_URI, Case, Sample, Tree, _as_glb, problems, three_mf, warm_up
+from tools.vectors.meshes import patch
+
+Use = Callable[[int, int], Sample]
+"""Make a file by the bytes of what is used, and how often that is."""
+MOST = 1.25
+"""How much more than is documented a file may take."""
+SPLITS = (0.5, 0.9, 0.1)
+"""Shares of a file that what is used takes."""
+
+
+def strip_of(size: int, each: int) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """Return the positions and faces of a strip whose vertices take `size` bytes, each `each`."""
+    mesh = patch(2, max(2, size // (2 * each)))
+    return mesh.positions, mesh.faces
+
+
+# ---------------------------------------------------------------------------------------------------------------- glTF
+
+
+class _Scene:
+    """A tree with one mesh, and its bytes."""
+
+    def __init__(self, size: int) -> None:
+        positions, faces = strip_of(size, 24)
+        self.binary, self.count = b"", len(positions)
+        self.tree: Tree = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [], "bufferViews": []}
+        self.attributes = {"POSITION": self.accessor(positions.astype("<f4"), "VEC3")}
+        self.indices = self.accessor(faces.astype("<u4").reshape(-1), "SCALAR")
+        self.primitive: Tree = {"attributes": self.attributes, "indices": self.indices}
+        self.tree["meshes"] = [{"primitives": [self.primitive]}]
+        self.nodes([{"mesh": 0}])
+
+    def accessor(self, array: np.ndarray[Any, Any], kind: str) -> int:
+        data = array.tobytes()
+        self.tree["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)})
+        self.binary += data + bytes(-len(data) % 4)
+        component = {"f": 5126, "u": {1: 5121, 2: 5123, 4: 5125}.get(array.dtype.itemsize)}[array.dtype.kind]
+        view = len(self.tree["bufferViews"]) - 1
+        self.tree["accessors"].append(
+            {"bufferView": view, "componentType": component, "count": len(array), "type": kind}
+        )
+        return view
+
+    def nodes(self, nodes: list[Tree]) -> None:
+        self.tree |= {"nodes": nodes, "scenes": [{"nodes": list(range(len(nodes)))}]}
+
+    def move(self) -> None:
+        """Let the first node move."""
+        times, places = np.array([0, 1], "<f4"), np.array([[0, 0, 0], [1, 0, 0]], "<f4")
+        sampler = {"input": self.accessor(times, "SCALAR"), "output": self.accessor(places, "VEC3")}
+        channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
+        self.tree["animations"] = [{"samplers": [sampler], "channels": [channel]}]
+
+    def skin(self) -> None:
+        joints, weights = np.zeros((self.count, 4), "u1"), np.tile(np.array([1, 0, 0, 0], "<f4"), (self.count, 1))
+        self.attributes |= {"JOINTS_0": self.accessor(joints, "VEC4"), "WEIGHTS_0": self.accessor(weights, "VEC4")}
+
+    def sample(self) -> Sample:
+        self.tree["buffers"] = [{"byteLength": len(self.binary)}]
+        return Sample("glb", _as_glb(self.tree, self.binary))
+
+
+def _gltf(change: Callable[[_Scene, int], None], moves: bool, size: int, uses: int) -> Sample:
+    scene = _Scene(size)
+    change(scene, uses)
+    if moves:
+        scene.move()
+    return scene.sample()
+
+
+def _nodes(scene: _Scene, uses: int) -> None:
+    scene.nodes([{"mesh": 0} for _ in range(uses)])
+
+
+def _tree_of_nodes(scene: _Scene, uses: int) -> None:
+    """Each node is a child of the one before it, and has the mesh as well."""
+    chain: list[Tree] = [{"mesh": 0, "children": [number + 1]} for number in range(min(uses, 400))]
+    scene.tree |= {"nodes": [*chain, {"mesh": 0}], "scenes": [{"nodes": [0]}]}
+
+
+def _meshes(scene: _Scene, uses: int) -> None:
+    scene.tree["meshes"] *= uses
+    scene.nodes([{"mesh": number} for number in range(uses)])
+
+
+def _primitives(scene: _Scene, uses: int) -> None:
+    scene.tree["meshes"][0]["primitives"] = [scene.primitive for _ in range(uses)]
+
+
+def _materials(scene: _Scene, uses: int) -> None:
+    scene.tree["materials"] = [{"name": str(number)} for number in range(uses)]
+    scene.tree["meshes"][0]["primitives"] = [scene.primitive | {"material": number} for number in range(uses)]
+
+
+def _skins(scene: _Scene, uses: int) -> None:
+    """Each node plays the mesh by a skin of its own, with targets: one part for each."""
+    scene.skin()
+    scene.primitive["targets"] = [{"POSITION": 0}] * uses
+    scene.tree["skins"] = [{"joints": [0]} for _ in range(uses)]
+    scene.nodes([{}, *({"mesh": 0, "skin": number} for number in range(uses))])
+
+
+def _targets(scene: _Scene, uses: int) -> None:
+    scene.primitive["targets"] = [{"POSITION": 0}] * uses
+    scene.tree["meshes"][0]["weights"] = [0.5] * uses
+
+
+def _attributes(scene: _Scene, uses: int) -> None:
+    scene.attributes |= {f"_A{number}": 0 for number in range(uses)}
+
+
+def _joints(scene: _Scene, uses: int) -> None:
+    scene.skin()
+    scene.tree["skins"] = [{"joints": [0] * uses}]
+    scene.nodes([{}, *({"mesh": 0, "skin": 0} for _ in range(uses))])
+
+
+def _animations(scene: _Scene, uses: int) -> None:
+    _nodes(scene, uses)
+    scene.move()
+    (animation,) = scene.tree["animations"]
+    channels = [{"sampler": 0, "target": {"node": node, "path": "translation"}} for node in range(uses)]
+    scene.tree["animations"] = [{**animation, "channels": channels}] * 4
+
+
+def _instancing(scene: _Scene, uses: int) -> None:
+    places = scene.accessor(np.zeros((uses, 3), "<f4"), "VEC3")
+    instances = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": places}}}
+    scene.tree |= {"extensionsUsed": list(instances), "extensionsRequired": list(instances)}
+    scene.nodes([{"mesh": 0, "extensions": instances}])
+
+
+_GLTF = (_nodes, _tree_of_nodes, _meshes, _primitives, _materials, _skins, _targets, _attributes, _joints, _instancing)
+PIXEL = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+)
+
+
+def _images(size: int, uses: int) -> Sample:
+    """One image, in as many images, textures and materials."""
+    scene = _Scene(1000)
+    scene.tree["bufferViews"].append({"buffer": 0, "byteOffset": len(scene.binary), "byteLength": size})
+    scene.binary += PIXEL + bytes(size + -size % 4 - len(PIXEL) % 4)
+    view = len(scene.tree["bufferViews"]) - 1
+    scene.tree["images"] = [{"bufferView": view, "mimeType": "image/png"}] * uses
+    scene.tree["textures"] = [{"source": number} for number in range(uses)]
+    _materials(scene, uses)
+    for number, material in enumerate(scene.tree["materials"]):
+        material["pbrMetallicRoughness"] = {"baseColorTexture": {"index": number}}
+    return scene.sample()
+
+
+def _image_by_uri(size: int, uses: int) -> Sample:
+    """One image in a buffer of text that all images, textures and materials use."""
+    sample = _images(size, uses)
+    tree = json.loads(sample.data[20 : 20 + int.from_bytes(sample.data[12:16], "little")])
+    binary = sample.data[28 + int.from_bytes(sample.data[12:16], "little") :]
+    tree["buffers"][0]["uri"] = DATA_URI + base64.b64encode(binary).decode()
+    return Sample("gltf", json.dumps(tree).encode())
+
+
+# ------------------------------------------------------------------------------------------------------------- others
+
+
+def _mesh_3mf(size: int) -> str:
+    positions, faces = strip_of(size, 60)
+    vertices = "".join(f'<vertex x="{x:.3g}" y="{y:.3g}" z="{z:.3g}"/>' for x, y, z in positions)
+    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in faces)
+    return f'<object id="1"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object>'
+
+
+def _items(size: int, uses: int) -> Sample:
+    return Sample("3mf", three_mf(_mesh_3mf(size), '<item objectid="1"/>' * uses))
+
+
+def _components(size: int, uses: int) -> Sample:
+    """As many components of one object, and items of that."""
+    root = max(1, int(uses**0.5))
+    components = '<component objectid="1"/>' * root
+    whole = f'<object id="2"><components>{components}</components></object>'
+    return Sample("3mf", three_mf(_mesh_3mf(size) + whole, '<item objectid="2"/>' * root))
+
+
+def _mesh_usd(size: int, name: str = "m", more: str = "") -> str:
+    positions, faces = strip_of(size, 40)
+    points = ", ".join(f"({x:.3g}, {y:.3g}, {z:.3g})" for x, y, z in positions)
+    counts, indices = ", ".join(["3"] * len(faces)), ", ".join(map(str, faces.reshape(-1)))
+    return (
+        f'def Mesh "{name}" {{\nint[] faceVertexCounts = [{counts}]\nint[] faceVertexIndices = [{indices}]\n'
+        f"point3f[] points = [{points}]\n{more}}}\n"
+    )
+
+
+def _usd(inside: str) -> Sample:
+    return Sample("usda", ("#usda 1.0\n" + inside).encode())
+
+
+def _references(instanceable: bool, size: int, uses: int) -> Sample:
+    also = ", instanceable = true" if instanceable else ""
+    text = f'def Xform "p" {{\n{_mesh_usd(size)}}}\n'
+    return _usd(
+        text + "".join(f'def "b{n}" (references = </p>{also.replace(", ", chr(10))}) {{}}\n' for n in range(uses))
+    )
+
+
+def _instancer(size: int, uses: int) -> Sample:
+    zeros, places = ", ".join(["0"] * uses), ", ".join(["(0, 0, 0)"] * uses)
+    return _usd(
+        f'def PointInstancer "i" {{\nint[] protoIndices = [{zeros}]\npoint3f[] positions = [{places}]\n'
+        f"rel prototypes = </i/m>\n{_mesh_usd(size)}}}\n"
+    )
+
+
+def _moving_usd(size: int, uses: int) -> Sample:
+    """A mesh below a transform that has many times: each is a frame."""
+    times = "".join(f"{number}: ({number}, 0, 0),\n" for number in range(uses))
+    moves = (
+        f'double3 xformOp:translate.timeSamples = {{\n{times}}}\nuniform token[] xformOpOrder = ["xformOp:translate"]\n'
+    )
+    return _usd(f'def Xform "p" {{\n{moves}{_mesh_usd(size)}}}\n')
+
+
+def _subsets(size: int, uses: int) -> Sample:
+    subset = (
+        'def GeomSubset "s{0}" {{\nuniform token elementType = "face"\nuniform token familyName = "materialBind"\n'
+        'int[] indices = [0]\nrel material:binding = </m/a{0}>\n}}\ndef Material "a{0}" {{\n}}\n'
+    )
+    return _usd(_mesh_usd(size, more="".join(subset.format(n) for n in range(uses))))
+
+
+def _dae(controllers: bool, size: int, uses: int) -> Sample:
+    positions, faces = strip_of(size, 40)
+    count = 3 * len(positions)
+    numbers = " ".join(f"{x:.3g}" for x in positions.reshape(-1))
+    source = (
+        f'<source id="s"><float_array id="a" count="{count}">{numbers}</float_array><technique_common><accessor '
+        f'source="#a" count="{len(positions)}" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>'
+        '<param name="Z" type="float"/></accessor></technique_common></source>'
+    )
+    geometry = (
+        f'<library_geometries><geometry id="g"><mesh>{source}<vertices id="v"><input semantic="POSITION" source="#s"/>'
+        f'</vertices><triangles count="{len(faces)}"><input semantic="VERTEX" source="#v" offset="0"/>'
+        f"<p>{' '.join(map(str, faces.reshape(-1)))}</p></triangles></mesh></geometry></library_geometries>"
+    )
+    # A chain of libraries: each node has the one before it twice.
+    if controllers:
+        doubled = "".join(
+            f'<node id="n{n}"><instance_node url="#n{n - 1}"/><instance_node url="#n{n - 1}"/></node>'
+            for n in range(1, min(uses, 24))
+        )
+        nodes = '<node id="n0"><instance_geometry url="#g"/></node>' + doubled
+        library, last = f"<library_nodes>{nodes}</library_nodes>", min(uses, 24) - 1
+        scene = f'<node><instance_node url="#n{last}"/></node>'
+    else:
+        library, scene = "", '<node><instance_geometry url="#g"/></node>' * uses
+    text = (
+        '<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>'
+        f'<up_axis>Y_UP</up_axis></asset>{geometry}{library}<library_visual_scenes><visual_scene id="w">{scene}'
+        '</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#w"/></scene></COLLADA>'
+    )
+    return Sample("dae", text.encode())
+
+
+def _obj_materials(size: int, uses: int) -> Sample:
+    """As many materials that have one image, and groups that use them."""
+    library = "".join(f"newmtl m{n}\nmap_Kd i.png\nmap_Ks i.png\n" for n in range(uses)).encode()
+    lines = "".join(f"g a{n}\no b{n}\nusemtl m{n}\nf 1 2 3\n" for n in range(uses)).encode()
+    beside = (("l.mtl", library), ("i.png", PIXEL + bytes(size)))
+    return Sample("obj", b"mtllib l.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + lines, beside)
+
+
+def _obj_libraries(size: int, uses: int) -> Sample:
+    library = b"newmtl m\n" + b"Kd 1 1 1\n" * (size // 9)
+    return Sample(
+        "obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"mtllib l.mtl\n" * uses + b"f 1 2 3\n", (("l.mtl", library),)
+    )
+
+
+def _obj_polygons(size: int, uses: int) -> Sample:
+    """Faces of many corners, all of the same few vertices."""
+    face = b"f" + b" 1 2 3" * max(1, size // max(6 * uses, 6)) + b"\n"
+    return Sample("obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + face * uses)
+
+
+def _ply_images(size: int, uses: int) -> Sample:
+    """One image that many lines name."""
+    head = b"".join(b"comment TextureFile i.png\n" for _ in range(min(uses, 2500)))
+    body = b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    axes = b"element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    faces = b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    return Sample("ply", b"ply\nformat ascii 1.0\n" + head + axes + faces + body, (("i.png", PIXEL + bytes(size)),))
+
+
+def uses() -> Iterator[tuple[str, Use]]:
+    """Yield all that can be used many times, by the format and its word for that."""
+    for change in _GLTF:
+        yield f"glb, {change.__name__.strip('_')}", partial(_gltf, change, False)
+        yield f"moving glb, {change.__name__.strip('_')}", partial(_gltf, change, True)
+    yield "moving glb, animations", partial(_gltf, _animations, False)
+    yield from (("glb, images", _images), ("gltf, images", _image_by_uri))
+    yield from (("3mf, items", _items), ("3mf, components", _components))
+    yield from (
+        ("obj, materials", _obj_materials),
+        ("obj, libraries", _obj_libraries),
+        ("obj, polygons", _obj_polygons),
+    )
+    yield "ply, images", _ply_images
+    if importlib.util.find_spec("pxr"):
+        yield from (("usd, references", partial(_references, False)), ("usd, instances", partial(_references, True)))
+        yield from (("usd, instancer", _instancer), ("usd, times", _moving_usd), ("usd, subsets", _subsets))
+    if importlib.util.find_spec("collada"):
+        yield from (("dae, nodes", partial(_dae, False)), ("dae, nodes of nodes", partial(_dae, True)))
+
+
+def cases(size: int, splits: tuple[float, ...]) -> Iterator[Case]:
+    """Yield files of about `size` bytes."""
+    for name, make in uses():
+        for split in splits:
+            used = int(split * size)
+            each = max(4, (len(make(1000, 1100).data) - len(make(1000, 100).data)) // 1000)
+            count = max(1, (size - used) // each)
+            yield Case(f"{name}, {used} bytes {count} times", partial(make, used, count))
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument(
+        "--bytes", type=int, nargs="+", default=(40_000, 400_000), help="of files (default: %(default)s)"
+    )
+    parser.add_argument("--short", action="store_true", help="one size, one split: what CI does")
+    parser.add_argument("--only", default="", metavar="TEXT", help="cases whose name begins so")
+    args = parser.parse_args()
+    warm_up()
+    sizes, splits = (args.bytes[:1], SPLITS[:1]) if args.short else (args.bytes, SPLITS)
+    found = [case for size in sizes for case in cases(size, splits) if case.name.startswith(args.only)]
+    count = 0
+    for limits in ("default",) if args.short else ("default", "service"):
+        for problem in problems(found, limits, MOST):
+            count += 1
+            print(problem, flush=True)
+    print(f"{len(found)} files of {len(list(uses()))} kinds of uses, {count} findings")
+    return 1 if count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
