@@ -19,13 +19,6 @@ BSM_STRUCT(Conquest, Front, Longs2, Ints2, Longs)
 BSM_STRUCT(Seams, Ints, Ints, Ints, Ints, Ints)
 BSM_STRUCT(Past, Ints2, Ints2, Ints2, Longs)
 BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
-BSM_STRUCT(ValueModel, Words, Words, Ints2, Ints2)
-BSM_STRUCT(Grid, ConstInts, ConstInts, Ints2, Ints2, Longs2, Longs2, Longs2)
-BSM_STRUCT(Floats, Words, Longs, Longs2)
-BSM_STRUCT(Light, ConstInts, Ints2, Ints2, Words)
-BSM_STRUCT(Levels, Ints2, Ints2, Ints2, Longs2)
-BSM_STRUCT(Values, ConstInts, ConstInts, ConstInts, ConstInts2, Ints2, Ints2, Longs2, Longs2, Longs2, Ints2, Longs)
-BSM_STRUCT(FaceValues, ConstInts, Ints2, Ints2, Ints2)
 
 using namespace nb::literals;
 
@@ -60,25 +53,7 @@ NB_MODULE(_kernels, m) {
         "stair"_a, "turn"_a, "few"_a, "slow"_a, "costs"_a, "prices"_a, Unlocked());
 
     m.def("link_corners", checked<link_corners>, "corners"_a, "scratch"_a, Unlocked());
-    m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
-    m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
-        Unlocked());
-    m.def("code_floats", checked<code_floats>, "coder"_a, "floats"_a, "values"_a, "low"_a, "nearest"_a, "high"_a,
-        "chosen"_a, Unlocked());
-    m.def("code_light", checked<code_light>, "coder"_a, "corners"_a, "light"_a, "first"_a, "count"_a, Unlocked());
     m.def("code_edges", checked<code_edges>, "coder"_a, "bank"_a, "corners"_a, "seams"_a, "others"_a, "ends"_a,
         Unlocked());
     m.def("join_corners", checked<join_corners>, "corners"_a, "seams"_a, "joined"_a, "first"_a, Unlocked());
-    m.def("code_levels", checked<code_levels>, "coder"_a, "bank"_a, "corners"_a, "levels"_a, "first"_a, "count"_a,
-        Unlocked());
-
-    m.def("expect_normals", checked<expect_normals>, "corners"_a, "values"_a, Unlocked());
-    m.def("code_scalars", checked<code_scalars>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
-        Unlocked());
-    m.def("code_texcoords", checked<code_texcoords>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a,
-        "count"_a, Unlocked());
-    m.def("code_normals", checked<code_normals>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
-        Unlocked());
-    m.def("code_faces", checked<code_faces>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
-        Unlocked());
 }

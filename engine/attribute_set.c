@@ -273,7 +273,7 @@ static bool find_geometry(Attributes *attributes, const Attribute *attribute, Co
 }
 
 /* The state of an attribute replaces the state of the one before. */
-static bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 places, Arena *scratch) {
+bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 places, Arena *scratch) {
     Context *context = attributes->context;
     const Declaration *d = &attribute->declaration;
     double rows = (double)attribute->rows, m = (double)attribute->faces.rows, wide = 2.0 * d->components;
@@ -299,7 +299,7 @@ static bool start_attribute(Attributes *attributes, Attribute *attribute, ConstI
     return true;
 }
 
-static bool decode_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first,
+bool code_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first,
     int64_t count) {
     Reading reading;
     int64_t done;
@@ -341,7 +341,7 @@ static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Pac
     for (int g = 0; g < attribute->groups; g++) {
         Span part = attribute->groups > 1 ? take_span(&cursor, take_varint(&cursor)) : take_rest(&cursor);
         if (failed(context)
-            || !decode_group(context, attribute, &attribute->group[g], part, packet->first, packet->count))
+            || !code_group(context, attribute, &attribute->group[g], part, packet->first, packet->count))
             return false;
     }
     if (!at_end(&cursor) || !restore_values(context, attribute, packet->first, packet->count)) return false;

@@ -31,6 +31,8 @@ bool check_rows(const Attributes *attributes, int64_t index, const Numbering *nu
 /* What is needed before values come, or where none do. */
 bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch);
 /* `places`: values of a grid, if all of them are there, otherwise none. */
+bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 places, Arena *scratch);
+bool code_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first, int64_t count);
 bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch);
 
 #endif

@@ -2,10 +2,41 @@
 
 enum { AHEAD = 4 };
 
+#ifdef BSMDEC_WRITES
+static void begin_writing(Reading *writing) {
+    Writing *to = writing->context->writing;
+    writing->state[1] = UINT32_MAX;
+    writing->coder = (Coder){{writing->state, CODER_STATES}, {to->data + to->size, to->room - to->size}};
+}
+
+/* The fewest bytes that still tell the last decision (C 1.4). */
+static bool finish_writing(const Reading *writing) {
+    Writing *to = writing->context->writing;
+    uint8_t *data = writing->coder.data.data;
+    int64_t low = writing->state[0], size = writing->state[CODER_POSITION], value = 0, kept = 0;
+    if (writing->state[4] != 0) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
+    for (; kept < 4; kept++) {
+        int64_t unit = INT64_C(1) << (32 - 8 * kept);
+        value = (low + unit - 1) / unit * unit;
+        if (value < low + writing->state[1]) break;
+    }
+    if (kept == 4) value = low;
+    for (int64_t i = size; value >> 32 && i > 0 && ++data[i - 1] == 0;) i--;
+    for (int64_t k = 0; k < kept; k++) data[size + k] = (uint8_t)(value >> (24 - 8 * k));
+    to->size += size + kept;
+    to->ends[to->count++] = to->size;
+    return true;
+}
+#endif
+
 bool begin_reading(Context *context, Span payload, Reading *reading) {
     uint64_t code = 0;
     for (int i = 0; i < AHEAD; i++) code = code << 8 | (i < payload.size ? payload.data[i] : 0);
     if (failed(context)) return false;
+#ifdef BSMDEC_WRITES
+    *reading = (Reading){.context = context};
+    if (context->writing != NULL) return begin_writing(reading), true;
+#endif
     if (code >= UINT32_MAX) return FAIL(context, CORRUPT, "an entropy-coded payload cannot begin with ff ff ff ff");
     *reading = (Reading){.context = context, .state = {(int64_t)code, UINT32_MAX, AHEAD, 1, 0}};
     reading->coder = (Coder){{reading->state, CODER_STATES}, {(uint8_t *)payload.data, payload.size}}; /* only read */
@@ -22,6 +53,9 @@ bool nonsense(const Reading *reading, const char *what) {
 }
 
 bool finish_reading(const Reading *reading) {
+#ifdef BSMDEC_WRITES
+    if (reading->context->writing != NULL) return finish_writing(reading);
+#endif
     int64_t left = reading->coder.data.size - reading->state[CODER_POSITION];
     if (ran_over(reading)) return nonsense(reading, "");
     return left <= 0

@@ -5,6 +5,7 @@
 
 #include "bitstream/entropy/entropy.h"
 #include "engine/wire.h"
+#include "engine/payloads.h"
 
 /* A payload that is read; it must not be moved, for `coder` points into it. */
 typedef struct {

@@ -77,7 +77,7 @@ bool begin_grid(GridField *field, Context *context, const Header *header, ConstI
     return begin_full(field, arena, scratch) && (header->light != EXACT_FLOATS || begin_floats(field, arena));
 }
 
-static bool decode_values(GridField *field, int64_t first, int64_t count, Span payload) {
+bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {
     Reading reading;
     if (!begin_reading(field->context, payload, &reading)) return false;
     int64_t done = field->header->light == LIGHT
@@ -118,7 +118,7 @@ static double float_of(int64_t number) {
 }
 
 /* Which float of the cell of its value each coordinate is (V 16). */
-static bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch) {
+bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch) {
     const Header *header = field->header;
     int64_t count = vertices.size;
     Ints2 values;
@@ -126,7 +126,7 @@ static bool place_floats(GridField *field, ConstInts vertices, Span payload, Are
     Reading reading;
     if (!take_ints2(scratch, count, AXES, &values) || !take_longs2(scratch, count, AXES, &low)
         || !take_longs2(scratch, count, AXES, &near) || !take_longs2(scratch, count, AXES, &high)
-        || !zero_longs2(scratch, count, AXES, &chosen) || !begin_reading(field->context, payload, &reading))
+        || !take_longs2(scratch, count, AXES, &chosen) || !begin_reading(field->context, payload, &reading))
         return false;
     for (int64_t i = 0; i < AXES * count; i++) {
         int j = (int)(i % AXES);
@@ -135,6 +135,7 @@ static bool place_floats(GridField *field, ConstInts vertices, Span payload, Are
         low.data[i] = number_of(down + header->center[j]);
         near.data[i] = number_of(middle + header->center[j]);
         high.data[i] = number_of(up + header->center[j]);
+        chosen.data[i] = number_of(field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + j]);
     }
     int64_t done = code_floats(reading.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
         const_longs2(high), chosen);
@@ -158,7 +159,7 @@ bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, A
     bool exact = field->header->light == EXACT_FLOATS;
     Cursor cursor = {context, payload};
     Span values = exact ? take_span(&cursor, take_varint(&cursor)) : payload;
-    if (failed(context) || !decode_values(field, first, count, values)) return false;
+    if (failed(context) || !code_grid_values(field, first, count, values)) return false;
     field->coded += count;
     ConstInts vertices = {field->order.data + first, count};
     return exact ? place_floats(field, vertices, take_rest(&cursor), scratch) : place_values(field, vertices);

@@ -24,6 +24,8 @@ typedef struct {
 
 bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
     Arena *scratch);
+bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload);
+bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch);
 bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch);
 
 #endif

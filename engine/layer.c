@@ -105,18 +105,20 @@ static bool slide(Layer *layer, Arena *scratch) {
     return true;
 }
 
+bool code_layer(Layer *layer, int64_t first, int64_t count, Span payload) {
+    Reading reading;
+    return begin_reading(layer->context, payload, &reading)
+        && check_chunk_done(&reading,
+            code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count), count);
+}
+
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {
     Context *context = layer->context;
-    Reading reading;
     if (!charge(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
     if (layer->coded == layer->positions.rows) return FAIL(context, CORRUPT, "levels follow the last vertex");
     if (first != layer->coded)
         return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
-    if (first + count > layer->read) {
-        if (!begin_reading(context, payload, &reading)) return false;
-        int64_t done = code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count);
-        if (!check_chunk_done(&reading, done, count)) return false;
-    }
+    if (first + count > layer->read && !code_layer(layer, first, count, payload)) return false;
     layer->coded += count;
     ConstInts2 some;
     if (!mark_levels(layer, layer->refined.whole, first, count, scratch, &some)) return false;

@@ -34,6 +34,7 @@ bool find_frames(Context *context, ConstInts2 faces, Arena *arena, Refined *refi
 /* `layer` is zero, or its levels are begun; `refined` is the layer's from here on. */
 bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Refined refined, Arena *arena,
     Arena *scratch);
+bool code_layer(Layer *layer, int64_t first, int64_t count, Span payload);
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch);
 
 /* Marks of the vertices whose steps follow from whole ones alone; empty: all. */

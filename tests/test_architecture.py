@@ -66,7 +66,7 @@ FLOORS = {
     "engine": (
         ("bsmdec", "arithmetic", "costs"),
         ("context", "pool"),
-        ("wire",),
+        ("payloads", "wire"),
         ("coding", "maps", "zstd"),
         ("corners", "header", "metadata"),
         ("declaration", "grid", "layer", "order", "packet", "structure"),
@@ -258,7 +258,7 @@ def allowed(importer: str, imported: str) -> bool:
         return library in BITSTREAM_LIBRARIES
     if room == "bsm.codec":
         if imported.startswith("bsm._engine."):
-            return importer == "bsm.codec.decoding"
+            return importer == "bsm.codec.decoding" or imported == "bsm._engine.Field"
         if library == "bsm.bitstream":
             return importer.startswith(KNOW_BYTES) or imported.startswith(KNOWN_TO_ALL)
         return library in CODEC_LIBRARIES and f"{importer}.".startswith(f"{CODEC_LIBRARIES[library]}.")

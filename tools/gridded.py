@@ -12,10 +12,10 @@ import numpy.typing as npt
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
-from bsm.bitstream.fields.corners import MOST_LARGEST, FieldEncoder
-from bsm.bitstream.fields.grid import grid_field, light_field
+from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
-from tools.payloads import FieldDecoder, decode_connectivity
+from bsm.codec.static.ways.grid import grid_field
+from tools.payloads import decode_connectivity
 from tools.surgery import Frames, frames_of, header_entries, header_frame, parse_packet, stream_of
 
 Ints = npt.NDArray[np.int32]
@@ -37,9 +37,9 @@ def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **f
 def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int) -> Frames:
     """Return GRID packets of this many vertices each."""
     frames, first = [], 0
-    encoder = FieldEncoder((light_field if light else grid_field)(faces, len(values), largest), values)
+    field = grid_field(faces, largest, values, light)
     for count in counts:
-        frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + encoder.chunk(count)))
+        frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + field.write(count)[0]))
         first += count
     return frames
 
@@ -52,10 +52,10 @@ def lightened(stream: bytes, *counts: int) -> bytes:
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
     faces = decode_connectivity(data, vertices, of_faces)
     chunks: list[Any] = [parse_packet(kind, payload) for kind, payload in frames if kind == FrameType.GRID]
-    decoder, values = FieldDecoder(grid_field(faces, vertices, largest)), np.zeros((vertices, 3), np.int32)
+    values = np.zeros((vertices, 3), np.int32)
+    field = grid_field(faces, largest, values)
     for chunk in chunks:
-        known, coded = decoder.chunk(chunk.data, chunk.count)
-        values[known] = coded
+        values = field.read(chunk.data, chunk.count)
     coded_again = grid_frames(faces, values, counts or [chunk.count for chunk in chunks], largest, light=1)
     place = next(i for i, (kind, _) in enumerate(frames) if kind == FrameType.GRID)
     behind = [frame for frame in frames[place:] if frame[0] != FrameType.GRID]

@@ -15,8 +15,8 @@ from bsm.bitstream.connectivity.partition import code_labels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder
-from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
-from bsm.bitstream.fields.corners import Corners, Field
+from bsm.bitstream.errors import CorruptError, TruncatedError
+from bsm.bitstream.fields.corners import Corners
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import CONNECTIVITY, NEED
 from tools.surgery import Cursor
@@ -58,34 +58,6 @@ def decode_connectivity(payload: bytes, vertices: int, faces: int, limits: Limit
     decoder.push(np.frombuffer(stream, np.uint8))
     decoder.next(1 << NEED | 1 << CONNECTIVITY)
     return decoder.faces(faces)
-
-
-class FieldDecoder:
-    """Reads the values of a field, chunk after chunk."""
-
-    def __init__(self, field: Field) -> None:
-        self._state, self._next = field.start(), 0
-
-    @property
-    def order(self) -> Ints:
-        return self._state.order
-
-    def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
-        """Return the next `count` of `order`, and their values."""
-        first = self._next
-        if not 0 < count <= len(self.order) - first:
-            raise OptionError(f"a chunk of {count} where {len(self.order) - first} are left")
-        self._next = len(self.order)  # nothing can be read behind an error
-        coder = start_reading(payload)
-        done = self._state.code(coder, first, count)
-        if overran(coder):
-            raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
-        if done < count:
-            raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
-        finish_reading(coder)
-        self._next = first + count
-        which = self.order[first : first + count].copy()
-        return which, self._state.values[which]
 
 
 def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> Ints:

@@ -4,13 +4,13 @@
 
 #include "bitstream/fields/fields.h"
 
-/* Values of attributes on vertices. See values.py, values.c, and for each kind scalars.c, texcoords.c, normals.c. */
+/* Values of attributes on vertices. See values.c, and for each kind scalars.c, texcoords.c, normals.c. */
 enum {
     MOST_COMPONENTS = 4,
     BASES = 4, /* classes by number of known edges: 0 to 3 or more */
 };
 
-/* As Python keeps it; n vertices of c components. */
+/* n vertices of c components. */
 typedef struct {
     ConstInts largest;   /* c: values of each component are 0 .. largest, below 2^20 */
     ConstInts order;     /* n: vertices as they are coded */
@@ -82,8 +82,8 @@ int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
 int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
 int64_t square_root(uint64_t x);
 
-/* Values of attributes on faces. See values.py and faces.c. */
-/* As Python keeps it; m faces of c components. */
+/* Values of attributes on faces. See faces.c. */
+/* m faces of c components. */
 typedef struct {
     ConstInts largest; /* c: values of each component are 0 .. largest, below 2^20 */
     Ints2 values;      /* m x c */

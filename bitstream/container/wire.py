@@ -61,6 +61,11 @@ def write_varint(value: int) -> bytes:
     return bytes(out)
 
 
+def with_lengths(payloads: list[bytes]) -> bytes:
+    """Payloads one after the other, each but the last with its length before it."""
+    return b"".join(write_varint(len(payload)) + payload for payload in payloads[:-1]) + payloads[-1]
+
+
 def checksum_size(frame_type: int, length: int) -> int:
     """Bytes of checksum behind a frame of so much payload: two for blocks and short ones, four for everything else."""
     return 2 if frame_type == FrameType.BLOCK or length < SHORT else 4

@@ -65,7 +65,6 @@ enum {
     VALUE_BYTES = 160, /* more than a value can take */
 };
 
-/* As Python keeps it. */
 typedef struct {
     Words slots;   /* CONTEXTS x CONTEXT_SIZE x VALUE_NODES */
     Words hits;    /* HIT_CONTEXTS x MODEL_ROW: how often a prediction is exact */
@@ -265,7 +264,6 @@ extern INSIDE const int16_t ODDS[ODDS_SIZE];
 extern INSIDE const int16_t LESS[ODDS_SIZE];
 
 /* Positions on a grid. See grid.simd.c. */
-/* As Python keeps it. */
 typedef struct {
     ConstInts largest; /* 3: values of each axis are 0 .. largest, below 2^20 */
     ConstInts order;   /* n: vertices as they are coded */
@@ -287,7 +285,6 @@ enum {
     LIGHT_SLOTS = LIGHT_SIZES * LIGHT_SPAN,
 };
 
-/* As Python keeps it. */
 typedef struct {
     ConstInts largest; /* 3: values of each axis are 0 .. largest, below 2^20 */
     Ints2 values;      /* n x 3 */
@@ -309,7 +306,7 @@ int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 l
     ConstLongs2 high, Longs2 chosen);
 
 /* Levels around a prediction. See layer.simd.c. */
-/* As Python keeps it; each n x 3 but the last. */
+/* Each n x 3 but the last. */
 typedef struct {
     Ints2 levels; /* at most 2^20 in magnitude */
     Ints2 gaps;   /* level less guess, in 1/16 */

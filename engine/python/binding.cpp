@@ -1,7 +1,9 @@
 // bsmdec as a class of Python. Arrays are numpy's own; nothing is decoded under the interpreter's lock.
 #include <cstring>
 #include <memory>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -10,6 +12,7 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
 extern "C" {
@@ -331,11 +334,123 @@ class Decoder {
     }
 };
 
+template <typename T, int64_t columns> using Rows = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
+template <typename T> using Row = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Table = nb::ndarray<const int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+// Writes or reads the values of one field, chunk after chunk.
+class Field {
+  public:
+    Field(Rows<int32_t, 3> faces, Table values) : faces(faces), values(values) {
+        bsmdec_limits bounds;
+        bsmdec_default_limits(&bounds, sizeof bounds);
+        for (const auto &limit : LIMITS) bounds.*limit.field = 1e300;
+        bsmdec_options options = {};
+        options.size = sizeof options;
+        options.limits = &bounds;
+        writer = bsmdec_open(&options);
+        if (writer == nullptr) throw std::bad_alloc();
+    }
+    ~Field() { bsmdec_close(writer); }
+    Field(const Field &) = delete;
+
+    void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact) {
+        if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows()))
+            throw nb::value_error("a grid has three axes");
+        begin([&] {
+            return write_grid(writer, given(), largest.data(), light, origin.data(), step, exact ? exact->data() : nullptr);
+        });
+    }
+    void levels() {
+        if (values.shape(1) != 3) throw nb::value_error("levels have three axes");
+        begin([&] { return write_levels(writer, given()); });
+    }
+    void attribute(nb::bytes declaration, int64_t vertices, Row<int32_t> at, std::optional<Rows<int32_t, 3>> places) {
+        if ((at.size() > 0 && at.size() != rows()) || (places && (int64_t)places->shape(0) != vertices))
+            throw nb::value_error("rows and vertices do not fit together");
+        kept = nb::make_tuple(at, places);
+        begin([&] {
+            return write_values(writer, given(), (const uint8_t *)declaration.c_str(), (int64_t)declaration.size(),
+                vertices, at.size() > 0 ? at.data() : nullptr, places ? places->data() : nullptr);
+        });
+    }
+
+    // The payloads of the next rows.
+    nb::list write(int64_t count) {
+        if (count < 1 || count > (int64_t)rows() - next) throw nb::value_error("so many rows are not left");
+        Writing writing = {};
+        writing.room = 1024 + 160 * count * (int64_t)(values.shape(1) + 4);
+        std::unique_ptr<uint8_t[]> data(new uint8_t[(size_t)writing.room]);
+        writing.data = data.get();
+        code(count, nullptr, 0, &writing);
+        nb::list payloads;
+        for (int i = 0; i < writing.count; i++) {
+            int64_t first = i > 0 ? writing.ends[i - 1] : 0;
+            payloads.append(nb::bytes(writing.data + first, (size_t)(writing.ends[i] - first)));
+        }
+        return payloads;
+    }
+
+    // Read the next rows; all values, as far as they are known.
+    nb::object read(nb::bytes payload, int64_t count) {
+        if (count < 1 || count > (int64_t)rows() - next) throw nb::value_error("so many rows are not left");
+        code(count, (const uint8_t *)payload.c_str(), (int64_t)payload.size(), nullptr);
+        return Array<int32_t>(values_of_field(writer), rows(), values.shape(1)).numpy();
+    }
+
+    nb::object order() {
+        const int32_t *all = order_of_field(writer);
+        return all == nullptr ? nb::none() : Array<int32_t>(all, rows()).numpy();
+    }
+
+  private:
+    bsmdec *writer;
+    Rows<int32_t, 3> faces;
+    Table values;
+    nb::object kept;
+    int64_t next = 0;
+
+    size_t rows() const { return values.shape(0); }
+    Written given() const {
+        return {faces.data(), values.data(), (int64_t)faces.shape(0), (int64_t)values.shape(0),
+            (int64_t)values.shape(1)};
+    }
+    void code(int64_t count, const uint8_t *payload, int64_t size, Writing *writing) {
+        int64_t first = next;
+        next = (int64_t)rows(); // nothing goes on after an error
+        begin([&] { return code_chunk(writer, first, count, payload, size, writing); });
+        next = first + count;
+    }
+    template <typename Work> void begin(Work work) {
+        bool done;
+        {
+            nb::gil_scoped_release released;
+            done = work();
+        }
+        if (done) return;
+        const bsmdec_error &error = *bsmdec_last_error(writer);
+        nb::module_ limits = nb::module_::import_("bsm.bitstream.limits");
+        nb::object found = limits.attr("decoder_error")((int)error.status, text_of(error.message), -1, -1, -1,
+            limits.attr("DEFAULT_LIMITS"), nb::make_tuple(0, 0, 0, 0, 0, 0, 0));
+        PyErr_SetObject((PyObject *)Py_TYPE(found.ptr()), found.ptr());
+        throw nb::python_error();
+    }
+};
+
 }  // namespace
 
 NB_MODULE(_engine, m) {
     nb::set_leak_warnings(false); /* the traceback of an error keeps its decoder until the process ends */
     m.attr("version") = BSM_VERSION;
+    nb::class_<Field>(m, "Field")
+        .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
+        .def("grid", &Field::grid, "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none())
+        .def("levels", &Field::levels)
+        .def("attribute", &Field::attribute, "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
+        .def("write", &Field::write, "count"_a, nb::sig("def write(self, count: int) -> list[bytes]"))
+        .def("read", &Field::read, "payload"_a, "count"_a,
+            nb::sig("def read(self, payload: bytes, count: int) -> numpy.typing.NDArray[numpy.int32]"))
+        .def_prop_ro("order", &Field::order, nb::sig("def order(self) -> typing.Any"));
     nb::class_<Decoder>(m, "Decoder")
         .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1,
             "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)

@@ -2,7 +2,10 @@
 #ifndef BSMDEC_PYTHON_H
 #define BSMDEC_PYTHON_H
 
+#include <stdbool.h>
+
 #include "engine/bsmdec.h"
+#include "engine/payloads.h"
 
 /* Bytes read, work charged and vertices of all faces so far; then what limits on work and memory count: vertices that
  * are present and of frames shown, vertices in memory, bytes received, and bytes of memory that are kept. */
@@ -17,5 +20,24 @@ void decoder_header(const bsmdec *decoder, double *numbers);
  * whose name is returned, domain, semantic, kind, components, rows, coding, whether it moves. Type -1: none. */
 enum { SKIMMED_NUMBERS = 18 };
 const char *decoder_skim(bsmdec *decoder, int64_t *numbers);
+
+/* Faces, and values of each vertex, or of each row of an attribute; all arrays stay with the caller. */
+typedef struct {
+    const int32_t *faces, *values;
+    int64_t faces_count, rows, columns;
+} Written;
+
+/* Begin a field: positions on a grid, of floats in its cells also `exact` ones; levels; values of an attribute on rows
+ * at vertices, with their places on a grid or NULL. An error is that of the decoder, which does nothing else. */
+bool write_grid(bsmdec *decoder, Written given, const int32_t *largest, int light, const double *origin, double step,
+    const double *exact);
+bool write_levels(bsmdec *decoder, Written given);
+bool write_values(bsmdec *decoder, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
+    const int32_t *at, const int32_t *places);
+/* Write the payloads of rows, or, without `writing`, read that of one kind of values. */
+bool code_chunk(bsmdec *decoder, int64_t first, int64_t count, const uint8_t *payload, int64_t size, Writing *writing);
+/* The rows in the order of coding, all of them (NULL: as they are numbered), and the first kind of values. */
+const int32_t *order_of_field(const bsmdec *decoder);
+const int32_t *values_of_field(const bsmdec *decoder);
 
 #endif

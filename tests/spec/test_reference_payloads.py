@@ -20,13 +20,13 @@ from bsm.bitstream._kernels import code_uniform
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.entropy.range_coder import code_unsigned, finish_writing, make_bank, start_writing, unsigned_span
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from bsm.bitstream.fields.grid import MOST_LEVEL, grid_field, levels_field, spread
+from bsm.bitstream.fields.grid import spread
 from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import compact
-from tests.bitstream.fields.fields import KINDS, SOUPS, encode, values
+from tests.bitstream.fields.fields import KINDS, SOUPS, encode, field_of, values
 from tools import field_tables
-from tools.payloads import FieldDecoder, decode_connectivity
+from tools.payloads import decode_connectivity
 
 SPEC = Path(__file__).parents[2] / "spec"
 CONNECTIVITY, FIELDS = ((SPEC / f"core-{name}.md").read_text() for name in ("2-connectivity", "4-fields"))
@@ -162,8 +162,8 @@ def read(chunk: Callable[[bytes, int], Any], chunks: list[tuple[bytes, int]]) ->
 
 
 def product(field) -> Callable[[bytes, int], Any]:
-    decoder = FieldDecoder(field)
-    return lambda payload, count: [array.tolist() for array in decoder.chunk(payload, count)]
+    read = field.reader()
+    return lambda payload, count: [array.tolist() for array in read(payload, count)]
 
 
 def plain(reader: Any) -> Callable[[bytes, int], Any]:
@@ -189,20 +189,20 @@ def test_grids(mesh, largest, kind, seed, chunk, data):
     faces, vertices = mesh
     if not vertices:
         return
-    field = grid_field(faces, vertices, largest)
-    assert reference.Mesh(faces.tolist(), vertices, True).order == FieldDecoder(field).order.tolist()
+    field = field_of("grid", faces, vertices, largest)
+    assert reference.Mesh(faces.tolist(), vertices, True).order == field.order().tolist()
     positions = values(vertices, (0, 0, 0), largest, kind, seed)
     check_field(field, positions, chunk, data, lambda: reference.GridReader(faces.tolist(), vertices, list(largest)))
 
 
 @quick
-@given(SOUPS, st.sampled_from([1, 9, MOST_LEVEL]), KINDS, SEEDS, CHUNKS, st.data())
+@given(SOUPS, st.sampled_from([1, 9, 1 << 20]), KINDS, SEEDS, CHUNKS, st.data())
 def test_levels(mesh, most, kind, seed, chunk, data):
     faces, vertices = mesh
     if not vertices:
         return
     given = values(vertices, [-most] * 3, [most] * 3, kind, seed)
-    field = levels_field(faces, vertices)
+    field = field_of("levels", faces, vertices)
     check_field(field, given, chunk, data, lambda: reference.LevelsReader(faces.tolist(), vertices))
 
 

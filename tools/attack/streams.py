@@ -34,11 +34,11 @@ from bsm.bitstream.container.packets import WRITERS
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
-from bsm.bitstream.fields.corners import FieldEncoder, corners_of
-from bsm.bitstream.fields.grid import levels_field
+from bsm.bitstream.fields.corners import corners_of
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.attributes.levels import PieceEncoder, surface_of
+from bsm.codec.static.attributes.levels import field_of, surface_of, write_values
+from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 from tools.vectors.meshes import torus
@@ -183,11 +183,11 @@ def _layers(rows: int, columns: int, chunk: int) -> bytes:
         _faces(coded),
         *_blocks(blocks, 1),
     ]
-    encoder = FieldEncoder(levels_field(coded.faces, size), np.zeros((size, 3), np.int32))
+    encoder = levels_field(coded.faces, np.zeros((size, 3), np.int32))
     for first in range(0, size, chunk):
         count = min(chunk, size - first)
         place = write_varint(first) + write_varint(count)
-        frames.append((FrameType.REFINEMENT, place + encoder.chunk(count)))
+        frames.append((FrameType.REFINEMENT, place + encoder.write(count)[0]))
     return stream_of(frames)
 
 
@@ -359,10 +359,10 @@ def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fi
         if declaration.rows == 0:
             continue
         surface = surface_of(declaration.domain, shape.faces, rows * columns, 0, None)
-        encoder = PieceEncoder(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None)
+        encoder = field_of(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None)
         for first in range(0, size, chunk):
             some = min(chunk, size - first)
-            chunks.append(_written(packets.Values(index, first, some, encoder.chunk(some))))
+            chunks.append(_written(packets.Values(index, first, some, write_values(encoder, some))))
     return declared, chunks
 
 

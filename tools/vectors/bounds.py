@@ -14,11 +14,10 @@ from bsm.bitstream.connectivity.faces import RARE_HEADER, code_rare, encode_conn
 from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map
 from bsm.bitstream.entropy import range_coder as entropy
-from bsm.bitstream.fields.corners import FieldEncoder
-from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
+from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
 from tools.surgery import frames_of, header_frame, stream_of, with_header, write_stream
 from tools.vectors.bad import Bad
@@ -112,7 +111,7 @@ def _levels(mesh: TriangleMesh, seed: int, growth: int) -> bytes:
         for v in range(size):
             grown = growth * levels[first[v]]
             levels[v] = np.where(abs(grown) <= 1 << 20, grown, levels[v] >> 15) if first[v] < v else levels[v] >> 15
-    data = FieldEncoder(levels_field(faces, size), levels.astype(np.int32)).chunk(size)
+    data = levels_field(faces, levels.astype(np.int32)).write(size)[0]
     header = replace(made.draft.header, refinement=(2.0**-20, 3.0))
     return write_stream([header, *made.draft.body, Refinement(0, size, data)])
 
@@ -127,7 +126,7 @@ def _grown(growth: int) -> bytes:
     """Return separate triangles whose second levels are a multiple of the first."""
     made = base(together(*[triangle()] * 24))
     levels = np.tile([[300] * 3, [300 * growth] * 3, [150 * growth * (1 + growth)] * 3], (24, 1)).astype(np.int32)
-    data = FieldEncoder(levels_field(made.prepared.mesh.faces, 72), levels).chunk(72)
+    data = levels_field(made.prepared.mesh.faces, levels).write(72)[0]
     header = replace(made.draft.header, refinement=(2.0**-20, 3.0))
     return write_stream([header, *made.draft.body, Refinement(0, 72, data)])
 

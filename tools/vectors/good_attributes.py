@@ -10,8 +10,6 @@ import numpy as np
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Attribute as Declared
 from bsm.bitstream.container.packets import Packet, Refinement, Values
-from bsm.bitstream.fields.corners import FieldEncoder
-from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
@@ -21,6 +19,7 @@ from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
+from bsm.codec.static.ways.grid import levels_field
 from tools.surgery import write_stream
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import LAYER, soup
@@ -130,7 +129,7 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     levels = made.wanted(made.expected_steps(LAYER))[0]
     levels[count:], levels[:, 1:] = 0, 0  # of a layer that ends early, heights alone count
     draft = made.refined(LAYER, levels, made.moved(LAYER, levels, made.known_steps(LAYER, levels)))
-    layer = Refinement(0, count, FieldEncoder(levels_field(made.prepared.mesh.faces, len(levels)), levels).chunk(count))
+    layer = Refinement(0, count, levels_field(made.prepared.mesh.faces, levels).write(count)[0])
     body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)
     return with_values(encoder, replace(draft, body=body), 1000)
 

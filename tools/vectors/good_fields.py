@@ -9,12 +9,11 @@ import numpy as np
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
-from bsm.bitstream.fields.corners import FieldEncoder
-from bsm.bitstream.fields.grid import grid_field, levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.blocks import RefinementBase, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.ways.grid import grid_field, levels_field
 from tools.gridded import gridded
 from tools.surgery import scan, stream_of, with_header, write_stream
 from tools.vectors.good import BASE, Good
@@ -47,12 +46,11 @@ def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) ->
     places = np.rint((draft.decoded - np.array(header.center)) / header.scale).astype(np.int32)
     connectivity = draft.body[0]
     prepared = Encoder(mesh, EncodeOptions(grid=8))
-    field = grid_field(prepared.mesh.faces, len(places), (cells, cells, cells))
-    coder = FieldEncoder(field, places)
+    coder = grid_field(prepared.mesh.faces, (cells, cells, cells), places)
     packets: list[Packet] = [replace(header, grid=(cells, cells, cells), lattice=()), connectivity]
     first = 0
     for count in counts:
-        packets.append(Grid(first, count, coder.chunk(count)))
+        packets.append(Grid(first, count, coder.write(count)[0]))
         first += count
     return write_stream(packets)
 
@@ -69,9 +67,9 @@ def refined(mesh: TriangleMesh, layer: Layer, counts: tuple[int, ...]) -> bytes:
     header = replace(made.draft.header, refinement=(layer.step, layer.ratio))
     packets: list[Packet] = [header, *made.draft.body]
     levels, first = made.wanted(made.expected_steps(layer))[0], 0
-    coder = FieldEncoder(levels_field(made.prepared.mesh.faces, len(levels)), levels)
+    coder = levels_field(made.prepared.mesh.faces, levels)
     for count in counts:
-        packets.append(Refinement(first, count, coder.chunk(count)))
+        packets.append(Refinement(first, count, coder.write(count)[0]))
         first += count
     return write_stream(packets)
 

@@ -29,15 +29,16 @@ from bsm.codec.look.measure import of_length_1, painted
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.levels import (
     KINDS,
-    PieceEncoder,
     Surface,
     Words,
+    field_of,
     leans,
     quantized,
     recomputed,
     restored,
     surface_of,
     to_pieces,
+    write_values,
 )
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
@@ -107,8 +108,8 @@ class PreparedAttribute:
         if self.declaration.coding == RECOMPUTED:
             return ()
         pieces = to_pieces(self.declaration, self.levels)
-        encoder = PieceEncoder(self.declaration, self.surface, pieces, places)
-        return tuple(encoder.chunk(count) for _, count in ranges(self.declaration.rows, size))
+        field = field_of(self.declaration, self.surface, pieces, places)
+        return tuple(write_values(field, count) for _, count in ranges(self.declaration.rows, size))
 
 
 def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:

@@ -1,17 +1,17 @@
 """An attribute's values: where they are, their levels, and the numbers that are coded, in one piece or two."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from bsm._engine import Field
 from bsm.bitstream.attributes import values as coders
 from bsm.bitstream.attributes.seams import Joins
-from bsm.bitstream.container.header import BITS, COLOR, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration
-from bsm.bitstream.container.wire import write_varint
+from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration, entries_of
+from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError, TargetError
-from bsm.bitstream.fields.corners import Field, FieldEncoder
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
 
@@ -32,16 +32,6 @@ class Surface:
 
     faces: Faces
     vertices: Indices
-
-    @property
-    def places(self) -> Indices:
-        """Equal numbers for values at the same vertex, shape (k,)."""
-        apart = np.iinfo(np.int32).max - np.arange(len(self.vertices), dtype=np.int32)
-        return np.where(self.vertices < 0, apart, self.vertices).astype(np.int32)
-
-    def geometry(self, places: Levels) -> Levels:
-        """Where values are, given where vertices are, shape (n, 3); those of no vertex at the origin."""
-        return np.where(self.vertices[:, None] < 0, 0, places[self.vertices]).astype(np.int32)
 
 
 def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Joins | None) -> Surface:
@@ -277,14 +267,6 @@ MOST_WHOLE = (1 << 20) - 1  # larger levels are coded in two pieces
 PIECE_BITS = 16
 
 
-def largest_pieces(declaration: Declaration) -> tuple[int, ...]:
-    """Largest value of each number that is coded for a value: of a larger level its upper bits, then the lower ones."""
-    pieces: list[int] = []
-    for largest in declaration.largest:
-        pieces += [largest] if largest <= MOST_WHOLE else [largest >> PIECE_BITS, (1 << PIECE_BITS) - 1]
-    return tuple(pieces)
-
-
 def to_pieces(declaration: Declaration, levels: Words) -> Levels:
     """Levels, shape (k, words), as numbers that are coded, shape (k, pieces)."""
     columns = []
@@ -293,46 +275,23 @@ def to_pieces(declaration: Declaration, levels: Words) -> Levels:
     return np.stack(columns, axis=1).astype(np.int32)
 
 
-def kind_of(declaration: Declaration) -> coders.Kind:
-    """How numbers are predicted."""
-    if declaration.coding == OCTAHEDRAL:
-        return "normal"
-    if declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE:
-        if declaration.semantic == TEXCOORD and declaration.words == 2:
-            return "texcoord"
-        if declaration.semantic == COLOR:
-            return "color"
-    return "plain"
-
-
 def leans(declaration: Declaration) -> bool:
     """Whether numbers are predicted from positions, should these be there."""
-    return declaration.domain != FACE and kind_of(declaration) in ("texcoord", "normal")
+    small = declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE
+    texcoords = small and declaration.semantic == TEXCOORD and declaration.words == 2
+    return declaration.domain != FACE and (texcoords or declaration.coding == OCTAHEDRAL)
 
 
-def _fields(declaration: Declaration, surface: Surface, places: Levels | None) -> list[Field]:
-    """The fields of an attribute, of at most `MOST_COMPONENTS` numbers of each value."""
-    faces, kind = surface.faces, kind_of(declaration)
-    of_groups = [largest_pieces(declaration)[some] for some in _groups(declaration)]
-    if declaration.domain == FACE:
-        return [coders.face_values_field(faces, largest) for largest in of_groups]
-    geometry, size = None if places is None else surface.geometry(places), len(surface.vertices)
-    return [coders.values_field(faces, size, largest, kind, geometry, surface.places) for largest in of_groups]
+def field_of(declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> Field:
+    """The field of the numbers of an attribute, shape (k, pieces), predicted from `places`, shape (n, 3)."""
+    declared = write_map(entries_of(replace(declaration, leans=int(places is not None))))
+    vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
+    field = Field(surface.faces, pieces)
+    field.attribute(declared, vertices if places is None else len(places), surface.vertices, places)
+    return field
 
 
-class PieceEncoder:
-    """Codes the numbers of an attribute, shape (k, pieces)."""
-
-    def __init__(self, declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> None:
-        of_groups = [pieces[:, some] for some in _groups(declaration)]
-        self._coders = list(map(FieldEncoder, _fields(declaration, surface, places), of_groups))
-
-    def chunk(self, count: int) -> bytes:
-        """Code the next `count` values: where there are several groups, each with its length before it."""
-        parts = [coder.chunk(count) for coder in self._coders]
-        return parts[0] if len(parts) == 1 else b"".join(write_varint(len(part)) + part for part in parts)
-
-
-def _groups(declaration: Declaration) -> list[slice]:
-    starts = range(0, len(largest_pieces(declaration)), coders.MOST_COMPONENTS)
-    return [slice(start, start + coders.MOST_COMPONENTS) for start in starts]
+def write_values(field: Field, count: int) -> bytes:
+    """The next `count` values: where there are several payloads, each with its length before it."""
+    payloads = field.write(count)
+    return payloads[0] if len(payloads) == 1 else with_lengths([*payloads, b""])

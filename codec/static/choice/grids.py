@@ -20,7 +20,7 @@ from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate, 
 from bsm.codec.static.choice.shaping import SAMPLE, Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
+from bsm.codec.static.ways.grid import Grid, encode_grid
 
 EXACT_CELLS = 65535  # along the longest side, where floats are exact; from 2^15 to 2^20 bytes are the same within 0.1 %
 PART_OF_CELL = 1.0 / 64.0
@@ -88,7 +88,7 @@ def exact(prepared: Prepared) -> Draft:
     coded = places.astype(np.int32)
     grid = replace(grid, largest=tuple(int(value) for value in coded.max(axis=0)))
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
-    body = (*prepared.before_grid, *encode_exact(prepared.mesh.faces, grid, coded, floats))
+    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, coded, held))
     return Draft(header, body, held, coded)
 
 

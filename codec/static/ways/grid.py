@@ -1,16 +1,17 @@
 """Packets of positions on a grid instead of blocks, and of the layer of refinement on blocks."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from bsm._engine import Field
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import EXACT
-from bsm.bitstream.container.wire import write_varint
-from bsm.bitstream.fields.corners import FieldEncoder
-from bsm.bitstream.fields.grid import Cells, Floats, Numbers, cells_of, grid_field, levels_field, light_field, spread
+from bsm.bitstream.container.wire import with_lengths
+from bsm.bitstream.fields.grid import Cells, cells_of, spread
 from bsm.codec.arrays import Indices, Levels, Positions
 
 FIRST, CHUNK = 1 << 12, 1 << 13
@@ -47,31 +48,37 @@ class Grid:
         }
 
 
-def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:
-    """The packets of coded values, shape (n, 3), between 0 and the grid's largest."""
-    field, size = light_field if grid.light else grid_field, len(coded)
-    encoder = FieldEncoder(field(faces, size, grid.largest), coded)
+def grid_field(
+    faces: Indices, largest: Sequence[int], coded: Levels, light: int = 0, grid: Grid | None = None, exact: Any = None
+) -> Field:
+    """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats in their cells."""
+    field = Field(faces, np.ascontiguousarray(coded, np.int32))
+    origin, step = ((0.0, 0.0, 0.0), 1.0) if grid is None else (grid.origin, grid.step)
+    field.grid(np.array(largest, np.int32), light, np.array(origin, np.float64), step, exact)
+    return field
+
+
+def encode_grid(faces: Indices, grid: Grid, coded: Levels, exact: Positions | None = None) -> list[packets.Grid]:
+    """The packets of coded values, shape (n, 3), between 0 and the grid's largest; of `exact` floats in their cells."""
+    field, size = grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
     starts = [*range(0, min(size, 1)), *range(FIRST, size, CHUNK)]
     counts = [end - start for start, end in pairwise([*starts, size])]
-    return [packets.Grid(start, count, encoder.chunk(count)) for start, count in zip(starts, counts, strict=True)]
-
-
-def encode_exact(faces: Indices, grid: Grid, coded: Levels, floats: Numbers) -> list[packets.Grid]:
-    """The packets of coded values, shape (n, 3), and of the numbers of floats in their cells."""
-    model, order = Floats(grid.largest), grid_field(faces, len(coded), grid.largest).start().order
-    result = []
-    for packet in encode_grid(faces, grid, coded):
-        rows = order[packet.first : packet.first + packet.count]
-        behind = model.encode(coded[rows], grid.cells(coded[rows]), floats[rows])
-        result.append(packets.Grid(packet.first, packet.count, write_varint(len(packet.data)) + packet.data + behind))
-    return result
+    chunks = zip(starts, counts, strict=True)
+    return [packets.Grid(start, count, with_lengths(field.write(count))) for start, count in chunks]
 
 
 LAYER_CHUNK = 1 << 15  # vertices of a frame of refinement
 
 
+def levels_field(faces: Indices, levels: Levels) -> Field:
+    """The field of levels, shape (n, 3)."""
+    field = Field(faces, np.ascontiguousarray(levels, np.int32))
+    field.levels()
+    return field
+
+
 def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:
     """The packets of the layer of refinement, of levels, shape (n, 3)."""
-    encoder, size = FieldEncoder(levels_field(faces, len(levels)), levels), len(levels)
+    field, size = levels_field(faces, levels), len(levels)
     chunks = [(start, min(LAYER_CHUNK, size - start)) for start in range(0, size, LAYER_CHUNK)]
-    return [packets.Refinement(start, count, encoder.chunk(count)) for start, count in chunks]
+    return [packets.Refinement(start, count, *field.write(count)) for start, count in chunks]

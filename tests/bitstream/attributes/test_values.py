@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.values import canonical_levels, octahedral_normals, ring_of_twins, values_field
+from bsm.bitstream.attributes.values import canonical_levels, octahedral_normals
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from tests.bitstream.fields.fields import decode, encode, octahedral_levels, size_of
+from tests.bitstream.fields.fields import decode, encode, field_of, octahedral_levels, size_of
 from tools.measure.grids import rounded, welded
 
 OCTAHEDRA = st.sampled_from([1, 2, 127, MOST_LARGEST // 2])
@@ -29,12 +29,6 @@ def test_levels_of_normals(normals, size):
     assert (np.linalg.norm(np.cross(unit, octahedral_normals(levels, size)), axis=1) < 2.2 / size).all()
 
 
-def test_rings():
-    assert ring_of_twins([5, 3, 5, 5, 9, 3], 6).tolist() == [2, 5, 3, 0, 4, 1]
-    assert ring_of_twins(None, 3).tolist() == [0, 1, 2]
-    assert ring_of_twins(np.empty(0, int), 0).tolist() == []
-
-
 @pytest.mark.real
 @pytest.mark.parametrize(("name", "most"), [("bunny_34834", 3.1), ("fandisk_6475", 1.4)])
 def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
@@ -47,7 +41,7 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
     normals[np.abs(normals).max(axis=1) == 0] = 1
     levels = octahedral_levels(normals, 127)
     at = np.rint(positions / edge * 32).astype(np.int32)
-    field = values_field(faces, len(levels), (254, 254), "normal", at)
+    field = field_of("normal", faces, len(levels), (254, 254), at)
     chunks = encode(field, levels)
     np.testing.assert_array_equal(decode(field, chunks), levels)
     assert 8 * len(chunks[0][0]) / len(levels) < most
@@ -57,4 +51,4 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
 def test_smooth_numbers_of_a_real_mesh_are_small(meshes: Path):
     positions, faces = welded(str(meshes / "static" / "bunny_34834.ply"))
     heights = rounded(positions, 8)[:, :1]
-    assert 8 * size_of(values_field(faces, len(heights), (255,)), heights) / len(heights) < 1.2
+    assert 8 * size_of(field_of("plain", faces, len(heights), (255,)), heights) / len(heights) < 1.2

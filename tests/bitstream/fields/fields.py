@@ -2,15 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.values import _folded, canonical_levels, face_values_field, values_field
-from bsm.bitstream.fields.corners import Field, FieldEncoder
-from bsm.bitstream.fields.grid import grid_field, levels_field, light_field
+from bsm._engine import Field
+from bsm.bitstream.attributes.values import _folded, canonical_levels
+from bsm.bitstream.container.header import (
+    COLOR,
+    FACE,
+    GENERIC,
+    LEVELS,
+    NORMAL,
+    OCTAHEDRAL,
+    TEXCOORD,
+    VERTEX,
+    Declaration,
+)
+from bsm.codec.static.attributes.levels import Surface
+from bsm.codec.static.attributes.levels import field_of as attribute_field
+from bsm.codec.static.ways.grid import grid_field, levels_field
 from tests.shapes import Faces, grid_faces
-from tools.payloads import FieldDecoder
 
 Ints = npt.NDArray[np.int32]
 Chunks = list[tuple[bytes, int]]
@@ -20,15 +35,61 @@ COLUMNS = {"grid": 3, "light": 3, "levels": 3, "texcoord": 2, "normal": 2}
 """Columns of kinds with a fixed number."""
 
 
-def field_of(name: str, faces: Faces, vertices: int, largest, at=None, places=None) -> Field:
-    """The field with this name."""
+@dataclass(frozen=True)
+class Kind:
+    """A kind of field on a mesh, and how it begins."""
+
+    make: Callable[[Ints], Field]
+    rows: int
+    columns: int
+
+    def start(self, given: npt.ArrayLike | None = None) -> Field:
+        """The field of values that are written, or of those that will be read."""
+        return self.make(np.zeros((self.rows, self.columns), np.int32) if given is None else np.array(given, np.int32))
+
+    def order(self) -> Ints:
+        order = self.start().order
+        return np.arange(self.rows, dtype=np.int32) if order is None else order
+
+    def reader(self) -> Callable[[bytes, int], tuple[Ints, Ints]]:
+        """What reads payloads: the rows of each, and their values."""
+        field, order, first = self.start(), self.order(), 0
+
+        def read(payload: bytes, count: int) -> tuple[Ints, Ints]:
+            nonlocal first
+            known, which = field.read(payload, count), order[first : first + count]
+            first += count
+            return which, known[which]
+
+        return read
+
+
+SEMANTICS = {"plain": GENERIC, "faces": GENERIC, "color": COLOR, "texcoord": TEXCOORD, "normal": NORMAL}
+
+
+def field_of(name: str, faces: npt.ArrayLike, vertices: int, largest=(), at=None, places=None) -> Kind:
+    """The field with this name; vertices at equal `places` are one."""
+    table = np.array(faces, np.int32)
     if name == "levels":
-        return levels_field(faces, vertices)
-    if name == "faces":
-        return face_values_field(faces, largest)
+        return Kind(lambda given: levels_field(table, given), vertices, 3)
     if name in ("grid", "light"):
-        return (grid_field if name == "grid" else light_field)(faces, vertices, largest)
-    return values_field(faces, vertices, largest, name, at, places)
+        return Kind(lambda given: grid_field(table, largest, given, int(name == "light")), vertices, 3)
+    of_faces, normal = name == "faces", name == "normal"
+    rows = len(table) if of_faces else vertices
+    declaration = Declaration(
+        name=name,
+        domain=FACE if of_faces else VERTEX,
+        semantic=SEMANTICS[name],
+        coding=OCTAHEDRAL if normal else LEVELS,
+        kind=6 if normal else 5,
+        components=3 if normal else len(largest),
+        rows=rows,
+        largest=tuple(map(int, largest)),
+    )
+    numbers = np.arange(rows) if places is None else np.asarray(places)
+    surface = Surface(table, np.array([] if of_faces else numbers, np.int32))
+    geometry = None if at is None or of_faces else np.array(at, np.int32)
+    return Kind(lambda given: attribute_field(declaration, surface, given, geometry), rows, len(largest))
 
 
 def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
@@ -109,23 +170,23 @@ def values(rows: int, low: npt.ArrayLike, high: npt.ArrayLike, kind: str, seed: 
     return np.clip(drawn, low, high).astype(np.int32)
 
 
-def encode(field: Field, given: npt.ArrayLike, chunk: int = 1 << 30) -> Chunks:
+def encode(kind: Kind, given: npt.ArrayLike, chunk: int = 1 << 30) -> Chunks:
     """All payloads, of `chunk` rows but for the last one, and of how many each is."""
-    encoder, size = FieldEncoder(field, given), len(np.asarray(given))
+    field, size = kind.start(given), kind.rows
     counts = [min(chunk, size - first) for first in range(0, size, chunk)]
-    return [(encoder.chunk(count), count) for count in counts]
+    return [(*field.write(count), count) for count in counts]
 
 
-def decode(field: Field, chunks: Chunks) -> Ints:
+def decode(kind: Kind, chunks: Chunks) -> Ints:
     """What payloads say; -1 where they say nothing."""
-    decoder = FieldDecoder(field)
-    found = np.full((len(decoder.order), len(field.high)), -1, np.int32)
+    read = kind.reader()
+    found = np.full((kind.rows, kind.columns), -1, np.int32)
     for payload, count in chunks:
-        which, decoded = decoder.chunk(payload, count)
+        which, decoded = read(payload, count)
         found[which] = decoded
     return found
 
 
-def size_of(field: Field, given: npt.ArrayLike) -> int:
+def size_of(kind: Kind, given: npt.ArrayLike) -> int:
     """Bytes of all values."""
-    return sum(len(payload) for payload, _ in encode(field, given))
+    return sum(len(payload) for payload, _ in encode(kind, given))

@@ -1,0 +1,15 @@
+/* What is written in place of being read, where BSMDEC_WRITES is defined. */
+#ifndef BSMDEC_PAYLOADS_H
+#define BSMDEC_PAYLOADS_H
+
+#include <stdint.h>
+
+/* Where payloads are written, one after the other, and where each ends. */
+enum { MOST_PAYLOADS = 4 };
+typedef struct Writing {
+    uint8_t *data;
+    int64_t room, size, ends[MOST_PAYLOADS];
+    int count;
+} Writing;
+
+#endif
