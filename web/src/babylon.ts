@@ -31,10 +31,7 @@ class Played implements BabylonSequence {
     readonly playback: Playback;
     private readonly worn = new Map<AbstractMesh, Shape>();
 
-    constructor(
-        rate: number,
-        private readonly decoding: StreamDecoding,
-    ) {
+    constructor(rate: number, private readonly decoding: StreamDecoding) {
         this.playback = new Playback(rate, true);
     }
 
@@ -86,10 +83,7 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     private readonly shapes = new Map<number, Promise<Shape>>();
     private readonly sequences = new Map<number, Played>();
 
-    constructor(
-        private readonly loader: GLTFLoader,
-        private readonly pool: Pool,
-    ) {}
+    constructor(private readonly loader: GLTFLoader, private readonly pool: Pool) {}
 
     dispose(): void {
         this.shapes.clear();

@@ -31,11 +31,7 @@ export class Decoder {
     private readonly shared = new Map<number, SharedBlock>();
     private awaited?: number;
 
-    constructor(
-        kernels: Kernels,
-        limits: Partial<Limits> = {},
-        private readonly wishes: Wishes = {},
-    ) {
+    constructor(kernels: Kernels, limits: Partial<Limits> = {}, private readonly wishes: Wishes = {}) {
         this.engine = new Engine(kernels, limits, wishes.tolerant ?? false);
     }
 

@@ -75,11 +75,9 @@ export interface AttributePicture {
 
 type Show = (picture: Picture, moved?: Transferable[]) => void;
 
-/** Milliseconds between pictures of a mesh that grows. */
 const PAUSE = 30;
 const MOST_NORMAL = 32767;
 
-/** Turns the events of a stream into pictures. */
 export class Drawing {
     private readonly limits: Limits;
     private faces: Int32Array = new Int32Array(0);
@@ -102,29 +100,21 @@ export class Drawing {
     private kept = 0;
     private run = 0;
 
-    constructor(
-        private growing: boolean,
-        limits: Partial<Limits>,
-        private readonly show: Show,
-    ) {
+    constructor(private growing: boolean, limits: Partial<Limits>, private readonly show: Show) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
     }
 
     accept(event: Event): void {
         switch (event.type) {
-            case "header":
-                return event.header.run > 0 ? this.turn(event.header.run) : this.show(event);
-            case "connectivity":
-                return this.begin(event);
+            case "header": return event.header.run > 0 ? this.turn(event.header.run) : this.show(event);
+            case "connectivity": return this.begin(event);
             case "block":
-            case "refinement":
-                return this.grow(event);
+            case "refinement": return this.grow(event);
             case "attribute":
                 this.carried.push(event);
                 if (this.run > 0) return undefined;
                 return this.show({ type: "attribute", name: event.name, semantic: event.semantic, domain: event.domain });
-            case "frame":
-                return this.addFrame(event);
+            case "frame": return this.addFrame(event);
             case "loss":
                 this.flush();
                 return this.show(event);
@@ -133,12 +123,10 @@ export class Drawing {
                 if (event.positions) this.take(event.positions);
                 if (!this.shape) this.finish();
                 return this.show({ ...event, positions: undefined });
-            default:
-                return this.show(event);
+            default: return this.show(event);
         }
     }
 
-    /** A later run begins: its frames are shown when they are there. */
     private turn(run: number): void {
         this.flush();
         [this.run, this.growing] = [run, false];
@@ -147,7 +135,6 @@ export class Drawing {
         [this.carried.length, this.shape] = [0, undefined];
     }
 
-    /** Show what has changed. */
     flush(): void {
         if (!this.growing || this.touched.length + this.drawable.length === 0) return;
         const vertices = Int32Array.from(this.touched);
@@ -207,7 +194,6 @@ export class Drawing {
         if (growing && performance.now() - this.shown > PAUSE) this.flush();
     }
 
-    /** A vertex has moved, for the first time or again. */
     private settle(vertex: number): void {
         const { faces, waiting, origin } = this;
         const { starts, members } = this.around;
@@ -221,7 +207,6 @@ export class Drawing {
         }
     }
 
-    /** The normal of a vertex, from the faces that are there. */
     private renewNormal(vertex: number): void {
         const { faces, waiting, normals, points: p } = this;
         const { starts, members } = this.around;
@@ -250,7 +235,6 @@ export class Drawing {
         return corners;
     }
 
-    /** All vertices are there. */
     private take(positions: Float64Array): void {
         this.points = new Float32Array(positions);
         this.origin.fill(0);
@@ -293,7 +277,6 @@ export class Drawing {
         this.show({ type: "whole", shape, run: this.run }, buffers);
     }
 
-    /** Some of the faces, of a mesh without attributes. */
     private bare(faces: Int32Array): Dress {
         const index = 3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : this.cornersOf(faces);
         return { index, pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [], attributes: [] };

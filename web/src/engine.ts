@@ -34,7 +34,6 @@ export interface RawEvent {
     faces: number;
 }
 
-/** One decoder, in a memory of its own. */
 export class Engine {
     /** Undefined once it is released, or has failed by itself: nothing is called then. */
     private exports?: Exports;
@@ -131,7 +130,6 @@ export class Engine {
         return this.filled(Int32Array, 3 * raw.faces, (at, count) => this.call("page_faces", at, count));
     }
 
-    /** Vertices that no face uses. */
     loose(): Loose {
         const { vertices, positions } = this.changesBy("page_loose");
         return { vertices, positions };
@@ -141,7 +139,6 @@ export class Engine {
         return this.filled(Float64Array, 3 * vertices, (at, count) => this.call("page_positions", at, count));
     }
 
-    /** What has changed since the last call. */
     changes(): Changes {
         return this.changesBy("page_changes");
     }
@@ -181,13 +178,11 @@ export class Engine {
         return Array.from({ length: LAST_ATTRIBUTE + 1 }, (_, index) => this.attribute(index, moving)).filter((attribute) => attribute !== undefined);
     }
 
-    /** The block that this one, a helper, has decoded. */
     handed(index: number): SharedBlock {
         const [count, vertices, positions, weights] = this.rows("page_handed");
         return { index, block: { vertices: new Int32Array(this.buffer, vertices, count).slice(), positions: this.doubles(positions, 3 * count), weights: this.doubles(weights, count) } };
     }
 
-    /** Add a block that a helper has decoded. */
     add({ index, block }: SharedBlock): void {
         if (!block) return void this.call("page_lose", index);
         const [, vertices, positions, weights] = this.rows("page_room", block.vertices.length);
@@ -249,7 +244,6 @@ export class Engine {
         return TEXTS.decode(bytes.slice(0, bytes.indexOf(0)));
     }
 
-    /** Run `work` with temporary memory of this many bytes, and return its result. */
     private lent<Result>(size: number, work: (at: number) => Result): Result {
         const at = this.call("page_take", size);
         if (at === 0) throw new LimitError(`this machine has no ${size} bytes of memory for the decoder`);
@@ -260,7 +254,6 @@ export class Engine {
         }
     }
 
-    /** An array that a call fills. */
     private filled<View>(kind: Kind<{ slice(): View }>, count: number, fill: (at: number, count: number) => number): View {
         return this.lent(Math.max(1, count) * kind.BYTES_PER_ELEMENT, (at) => {
             if (fill(at, count) !== 0) throw this.error();

@@ -20,10 +20,7 @@ export class BsmError extends Error {
     override readonly name: string = "BsmError";
     readonly place: Place = {};
 
-    constructor(
-        readonly problem: string,
-        place: Place = {},
-    ) {
+    constructor(readonly problem: string, place: Place = {}) {
         super(problem);
         this.located(place);
     }

@@ -81,19 +81,14 @@ export class BSMGeometry extends BufferGeometry {
             case "metadata":
                 picture.entries.forEach((value, name) => this.metadata.set(name, value));
                 return this.progress.onMetadata?.(picture.entries, this);
-            case "begun":
-                return this.begin(picture);
-            case "grown":
-                return this.grow(picture);
+            case "begun": return this.begin(picture);
+            case "grown": return this.grow(picture);
             case "whole":
                 this.coming = picture.shape;
                 return picture.run === 0 ? this.take(picture.shape) : undefined;
-            case "attribute":
-                return void this.carried.push(picture);
-            case "frame":
-                return this.keep(picture);
-            case "loss":
-                return this.lose(picture);
+            case "attribute": return void this.carried.push(picture);
+            case "frame": return this.keep(picture);
+            case "loss": return this.lose(picture);
         }
     }
 
@@ -185,7 +180,6 @@ export class BSMGeometry extends BufferGeometry {
         this.progress.onFrame?.(index, this);
     }
 
-    /** Where frames are lost, the one before them stays. */
     private lose({ frames }: LossEvent): void {
         const before = this.frames.at(-1);
         for (let k = 0; before && k < (frames?.count ?? 0); k++) this.frames.push(before);

@@ -18,10 +18,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
     /** Sequences by their streams. */
     private readonly sequences = new Map<number, BSMSequence>();
 
-    constructor(
-        private readonly parser: GLTFParser,
-        private readonly pool: Pool = (shared ??= new Pool()),
-    ) {}
+    constructor(private readonly parser: GLTFParser, private readonly pool: Pool = (shared ??= new Pool())) {}
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
     loadBufferView(index: number): Promise<ArrayBuffer> | null {

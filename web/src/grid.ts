@@ -49,11 +49,7 @@ export class Grid {
     private readonly frame: Doubles;
     private coded = 0;
 
-    constructor(
-        private readonly memory: Memory,
-        faces: Ints,
-        private readonly header: Header,
-    ) {
+    constructor(private readonly memory: Memory, faces: Ints, private readonly header: Header) {
         const { vertices: size, corner, center, scale } = header;
         this.places = memory.doubles(3 * size, 3);
         this.places.view.fill(0);

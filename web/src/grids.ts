@@ -33,10 +33,7 @@ export class Decoder {
     private grid?: Grid;
     private chunks = 0;
 
-    constructor(
-        private readonly kernels: Kernels,
-        limits: Partial<Limits> = {},
-    ) {
+    constructor(private readonly kernels: Kernels, limits: Partial<Limits> = {}) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
         this.memory = new Memory(kernels.borrow(), this.limits.memory);
         this.budget = new Budget(this.limits);
@@ -90,16 +87,11 @@ export class Decoder {
 
     private accept(packet: Packet): void {
         switch (packet.type) {
-            case "header":
-                return this.acceptHeader(packet.header);
-            case "metadata":
-                return void this.queue.push(packet);
-            case "connectivity":
-                return this.acceptConnectivity(packet.data);
-            case "order":
-                return this.acceptOrder(packet.data);
-            case "grid":
-                return this.acceptGrid(packet.first, packet.count, packet.data);
+            case "header": return this.acceptHeader(packet.header);
+            case "metadata": return void this.queue.push(packet);
+            case "connectivity": return this.acceptConnectivity(packet.data);
+            case "order": return this.acceptOrder(packet.data);
+            case "grid": return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
                 this.check(packet.positions);
                 this.queue.push({ type: "end", missing: new Int32Array(0), degraded: new Int32Array(0) });

@@ -82,20 +82,13 @@ class MapReader {
             return type === "int" ? { type, value } : type === "string" ? this.text(value) : { type, value: this.bytes(value) };
         }
         switch (tag) {
-            case 0xcf:
-                return this.large(this.view.getBigUint64(this.take(8)), (v) => v >= 1n << 32n);
-            case 0xd0:
-                return this.negative(this.view.getInt8(this.take(1)), -32);
-            case 0xd1:
-                return this.negative(this.view.getInt16(this.take(2)), -128);
-            case 0xd2:
-                return this.negative(this.view.getInt32(this.take(4)), -32768);
-            case 0xd3:
-                return this.large(this.view.getBigInt64(this.take(8)), (v) => v < -(1n << 31n));
-            case 0xca:
-                return { type: "float", value: this.finite(this.view.getFloat32(this.take(4))) };
-            case 0xcb:
-                return this.double();
+            case 0xcf: return this.large(this.view.getBigUint64(this.take(8)), (v) => v >= 1n << 32n);
+            case 0xd0: return this.negative(this.view.getInt8(this.take(1)), -32);
+            case 0xd1: return this.negative(this.view.getInt16(this.take(2)), -128);
+            case 0xd2: return this.negative(this.view.getInt32(this.take(4)), -32768);
+            case 0xd3: return this.large(this.view.getBigInt64(this.take(8)), (v) => v < -(1n << 31n));
+            case 0xca: return { type: "float", value: this.finite(this.view.getFloat32(this.take(4))) };
+            case 0xcb: return this.double();
         }
         throw new CorruptError(`a map may not hold a value that begins with byte ${tag} here`);
     }

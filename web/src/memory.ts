@@ -38,7 +38,6 @@ export class Place<View extends Numbers> {
         return (this.numbers = new this.kind(buffer, this.pointer, this.length));
     }
 
-    /** How many rows it has. */
     get rows(): number {
         return this.columns === undefined ? this.length : this.columns && this.length / this.columns;
     }
@@ -63,15 +62,11 @@ const MISUSED = -(2n ** 63n);
 
 /** A stack of arrays, and the kernels that take them. */
 export class Memory {
-    /** All of it; another one whenever it grows. */
     buffer: ArrayBuffer;
     private readonly frame: number;
     private top: number;
 
-    constructor(
-        readonly exports: Exports,
-        private readonly limit: number,
-    ) {
+    constructor(readonly exports: Exports, private readonly limit: number) {
         this.buffer = exports.memory.buffer;
         this.frame = align((exports.__heap_base as WebAssembly.Global).value as number);
         this.top = this.frame + ARGUMENT_BYTES;
@@ -79,7 +74,6 @@ export class Memory {
         this.run("make_tables");
     }
 
-    /** Bytes in use. */
     get size(): number {
         return this.top;
     }
@@ -88,7 +82,6 @@ export class Memory {
         return this.top;
     }
 
-    /** Give back everything that was allocated since `mark`. */
     release(mark: number): void {
         this.top = mark;
     }
@@ -123,21 +116,18 @@ export class Memory {
         return this.place(Float64Array, length, columns);
     }
 
-    /** An array with the numbers of `values`. */
     copy(values: ArrayLike<number>, columns?: number): Doubles {
         const place = this.doubles(values.length, columns);
         place.view.set(values);
         return place;
     }
 
-    /** Call a kernel that returns an int64. */
     call(name: string, ...args: Argument[]): number {
         const result = this.invoke(name, args);
         if (result === MISUSED) throw new RangeError(`arrays that do not fit together were given to ${name}`);
         return Number(result);
     }
 
-    /** Call a kernel that returns a double, a bool or nothing. */
     run(name: string, ...args: Argument[]): number {
         return Number(this.invoke(name, args) ?? 0);
     }

@@ -16,10 +16,7 @@ export class Playback {
     waiting = true;
 
     /** Frames per second; 0: unknown. */
-    constructor(
-        private readonly given: number,
-        playing: boolean,
-    ) {
+    constructor(private readonly given: number, playing: boolean) {
         this.playing = playing;
     }
 

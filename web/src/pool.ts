@@ -57,23 +57,17 @@ export class Pool {
     private alone = false;
     private warned = false;
 
-    constructor(
-        private readonly source: Source = here,
-        private limit = LIMIT,
-    ) {}
+    constructor(private readonly source: Source = here, private limit = LIMIT) {}
 
-    /** Use at most this many threads. */
     setLimit(limit: number): void {
         this.limit = Math.max(1, limit);
     }
 
-    /** Have a thread and the kernels of a build ready. */
     async preload(build: Build = "small"): Promise<void> {
         if (!this.alone && !this.hands.some((hand) => hand.build === build)) this.start(build);
         await this.source.kernels(build);
     }
 
-    /** Begin with a stream. */
     open(listener: Listener, wishes: StreamWishes = {}): StreamDecoding {
         const stream = new PooledStream(listener, wishes, {
             begin: (stream, need) => void this.begin(stream, need),
@@ -163,7 +157,6 @@ export class Pool {
         return hand;
     }
 
-    /** Do without threads. */
     private settle(): undefined {
         this.alone = true;
         if (!this.warned && typeof Worker !== "undefined") console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
@@ -183,7 +176,6 @@ export class Pool {
         if (!hand.ready) for (const stream of [...streams, ...this.waiting.splice(0)]) void this.stay(stream);
     }
 
-    /** Decode in this thread. */
     private async stay(stream: PooledStream): Promise<void> {
         const task = (stream.task = this.task++);
         const local = await this.source.local(stream.need.build).catch((error: unknown) => stream.fail(new Error(`${error}`)));
@@ -218,7 +210,6 @@ interface Places {
 /** A stream of a pool. All that came is kept until its end, for a build that knows more. */
 class PooledStream implements StreamDecoding {
     closed = false;
-    /** Whether something was heard of it. */
     begun = false;
     task = -1;
     need: Need = { build: "whole", vertices: 0 };
@@ -228,11 +219,7 @@ class PooledStream implements StreamDecoding {
     private kernels?: WebAssembly.Module;
     private say?: (message: Message, moved: Transferable[]) => void;
 
-    constructor(
-        private readonly listener: Listener,
-        readonly wishes: StreamWishes,
-        private readonly places: Places,
-    ) {}
+    constructor(private readonly listener: Listener, readonly wishes: StreamWishes, private readonly places: Places) {}
 
     receiveData(data: Uint8Array): void {
         this.take(data);
@@ -256,12 +243,10 @@ class PooledStream implements StreamDecoding {
         this.listener.onError(error);
     }
 
-    /** Be decoded by kernels that are there. */
     prepare(kernels: WebAssembly.Module, need: Need): void {
         [this.kernels, this.need] = [kernels, need];
     }
 
-    /** Have a thread decode the stream. */
     work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
         const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
         const { kernels, reported } = this;

@@ -44,10 +44,7 @@ export class Reader {
     private started = false;
     private error?: BsmError;
 
-    constructor(
-        private readonly limits: Limits,
-        private readonly charge: Charge,
-    ) {}
+    constructor(private readonly limits: Limits, private readonly charge: Charge) {}
 
     /** Take more bytes of the stream, any number of them. */
     receiveData(data: Uint8Array): void {

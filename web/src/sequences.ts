@@ -32,10 +32,7 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
     private now = 0;
     private wasWaiting = false;
 
-    constructor(
-        readonly geometry: BSMGeometry,
-        playing = true,
-    ) {
+    constructor(readonly geometry: BSMGeometry, playing = true) {
         super();
         this.playback = new Playback(geometry.frameRate, playing);
     }

@@ -11,10 +11,8 @@ const MOST = 3;
 /** Vertices from which on more is won than threads cost. */
 export const WORTHWHILE = 8192;
 
-/** What helpers send. */
 export interface TeamListener {
     onBlock: (shared: SharedBlock) => void;
-    /** No more will come. */
     onOver: (why: string) => void;
 }
 
@@ -39,10 +37,7 @@ export class Team {
     private busy = 0;
     private last: Promise<unknown> = Promise.resolve();
 
-    constructor(
-        members: Member[],
-        private readonly worthwhile = WORTHWHILE,
-    ) {
+    constructor(members: Member[], private readonly worthwhile = WORTHWHILE) {
         this.members = [...members];
         for (const member of members) {
             member.onmessage = ({ data }: MessageEvent<Answer>) => this.hear(data);

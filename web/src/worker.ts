@@ -45,7 +45,6 @@ export type Answer = { ready: true } | ({ task: number } & Report);
 
 export type Say = (report: Report, moved?: Transferable[]) => void;
 
-/** One end of a line between threads. */
 export interface Endpoint {
     onmessage: ((event: MessageEvent) => void) | null;
     postMessage(message: unknown, transfer: Transferable[]): void;
@@ -54,7 +53,6 @@ export interface Endpoint {
 /** Takes the bytes of a stream, and null for their end. */
 export interface StreamWorker {
     take(data: Uint8Array | null): void;
-    /** Report nothing more. */
     stop(): void;
 }
 
@@ -104,14 +102,12 @@ export function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {
     };
 }
 
-/** Be a thread: take orders, and answer them. */
 export function serveWith(open: Open): void {
     const end = self as unknown as Endpoint;
     attend(end, open);
     end.postMessage({ ready: true } satisfies Answer, []);
 }
 
-/** What a worker needs of a decoder. */
 export interface Decoding {
     receiveData(data: Uint8Array): void;
     receiveEof(): void;
@@ -119,18 +115,13 @@ export interface Decoding {
     release(): void;
 }
 
-/** Reports what a decoder decodes. */
 export class Reporter {
     private readonly drawing?: Drawing;
     private taken = 0;
     /** Events that were reported; below 0 are those that another decoder has reported. */
     private reported: number;
 
-    constructor(
-        private readonly decoder: Decoding,
-        private readonly start: Start,
-        private readonly out: Say,
-    ) {
+    constructor(private readonly decoder: Decoding, private readonly start: Start, private readonly out: Say) {
         const { drawing, limits, reported = 0 } = start;
         this.reported = -reported;
         if (drawing) this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => this.say({ picture }, moved));

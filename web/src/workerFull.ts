@@ -15,15 +15,9 @@ class DecodingWorker implements Taking {
     /** All pieces, until the header tells whether there will be helpers. */
     private pieces?: (Uint8Array | null)[] = [];
     private team?: Team;
-    /** Why no more blocks come. */
     private over?: string;
 
-    constructor(
-        private readonly start: Start,
-        kernels: Kernels,
-        say: Say,
-        private readonly guarded: Guard,
-    ) {
+    constructor(private readonly start: Start, kernels: Kernels, say: Say, private readonly guarded: Guard) {
         const { limits, tolerant, drawing } = start;
         const whole = drawing === "whole" && !tolerant;
         this.decoder = new Decoder(kernels, limits, { tolerant, whole, helpers: (header) => this.findHelpers(header) });
@@ -79,12 +73,7 @@ class DecodingWorker implements Taking {
 class HelpingWorker implements Taking {
     private readonly helper: Helper;
 
-    constructor(
-        { limits, tolerant }: Start,
-        kernels: Kernels,
-        share: Share,
-        private readonly say: Say,
-    ) {
+    constructor({ limits, tolerant }: Start, kernels: Kernels, share: Share, private readonly say: Say) {
         this.helper = new Helper(kernels, share, limits, tolerant);
     }
 

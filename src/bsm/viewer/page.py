@@ -17,7 +17,7 @@ from functools import lru_cache
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from threading import BoundedSemaphore, Condition, Lock
+from threading import Condition, Lock
 from typing import Any, BinaryIO
 from urllib.parse import parse_qs, urlsplit
 
@@ -153,7 +153,6 @@ class Tiled:
 
 LOOPBACK = "127.0.0.1"
 UPLOAD = "/upload"
-_MOST_UPLOADS = 4  # that arrive at a time
 _UPLOAD_TIME, _SLOWEST = 10.0, 1e6  # seconds that any upload has, and bytes per second that give it more
 MOST_BYTES = 64 << 20
 
@@ -221,7 +220,6 @@ class PageServer(ThreadingHTTPServer):
         super().__init__((LOOPBACK, port), _Handler)
         self.content: dict[str, tuple[str, bytes | Growing | Ranged]] = {}
         self.encoding = Lock()
-        self.receiving = BoundedSemaphore(_MOST_UPLOADS)
         self.token = secrets.token_urlsafe(16)  # another user of this machine may reach the port, and does not know it
         entries = []
         for number, content in enumerate(contents):
@@ -262,25 +260,26 @@ class _Handler(BaseHTTPRequestHandler):
     server: PageServer
     timeout = 60.0  # seconds that a page may take to send or receive anything
 
-    def _asked(self) -> str | None:
-        """Return the path after the token; None, and an error to the client, if the request is not from our page."""
+    def parse_request(self) -> bool:
+        """Refuse a request of anything but our page, and leave the path after the token."""
+        if not super().parse_request():
+            return False
         token, _, path = self.path.removeprefix("/").partition("/")
+        self.path = f"/{path}"
         # With another name for this machine, a page of someone else looks for its servers.
-        is_ours = secrets.compare_digest(token.encode(), self.server.token.encode())
-        if is_ours and self.headers.get("Host") == self.server.host:
-            return f"/{path}"
+        if self.headers.get("Host") == self.server.host and secrets.compare_digest(
+            token.encode(), self.server.token.encode()
+        ):
+            return True
         self.send_error(HTTPStatus.FORBIDDEN, explain="Open the whole address that bsm view printed.")
-        return None
+        return False
 
     def do_GET(self) -> None:
         """Answer with the content of a path."""
-        path = self._asked()
-        if path is None:
-            return
-        if path not in self.server.content:
+        if self.path not in self.server.content:
             self.send_error(HTTPStatus.NOT_FOUND)
         else:
-            kind, data = self.server.content[path]
+            kind, data = self.server.content[self.path]
             status = HTTPStatus.OK
             if isinstance(data, Ranged):
                 asked = _RANGE.fullmatch(self.headers.get("Range", ""))
@@ -298,10 +297,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_POST(self) -> None:
         """Encode the mesh of an upload, and say line by line in JSON how far that is."""
-        path = self._asked()
-        if path is None:
-            return
-        url = urlsplit(path)
+        url = urlsplit(self.path)
         asked = parse_qs(url.query)
         length = self.headers.get("Content-Length", "")
         # Pages of others may send here, too, but not in our name.
@@ -313,34 +309,25 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.LENGTH_REQUIRED)
         elif int(length) > MOST_BYTES:
             self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
-        elif not self.server.receiving.acquire(blocking=False):
-            self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "Too many uploads at a time")
+        elif len(data := self._body(int(length))) < int(length):
+            self.close_connection = True  # the page is gone, or too slow
+        elif not self.server.encoding.acquire(timeout=10 * _PATIENCE):  # one that was cancelled ends soon
+            self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
             try:
-                self._encode(asked.get("name", ["mesh"])[0], self._body(int(length)), asked["preset"][0])
-            except OSError:
-                pass  # the page is gone, or too slow
+                self._answer(self._reported(asked.get("name", ["mesh"])[0], data, asked["preset"][0]), "text/plain")
             finally:
-                self.server.receiving.release()
-
-    def _encode(self, name: str, data: bytes, preset: str) -> None:
-        if not self.server.encoding.acquire(timeout=10 * _PATIENCE):  # one that was cancelled ends soon
-            self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
-            return
-        try:
-            self._answer(self._reported(name, data, preset), "text/plain")
-        finally:
-            self.server.encoding.release()
+                self.server.encoding.release()
 
     def _body(self, length: int) -> bytes:
-        """Read the body; an upload that is slower than a slow link is an error, and nothing waits for it meanwhile."""
+        """Read the body as far as it arrives in time; no other upload waits for it."""
         data, end = bytearray(), time.monotonic() + _UPLOAD_TIME + length / _SLOWEST
-        while len(data) < length:
-            self.connection.settimeout(max(end - time.monotonic(), 1e-3))
-            piece = self.rfile.read1(length - len(data))
-            if not piece or time.monotonic() > end:
-                raise ConnectionError("the upload did not arrive")
-            data += piece
+        with suppress(OSError):
+            while len(data) < length and (left := end - time.monotonic()) > 0:
+                self.connection.settimeout(left)
+                if not (piece := self.rfile.read1(length - len(data))):
+                    break
+                data += piece
         self.connection.settimeout(self.timeout)
         return bytes(data)
 

@@ -32,7 +32,6 @@ export interface Content {
     tiles?: string;
 }
 
-/** A term, its value, and more about it. */
 export type Row = [string, string, string?];
 
 export function counted(count: number): string {
@@ -56,7 +55,6 @@ function times(ratio: number): string {
     return ratio.toLocaleString("en", { maximumFractionDigits: ratio < 10 ? 1 : 0 });
 }
 
-/** An element with text, and others in it. */
 export function element(tag: string, text: string, ...inside: Node[]): HTMLElement {
     const made = document.createElement(tag);
     made.textContent = text;

@@ -63,7 +63,6 @@ export class Stage {
     mode: Mode = "one";
     /** The meshes on the left and on the right, by their numbers; one alone is the right one. */
     sides: [number, number] = [0, 0];
-    /** Where the wipe is, from 0 to 1. */
     wipe = 0.5;
     private readonly renderer: WebGLRenderer;
     private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
@@ -157,7 +156,6 @@ export class Stage {
         this.redraw();
     }
 
-    /** Draw the shadow of a mesh on the ground below it. */
     shadow(geometry: BufferGeometry): void {
         const { ground, turned } = this;
         if (ground.position.y === Infinity) return;
@@ -177,7 +175,6 @@ export class Stage {
         this.redraw();
     }
 
-    /** Show these geometries together; those that are not among them go. */
     together(geometries: BufferGeometry[]): void {
         const { clay } = this.drawn[0];
         const fresh = new Set(geometries);
@@ -203,7 +200,6 @@ export class Stage {
         this.shade(this.shading);
     }
 
-    /** Shade smoothly, each face by itself, or with its edges. */
     shade(shading: Shading): void {
         this.shading = shading;
         for (const shown of this.drawn) {
@@ -244,7 +240,6 @@ export class Stage {
         this.controls.autoRotate = on;
     }
 
-    /** How many pixels from the left the wipe is. */
     get seam(): number {
         return this.mode === "split" ? this.size[0] / 2 : THUMB / 2 + this.wipe * (this.size[0] - THUMB);
     }
@@ -341,7 +336,6 @@ export class Stage {
         this.renderer.render(this.scene, this.camera);
     }
 
-    /** Give a mesh its edges if they are wished for, or take them away. */
     private edge(mesh: Mesh<BufferGeometry, Material | Material[]>): void {
         mesh.clear();
         if (this.shading !== "wire") return;

@@ -35,14 +35,9 @@ class Tile {
     readonly radius: number;
     geometry?: BSMGeometry;
     asked = false;
-    /** Whether it has come, or failed to. */
     tried = false;
 
-    constructor(
-        readonly entry: TileEntry,
-        readonly url: string,
-        { cell, origin }: Manifest,
-    ) {
+    constructor(readonly entry: TileEntry, readonly url: string, { cell, origin }: Manifest) {
         const [low, high] = [entry.low, entry.high].map((place) => new Vector3(...place.map((at, d) => at * cell + origin[d])));
         this.center = low.clone().add(high).divideScalar(2);
         this.radius = low.distanceTo(high) / 2;
@@ -64,7 +59,6 @@ async function ranged(url: string, offset: number, size: number, sum: string): P
     return bytes;
 }
 
-/** A stream decoded to its end. */
 export function wholeOf(pool: Pool, bytes: Uint8Array): Promise<BSMGeometry> {
     return new Promise((resolve, fail) => {
         const geometry = new BSMGeometry();
@@ -74,11 +68,9 @@ export function wholeOf(pool: Pool, bytes: Uint8Array): Promise<BSMGeometry> {
     });
 }
 
-/** Opened by its manifest and the indices of its shards. */
 export class TileSet {
     /** What is wrong with tiles that could not be shown; coarser ones stand in their place. */
     problem = "";
-    /** Bytes and tiles that have come. */
     got = 0;
     there = 0;
     private cut = new Set<Tile>();
@@ -108,7 +100,6 @@ export class TileSet {
         return new TileSet(manifest, [...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])), pool, changed);
     }
 
-    /** The middle of all, and how long its diagonal is. */
     get extent(): { center: number[]; diagonal: number } {
         const center = this.tops.reduce((sum, { center }) => sum.add(center), new Vector3()).divideScalar(this.tops.length);
         return { center: center.toArray(), diagonal: 2 * Math.max(...this.tops.map((top) => top.center.distanceTo(center) + top.radius)) };
@@ -151,7 +142,6 @@ export class TileSet {
         return this.tops.flatMap((tile) => parts(tile) ?? []);
     }
 
-    /** Whether all that is to be seen is there. */
     get complete(): boolean {
         return this.loading === 0 && this.wanted.every(({ asked }) => asked);
     }

@@ -135,7 +135,6 @@ export class View {
         this.headline();
     }
 
-    /** Show tiles of a folder, as far as they are worth it. */
     async openTiles(content: Content, index: number): Promise<void> {
         this.open(content, index);
         this.over = true;
@@ -229,7 +228,6 @@ export class View {
         if (matchMedia("(min-width: 45rem)").matches) this.part("more").setAttribute("open", "");
     }
 
-    /** Show a part and hide the other one, or hide it. */
     private unfold(part: string): void {
         for (const each of ["panel", "keys"]) {
             const hidden = each !== part || !this.part(each).hidden;
@@ -342,7 +340,6 @@ export class View {
         this.stale = true;
     }
 
-    /** Fit the picture to the page, and put the labels below its sides. */
     private place(): void {
         const { stage } = this;
         stage.fit();
@@ -355,7 +352,6 @@ export class View {
         }
     }
 
-    /** What stands below each side of a saved picture, and its colors. */
     private get captions(): [string[], string[]] {
         const { layers } = this.content;
         const style = getComputedStyle(this.root);
@@ -388,7 +384,6 @@ export class View {
         button.disabled = false;
     }
 
-    /** Show a file: a stream as it is, a mesh once it is encoded. */
     private async take(file: File): Promise<void> {
         this.working?.abort();
         const working = (this.working = new AbortController());
@@ -526,7 +521,6 @@ export class View {
         this.stage.place(center, diagonal, turnOf(metadata));
     }
 
-    /** Say what is lost; what could be decoded stays to be seen. */
     private lose(loss: LossEvent): void {
         if (this.content.live && loss.frames?.first === 0) {
             this.missed = loss.frames.count;

@@ -15,7 +15,6 @@ interface Model {
     off(event: string, listener: () => void): void;
 }
 
-/** Pieces of a response, as they come. */
 async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
     const reader = body!.getReader();
     try {
@@ -43,7 +42,6 @@ const encode: Encode = async (file, preset, report, signal) => {
     throw new Error("The server has stopped.");
 };
 
-/** Fill the page with the streams that are listed in it. */
 async function fillPage(list: HTMLElement): Promise<void> {
     const contents = JSON.parse(list.textContent!) as Content[];
     const pool = new Pool(inlined);
@@ -71,7 +69,6 @@ async function fillPage(list: HTMLElement): Promise<void> {
     if (contents.length > 0) await open(0);
 }
 
-/** Draw a widget into an element; returns what takes it away. */
 async function render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
     const root = el.appendChild(document.createElement("div"));
     root.style.height = `${model.get("height")}px`;
