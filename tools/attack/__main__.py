@@ -10,6 +10,7 @@ uses     files that say something once and use it many times, held against the l
 growth   files that are large in one place, read at four times the size
 costly   small files of meshes that take long to encode, found by a search
 manifests  manifests and indexes of tiles, mutated by their grammar
+doors    files of others, read by other libraries and compared with what comes back from a stream
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
@@ -18,7 +19,8 @@ from __future__ import annotations
 from tools.command import dispatch
 
 COMMANDS = {
-    name: f"{name}:main" for name in ("fuzz", "sweep", "readers", "growth", "proof", "costly", "manifests", "uses")
+    name: f"{name}:main"
+    for name in ("fuzz", "sweep", "readers", "growth", "proof", "costly", "manifests", "uses", "doors")
 }
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 

@@ -85,8 +85,9 @@ def unpacked(package: dict[str, Any], root: Path) -> None:
     else:
         _run(["apt-get", "download", name], cwd=beside)
         _run(["dpkg-deb", "-x", next(beside.glob("*.deb")), beside])
-        with tarfile.open(beside / package["archive"]) as archive:
-            archive.extractall(beside, filter="data")
+        if "archive" in package:
+            with tarfile.open(beside / package["archive"]) as archive:
+                archive.extractall(beside, filter="data")
     os.replace(beside, root)
 
 

@@ -89,6 +89,8 @@ def read_mesh(
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
     data = data.removeprefix(codecs.BOM_UTF8)
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):  # an OBJ by an editor of Windows
+        data = data.decode("utf-16", errors="replace").encode()
     if not data:
         raise FormatError("the file is empty")
     if data.startswith(MAGIC):

@@ -14,6 +14,7 @@ from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, png
 from tests.bsm.program import bsm as program
 from tests.shapes import torus
+from tools.attack.readers import chained_objects, three_mf
 
 
 def run(*arguments):
@@ -416,3 +417,79 @@ def test_floats_that_are_labels_stay_exact():
     for name in ("label", "id"):
         assert np.array_equal(attribute(decoded, name).values, attribute(labelled, name).values)
     assert not np.array_equal(attribute(decoded, "height").values, attribute(labelled, "height").values)
+
+
+# ---------------------------------------------------------------------------------------------------------- 3MF and DAE
+
+
+GEOMETRY = """<geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 1 1 0</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION"
+source="#p"/></vertices><triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p>
+</triangles></mesh></geometry>"""
+
+
+def collada(nodes, scene, more=""):
+    return (
+        '<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>'
+        f"<library_geometries>{GEOMETRY}</library_geometries><library_nodes>{nodes}</library_nodes>{more}"
+        f'<library_visual_scenes><visual_scene id="s">{scene}</visual_scene></library_visual_scenes>'
+        '<scene><instance_visual_scene url="#s"/></scene></COLLADA>'
+    ).encode()
+
+
+SHOWN = '<instance_geometry url="#g"/>'
+
+
+def chained(length):
+    """Nodes, each of which shows the one before twice."""
+    first = f'<node id="n0">{SHOWN}</node>'
+    twice = ('<instance_node url="#n{0}"/>' * 2).format
+    return first + "".join(f'<node id="n{i}">{twice(i - 1)}</node>' for i in range(1, length + 1))
+
+
+def test_nodes_of_a_dae_are_counted_before_they_are_placed(tmp_path):
+    pytest.importorskip("collada")
+    path = tmp_path / "a.dae"
+    path.write_bytes(collada(chained(3), '<node id="x"><instance_node url="#n3"/></node>'))
+    assert len(read_mesh(path).mesh.faces) == 8
+    path.write_bytes(collada(chained(40), '<node id="x"><instance_node url="#n40"/></node>'))
+    with pytest.raises(LimitError, match=r"faces|vertices|parts"):
+        read_mesh(path)
+    path.write_bytes(collada('<node id="l"><instance_node url="#l"/></node>', '<node><instance_node url="#l"/></node>'))
+    with pytest.raises(MeshError, match="component of itself"):
+        read_mesh(path)
+
+
+def test_a_dae_names_what_is_left_out_and_its_images_come_from_its_folder(tmp_path):
+    pytest.importorskip("collada")
+    broken = (
+        '<instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m" target="#away"/>'
+    )
+    broken += "</technique_common></bind_material></instance_geometry>"
+    cameras = '<library_cameras><camera id="c"><optics/></camera></library_cameras>'
+    scene = f'<node id="x">{SHOWN}</node><node id="y">{broken}</node><node id="z"><instance_camera url="#c"/></node>'
+    (tmp_path / "a.dae").write_bytes(collada("", scene, cameras))
+    read = read_mesh(tmp_path / "a.dae")
+    assert len(read.mesh.faces) == 1
+    assert any("cameras" in note and "1 of 2 surfaces" in note for note in read.notes), read.notes
+
+
+def test_a_3mf_file_names_its_colors_and_one_without_a_build_says_so(tmp_path):
+    pytest.importorskip("lxml")
+    more = '<basematerials id="9"/><m:colorgroup id="8" xmlns:m="m"/><object'
+    objects = chained_objects(1).replace("<object", more, 1)
+    (tmp_path / "a.3mf").write_bytes(three_mf(objects, '<item objectid="1"/>'))
+    assert "left out: materials, colors" in read_mesh(tmp_path / "a.3mf").notes
+    (tmp_path / "a.3mf").write_bytes(three_mf(chained_objects(1), ""))
+    with pytest.raises(MeshError, match="its build has no item"):
+        read_mesh(tmp_path / "a.3mf")
+
+
+def test_an_obj_in_utf16_and_a_ply_with_a_line_that_is_a_comment():
+    text = f"{THREE}g \u00fc\nf 1 2 3\n"
+    for encoding in ("utf-16", "utf-8-sig"):
+        assert names(read_mesh(text.encode(encoding), "obj").mesh, "group") == ["\u00fc"]
+    head, body = format_mesh(torus(5, 4), "ply").split(b"format", 1)
+    assert len(read_mesh(head + b"Created by somebody\nformat" + body).mesh.faces) == 40

@@ -236,7 +236,7 @@ def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[st
     """Return metadata with the contents of the files that they name, `most` bytes at most, and notes on the others."""
     found = dict(metadata)
     notes: list[str] = []
-    beside = _Beside(folder, most)
+    beside = Beside(folder, most)
     libraries: list[bytes] = []
     for line in str(found.get("mtllib", "")).split("\n"):
         whole = beside.read(line)
@@ -279,7 +279,7 @@ def _add_libraries(found: dict[str, Value], libraries: Iterable[bytes]) -> None:
 _READ = 4  # times the bytes that metadata may have that are read before the largest images are left out
 
 
-class _Beside:
+class Beside:
     """The files in the folder of a mesh, each read once, and no more of them than metadata may have, and some."""
 
     def __init__(self, folder: Path | None, most: int) -> None:

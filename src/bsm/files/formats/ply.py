@@ -123,6 +123,8 @@ def parse_header(data: bytes) -> Header:
                     _extend(elements, Property(name, _TYPES[kind], _TYPES[length]))
                 case ["property", kind, name]:
                     _extend(elements, Property(name, _TYPES[kind]))
+                case [word, *_] if word not in ("format", "element", "property"):  # a comment, to other programs
+                    comments.append(("comment", line.strip()))
                 case _:
                     raise KeyError
         except (KeyError, IndexError, ValueError):

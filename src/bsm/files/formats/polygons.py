@@ -213,7 +213,8 @@ class Polygons:
         memory = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
         limits.check_memory(memory * triangles + PER_CORNER * len(corners), len(positions), received)
         if not (sizes > 0).any():
-            raise NoFacesError("the file has no faces; point clouds are not supported")
+            found = f"; it has {', '.join(self.dropped)}" if self.dropped else "; point clouds are not supported"
+            raise NoFacesError(f"the file has no faces that can be read{found}")
         outside = (corners < 0) | (corners >= len(positions))
         if outside.any():
             index = int(corners[np.argmax(outside)])

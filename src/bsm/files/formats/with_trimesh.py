@@ -3,16 +3,18 @@
 import importlib.util
 import io
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 
 from bsm.bitstream.errors import BsmError, FormatError, MeshError, OptionError, how_to_install, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Domain
-from bsm.files.formats.metadata import Material, Value, described, kind_of_image
+from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
+from bsm.files.formats.placed import placed_surfaces, placed_triangles
 from bsm.files.formats.polygons import (
     Array,
     Column,
@@ -24,7 +26,6 @@ from bsm.files.formats.polygons import (
     sorted_into_parts,
     turned_normals,
 )
-from bsm.files.formats.threemf import placed_triangles
 from bsm.files.room import Doubles, require_count
 
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
@@ -52,12 +53,16 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         complete = all(map(importlib.util.find_spec, ("lxml", "networkx", "collada")))
         more = "" if complete else f" (trimesh reads 3MF, DAE and others after: {how_to_install('formats')})"
         raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}")
+    resolver = _Resolver(Beside(Path(path).resolve().parent if path else None, limits.metadata_bytes))
     try:
         up = re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
         with np.errstate(all="ignore"):  # what is not finite is refused later
-            expected = placed_triangles(data, limits) if kind == "3mf" else None
-            scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
+            expected, left_out = placed_triangles(data, limits) if kind == "3mf" else (None, ())
+            surfaces, left_out = placed_surfaces(data, limits) if kind == "dae" else (0, left_out)
+            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False, resolver=resolver)
             found = joined(scene, limits, len(data))
+        if (lost := surfaces - len(scene.graph.nodes_geometry)) > 0:
+            left_out = (*left_out, f"{lost} of {surfaces} surfaces, which refer to something that is not there")
         if expected not in (None, len(found.sizes)):
             raise MeshError(f"trimesh gives {len(found.sizes)} of the {expected} triangles that this 3MF file places")
     except (BsmError, MemoryError):
@@ -68,7 +73,28 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     metadata = {**axis, **found.metadata}
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file
-    return replace(found, metadata=metadata)
+    notes = [f"{name} was left out: {why}" for name, why in resolver.absent.items()]
+    return replace(found, metadata=metadata, notes=(*found.notes, *notes), dropped=(*found.dropped, *left_out))
+
+
+@dataclass
+class _Resolver:
+    """What trimesh asks for the files beside a mesh."""
+
+    beside: Beside
+    absent: dict[str, str] = field(default_factory=dict)
+
+    def get(self, name: str) -> bytes:
+        found = self.beside.read(unquote(name))
+        if isinstance(found, str):
+            self.absent[name] = found
+            raise ValueError(found)
+        return found
+
+    __getitem__ = get
+
+    def namespaced(self, _: str) -> "_Resolver":
+        return self
 
 
 def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:

@@ -1,0 +1,252 @@
+"""`python -m tools.attack doors`: do others read in a file what comes back from a stream of it?
+
+Each file is read, encoded with `lossless` (or `grid14`, where single precision is too coarse), decoded and compared
+with what trimesh, meshio and PyMeshLab read: area, orientation, places, colors, texture coordinates and normals as
+moments, which depend neither on the order of faces nor on the cuts of polygons; the number of triangles; and names of
+materials. A difference is right if a note of ours names it, or explained in `doors.json`, or it is a finding.
+
+Files are those of packages of Debian and PyPI, listed in `doors.json` with licence and SHA-256, and of folders.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+import bsm
+from bsm.bitstream.errors import imported
+from bsm.codec.geometry.attributes import at_corners
+from bsm.files.formats.metadata import materials_in, rgba
+from tools.replicate.fetch import unpacked
+
+Array = npt.NDArray[Any]
+LIST = Path(__file__).parent / "doors.json"
+EXACT, ON_GRID = 1e-5, 1e-3  # by how much moments may differ, relative to what they add up
+LARGEST = 3_000_000  # bytes of a file
+KINDS = ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf", "vtp")
+
+
+@dataclass
+class Read:
+    """Triangles, shape (m, 3, 3), values of their corners, shape (m, 3, c), and names of materials."""
+
+    triangles: Array
+    values: dict[str, Array] = field(default_factory=dict)
+    materials: set[str] = field(default_factory=set)
+
+    def count(self) -> int:
+        """The number of triangles with an area."""
+        a, b, c = self.triangles[:, 0], self.triangles[:, 1], self.triangles[:, 2]
+        return int((np.cross(b - a, c - a) != 0).any(axis=1).sum())
+
+    def moments(self) -> dict[str, Array]:
+        """Sums over the surface, divided by what they could be at most."""
+        corners = self.triangles.astype(np.float64)
+        if not len(corners):
+            return {}
+        low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+        corners = (corners - (low + high) / 2) / (float(np.linalg.norm(high - low)) or 1.0)
+        vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        areas, middles = np.linalg.norm(vectors, axis=1), corners.mean(axis=1)
+        whole = areas.sum() or 1.0
+        found = {"area": np.array([whole]), "place": areas @ middles / whole, "turn": vectors.T @ middles / whole}
+        found |= {"bounds": np.concatenate([low, high]) / (np.abs([low, high]).max() or 1.0)}
+        for name, values in self.values.items():
+            of_faces = values.astype(np.float64).mean(axis=1)
+            weight = whole * (np.abs(of_faces).max(initial=0.0) or 1.0)
+            moved = (areas[:, None] * of_faces).T @ middles
+            found[name] = np.concatenate([areas @ of_faces, moved.ravel()]) / weight
+        return found
+
+
+def of_ours(mesh: bsm.TriangleMesh) -> Read:
+    values: dict[str, Array] = {}
+    for attribute in mesh.attributes:
+        if attribute.semantic in ("color", "normal", "texcoord") and attribute.semantic not in values:
+            table = rgba(attribute)[:, :3] / 255 if attribute.semantic == "color" else attribute.values
+            width = {"texcoord": 2}.get(attribute.semantic, 3)
+            if table.shape[1] >= width:
+                plain = bsm.Attribute("x", table[:, :width], attribute.domain, indices=attribute.indices)
+                values[attribute.semantic] = at_corners(plain, mesh.faces)
+    names = {str(material.get("name", "")) for material in materials_in(mesh.metadata).values()}
+    return Read(mesh.positions[mesh.faces], values, names - {""})
+
+
+def of_trimesh(path: Path) -> Read:
+    library = imported("trimesh", "files are compared with trimesh", "formats")
+    scene = library.load_scene(path, process=False)
+    triangles, values, names = [np.zeros((0, 3, 3))], dict[str, list[Array]](), set[str]()
+    parts = [(scene.graph[node][0], scene.geometry[scene.graph[node][1]]) for node in scene.graph.nodes_geometry]
+    for matrix, part in parts:
+        if not hasattr(part, "faces"):
+            continue
+        faces = part.faces[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else part.faces
+        triangles.append((np.asarray(part.vertices) @ matrix[:3, :3].T + matrix[:3, 3])[faces])
+        if part.visual.kind == "texture":
+            uv = part.visual.uv
+            if uv is not None and np.shape(uv) == (len(part.vertices), 2):
+                values.setdefault("texcoord", []).append(np.asarray(uv)[faces])
+            names.add(str(getattr(part.visual.material, "name", "") or ""))
+        elif part.visual.kind == "vertex":
+            values.setdefault("color", []).append(part.visual.vertex_colors[faces][..., :3] / 255)
+        if "vertex_normals" in part._cache and np.array_equal(matrix, np.eye(4)):
+            values.setdefault("normal", []).append(part.vertex_normals[faces])
+    whole = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
+    return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"})
+
+
+def of_meshio(path: Path) -> Read:
+    library = imported("meshio", "files are compared with meshio", "test")
+    mesh = library.read(path)
+    cut = [rows[:, [0, i, i + 1]] for kind, rows in mesh.cells_dict.items() if kind in ("triangle", "quad", "polygon")
+           for i in range(1, rows.shape[1] - 1)]  # fmt: skip
+    faces = np.concatenate([np.zeros((0, 3), np.int64), *cut])
+    values, data = {}, mesh.point_data
+    if all(name in data for name in ("red", "green", "blue")):
+        color = np.column_stack([data[name] for name in ("red", "green", "blue")])
+        values["color"] = color[faces] / (255 if color.dtype.kind == "u" else 1)
+    if all(name in data for name in ("nx", "ny", "nz")):
+        values["normal"] = np.column_stack([data[name] for name in ("nx", "ny", "nz")])[faces]
+    return Read(mesh.points[faces], values)
+
+
+def of_pymeshlab(path: Path) -> Read:
+    library = imported("pymeshlab", "files are compared with PyMeshLab", "replicate")
+    everything = library.MeshSet()
+    everything.load_new_mesh(str(path))
+    triangles, values = [np.zeros((0, 3, 3))], dict[str, list[Array]]()
+    for mesh in everything:
+        faces = mesh.face_matrix()
+        triangles.append(mesh.transformed_vertex_matrix()[faces])
+        if mesh.has_vertex_color():
+            values.setdefault("color", []).append(mesh.vertex_color_matrix()[faces][..., :3])
+        if mesh.has_wedge_tex_coord() and mesh.wedge_tex_coord_matrix().any():  # zeros: it has not read them
+            values.setdefault("texcoord", []).append(mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2))
+    whole = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
+    return Read(np.concatenate(triangles), whole)
+
+
+OTHERS: dict[str, tuple[Callable[[Path], Read], tuple[str, ...]]] = {
+    "trimesh": (of_trimesh, ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf")),
+    "meshio": (of_meshio, ("ply", "obj", "stl", "off", "vtp")),
+    "pymeshlab": (of_pymeshlab, ("ply", "obj", "stl", "off", "dae", "3mf")),
+}
+_WORDS = {"color": "color", "texcoord": "texture", "normal": "normal"}
+
+
+def compared(path: Path, readers: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+    """Who was compared with, with which result ("same", "noted" or "differs"), and the difference."""
+    kind = path.suffix[1:].lower()
+    theirs: dict[str, Read] = {}
+    for name in readers:
+        work, kinds = OTHERS[name]
+        if kind in kinds:
+            try:
+                theirs[name] = work(path)
+            except (Exception, SystemExit):  # they promise nothing about files that they do not like
+                continue
+    theirs = {name: read for name, read in theirs.items() if len(read.triangles)}
+    try:
+        given = bsm.read_mesh(path)
+        ours, notes, most = *coded(given.mesh), EXACT
+    except bsm.BsmError as error:
+        for name in theirs or ["nobody"]:
+            yield name, "differs" if theirs else "same", f"{type(error).__name__}: {error}"
+        return
+    if notes and notes[0] == "grid14":
+        most = ON_GRID
+    said = " | ".join((*given.notes, *notes)).lower().replace("colour", "color")
+    moments = ours.moments()
+    for name, read in theirs.items():
+        differences = {}
+        for what, value in read.moments().items():
+            mine = moments.get(what)
+            off = np.inf if mine is None or mine.shape != value.shape else float(np.abs(mine - value).max())
+            if not off <= most * (1 if what != "area" else float(value[0])):
+                differences[what] = "is lost" if mine is None else f"differs by {off:.2g}"
+        if lost := read.materials - ours.materials:
+            differences["materials"] = f"lost: {', '.join(sorted(lost)[:5])}"
+        if (mine_too := ours.count()) != (count := read.count()) and "without area" not in said:
+            differences["triangles"] = f"{mine_too}, by {name} {count}"
+        for what, difference in differences.items():
+            yield name, "noted" if _WORDS.get(what, what) in said else "differs", f"{what} {difference}"
+        if not differences:
+            yield name, "same", ""
+
+
+def coded(mesh: bsm.TriangleMesh) -> tuple[Read, tuple[str, ...]]:
+    """The mesh after a stream, and notes; the first is "grid14" if it had to be one."""
+    first: tuple[str, ...] = ()
+    exact = {"*": "exact"}
+    try:
+        encoder = bsm.Encoder(mesh, bsm.EncodeOptions(exact=True, attributes=exact))
+        data = encoder.encode()
+    except bsm.TargetError:
+        first = ("grid14",)
+        encoder = bsm.Encoder(mesh, bsm.EncodeOptions(grid=14, attributes=exact))
+        data = encoder.encode()
+    return of_ours(bsm.decode(data)), (*first, *encoder.notes)
+
+
+def listed(folder: Path, names: Sequence[str], most: int) -> Iterator[tuple[str, Path]]:
+    """The files of packages (all, without names), fetched into a folder; what is missing is named."""
+    for package in json.loads(LIST.read_text())["packages"]:
+        if names and package["package"] not in names:
+            continue
+        root = folder / package["package"]
+        try:
+            unpacked(package, root)
+        except (OSError, subprocess.SubprocessError) as error:
+            print(f"missing: {package['package']} ({error})", file=sys.stderr)
+            continue
+        for name, digest in list(package["files"].items())[:: max(1, len(package["files"]) // most) if most else 1]:
+            if hashlib.sha256((root / name).read_bytes()).hexdigest()[: len(digest)] == digest:
+                yield f"{package['package']}/{name}", root / name
+            else:
+                print(f"missing: {package['package']}: {name} is another file", file=sys.stderr)
+
+
+def main() -> NoReturn:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="*", type=Path, help="more files: folders that are walked")
+    parser.add_argument(
+        "--cache", type=Path, default=Path(tempfile.gettempdir(), "bsm-doors"), help="where packages lie"
+    )
+    parser.add_argument("--packages", nargs="*", metavar="NAME", help="files of packages of doors.json (default: all)")
+    parser.add_argument("--each", type=int, default=0, metavar="N", help="about N files of each package only")
+    parser.add_argument("--readers", nargs="+", choices=OTHERS, default=list(OTHERS), help="who is compared with")
+    args = parser.parse_args()
+    files = list(listed(args.cache, args.packages, args.each)) if args.packages is not None else []
+    for folder in args.folders:
+        here = [path for path in sorted(folder.rglob("*")) if path.suffix[1:].lower() in KINDS]
+        files += [(str(path.relative_to(folder)), path) for path in here if path.stat().st_size <= LARGEST]
+    explained = json.loads(LIST.read_text())["explained"]
+    counts, findings = Counter[str](), 0
+    for name, path in files:
+        for reader, result, difference in compared(path, args.readers):
+            why = next((why for key, why in explained.items() if key in f"{reader} {name}: {difference}"), "")
+            result = "explained" if result == "differs" and why else result
+            counts[result] += 1
+            if result == "differs":
+                findings += 1
+                print(f"{name}: {reader}: {difference}", flush=True)
+    print(f"{len(files)} files; comparisons: {dict(counts)}; {findings} findings", flush=True)
+    os._exit(1 if findings else 0)  # PyMeshLab crashes where Python takes it down
+
+
+if __name__ == "__main__":
+    sys.exit(main())
