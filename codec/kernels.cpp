@@ -139,7 +139,6 @@ NB_MODULE(_kernels, m) {
     m.def("collect_flaps", checked<&collect_flaps>, "faces"_a, "starts"_a, "members"_a, "pending"_a, "flaps"_a,
           Unlocked());
     m.def("group_flaps", checked<&group_flaps>, "flaps"_a, "starts"_a, "members"_a, Unlocked());
-    m.def("count_bends_on", checked<&count_bends_on>, "corners"_a, "step"_a, "counts"_a, Unlocked());
     m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
           "scales"_a, "pull"_a, "open"_a, Unlocked());
     m.def("collect_creases", checked<&collect_creases>, "positions"_a, "faces"_a, "starts"_a, "around"_a, "most"_a,
@@ -150,7 +149,7 @@ NB_MODULE(_kernels, m) {
           "moved"_a, "levels"_a, "counts"_a, Unlocked());
     m.def("count_folds", checked<&count_folds>, "positions"_a, "flaps"_a, Unlocked());
     m.def("unfold_levels", checked<&unfold_levels>, "wanted"_a, "reach"_a, "moved"_a, "levels"_a, "directions"_a,
-        "flaps"_a, "starts"_a, "members"_a, "most"_a, "flat"_a, "creases"_a, "wrong"_a, "open"_a,
+        "flaps"_a, "starts"_a, "members"_a, "most"_a, "creases"_a, "wrong"_a, "open"_a,
         Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
           "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "creases"_a, "open"_a, Unlocked());

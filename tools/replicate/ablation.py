@@ -90,13 +90,10 @@ TOOLS: dict[str, Tool] = {
         {},
         [
             (search.Search, "_ways", _ways(lambda way: not isinstance(way, Gridded))),
-            (search.Search, "_made_on", lambda *_: iter(())),
             (Gridded, "made", lambda _: iter(())),
         ],
     ),
-    "grids that models were made on": Tool(
-        {}, [(search.Search, "_made_on", lambda *_: iter(())), (Gridded, "made", lambda _: iter(()))]
-    ),
+    "grids that models were made on": Tool({}, [(Gridded, "made", lambda _: iter(()))]),
     "choice of grid places by rate": Tool(
         {}, [(search.Search, "_ways", _ways(lambda way: not (isinstance(way, Gridded) and way._worth > 0)))]
     ),

@@ -1,7 +1,6 @@
 """Blocks, alone or with a layer of refinement on them: ways to code a mesh, and the drafts that they come to."""
 
 import math
-from copy import copy
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -22,7 +21,7 @@ from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE, secant
+from bsm.codec.static.targets import ANY_ANGLE
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import admit, blended, encode_blocks, patience
 from bsm.codec.static.ways.grid import encode_layer
@@ -159,11 +158,8 @@ normal, and the power of the look that it goes with; and how far a vertex may be
 layer."""
 MENDED_ASIDE = 3.0  # or so many of its own steps in the plane, which are wide where the surface is flat
 ROOM = 1.8  # of steps that are within reach: their diagonal over the reach
-FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh
+FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
 BLUNT = 0.8  # about the step of a layer over that of a grid of the same look
-ASLANT = 2.2
-"""The most that steps in the plane are, where all errors are bound, over those that would be right if errors in all
-directions counted alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,11 +272,6 @@ class Plain:
         self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST
         self.first = ALONE * bounds.first_step
 
-    def under(self, bounds: Bounds) -> "Plain":
-        other = copy(self)
-        other._bounds = bounds
-        return other
-
     def at(self, step: float) -> Candidate:
         base = self._spectral.base(step, self._bounds.measures.near.within(BLOCKS))
         reaches = self._bounds.reaches
@@ -301,12 +292,6 @@ class Refined:
         self._spectral = Spectral(prepared, options, WIDEST)
         self.least, self.most = FINEST_LAYER, COARSEST
 
-    def under(self, bounds: Bounds) -> "Refined":
-        other = copy(self)
-        other._bounds = bounds
-        other.__dict__.pop("_begun", None)
-        return other
-
     @cached_property
     def first(self) -> float:
         return self._bounds.first_step * (1.0 if self._settler is None else BLUNT)
@@ -322,10 +307,8 @@ class Refined:
         base = self._base
         if self._settler is not None:
             found = self._leveled(step, base, *self._evened(step, self._settler))
-            shaper, most = self._bounds.measures.shaper, FOLDED * len(self._prepared.mesh.faces)
-            if shaper.folded(found.positions) - shaper.most_folded >= most:
-                return replace(found, suits=False)
-            return turned(found) or found
+            many = self._bounds.measures.shaper.folded(found.positions) > FOLDED * len(self._prepared.mesh.faces)
+            return found if many else turned(found) or found
         if self._bounds.contract.angle < ANY_ANGLE:
             layer = Layer(single(step), RATIO)
             levels = self._shaped(base, layer)
@@ -338,10 +321,10 @@ class Refined:
     def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Candidate:
         positions = base.moved(layer, levels, known)
 
-        def unfold(flat: bool) -> Candidate | None:
+        def unfold() -> Candidate | None:
             directions = base.wanted(known)[1].reshape(-1, 9)
             reach = np.minimum(self._bounds.reaches, np.maximum(MENDED * layer.step, MENDED_ASIDE * known.max(axis=1)))
-            other = self._bounds.measures.shaper.unfold(positions, levels, directions, reach, flat)
+            other = self._bounds.measures.shaper.unfold(positions, levels, directions, reach)
             return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
 
         evened = self._settler is not None
@@ -349,30 +332,19 @@ class Refined:
 
     def _evened(self, step: float, settler: Settler) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
-        base, bounds = self._base, self._bounds
-        kept, worth = dict[float, tuple[Layer, Levels, Matrix]](), PULLED * self._look**STEADY
-
+        base, reaches = self._base, self._bounds.reaches
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
-        room = (ROOM * float(bounds.reaches.min()) / step) ** 2 - 1.0
-        widest = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), RATIO)
+        room = (ROOM * float(reaches.min()) / step) ** 2 - 1.0
+        ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self._most_ratio)
+        layer, worth = Layer(single(step), ratio), PULLED * self._look**STEADY
+        steps, known, near = base.expected_steps(layer), partial(base.known_steps, layer), NEAR * layer.step
+        levels = settler.levels(base.offsets, base.frames, steps, known, worth, np.minimum(reaches, near))
+        return layer, *base.within(reaches, layer, levels)
 
-        def settle(even: float) -> tuple[Layer, Levels, Matrix]:
-            layer = Layer(single(step), min(max(ASLANT * even / step, 1.0), widest))
-            steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
-            reach = np.minimum(bounds.reaches, NEAR * layer.step)
-            levels = settler.levels(base.offsets, base.frames, steps, known, worth, reach, even)
-            return layer, *base.within(bounds.reaches, layer, levels)
-
-        def excess(even: float) -> float:
-            found = settle(even)
-            over = bounds.spread(base.moved(*found))
-            if over <= 0.0 or not kept:
-                kept[even if over <= 0.0 else 0.0] = found
-            return over
-
-        if excess(math.inf) > 0.0 and bounds.contract.visual < math.inf:
-            secant(excess, bounds.even_step, step, COARSEST)
-        return kept[max(kept)]
+    @property
+    def _most_ratio(self) -> float:
+        """How much coarser levels in the plane may be: the visual error counts errors in all directions."""
+        return RATIO if self._bounds.contract.visual == math.inf else UNSEEN_RATIO
 
     @cached_property
     def _base(self) -> RefinementBase:

@@ -83,8 +83,7 @@ class Candidate:
     step: float
     positions: Matrix
     make: Callable[[], Draft]
-    unfold: Callable[[bool], "Candidate | None"] = lambda flat: None
-    suits: bool = True  # whether its way suits the mesh
+    unfold: Callable[[], "Candidate | None"] = lambda: None
     evened: bool = False  # whether another search than that for the step keeps the bounds that all vertices count in
 
     @cached_property
@@ -92,12 +91,12 @@ class Candidate:
         return self.make()
 
 
-def turned(candidate: Candidate, flat: bool = False) -> Candidate | None:
-    """The candidate with few edges folded over or no face flat, None if it is so already; levels of blocks depend on
-    those of others, so what is mended may need it again."""
-    found = last = candidate.unfold(flat)
+def turned(candidate: Candidate) -> Candidate | None:
+    """The candidate with fewer edges folded over, None if few are; levels of blocks depend on those of others, so what
+    is mended may need it again."""
+    found = last = candidate.unfold()
     for _ in range(3):
-        last = last and last.unfold(flat)
+        last = last and last.unfold()
         found = last or found
     return found
 
@@ -118,10 +117,9 @@ class Bounds:
         self.measures.near.by(TRY)
         return math.log(max(*shares, LEAST))
 
-    def spread(self, positions: Matrix) -> float:
-        """Return the logarithm of the largest share of the bounds that all vertices count in, seen or not."""
-        farther, _, visual = self._measured(positions)
-        return math.log(max(farther, visual, LEAST))
+    def folds(self, positions: Matrix) -> bool:
+        """Whether more edges are folded over than may be."""
+        return self.measures.shaper.folded(positions) > self.measures.shaper.most_folded
 
     @property
     def metric(self) -> LookMetric | None:

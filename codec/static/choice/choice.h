@@ -53,9 +53,8 @@ int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double 
     ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes, Creases creases, Bytes open);
 int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps);
 int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
-    ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, bool flat, Creases creases, Bytes wrong,
+    ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Creases creases, Bytes wrong,
     Bytes open);
-int64_t count_bends_on(ConstDoubles2 corners, double step, Ints2 counts);
 int64_t count_bends(ConstInts2 bends, int64_t stride, Ints2 counts);
 
 #endif

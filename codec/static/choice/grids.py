@@ -135,10 +135,7 @@ def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int)
 
 
 NEAR_PLACE = 3.0  # how far shaping may bring a vertex from its place, in cells, where bounds are wide
-FINEST_BITS, PARTS_OF_OCTAVE, FINER, WIDER, APART = 16, 128, 8.0, 1.4, 1.02
-"""Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are compared
-between one and twice it; how much finer and coarser steps may be than one that is about right; and how far apart those
-are that are coarser."""
+FINEST_BITS = 16  # along the longest side of the finest grid on which a mesh may have been made
 
 
 def made_on(positions: Matrix) -> float | None:
@@ -183,9 +180,6 @@ class Gridded:
         self.most = COARSEST
         self._bounds = bounds
 
-    def under(self, bounds: Bounds) -> "Gridded":
-        return Gridded(self._prepared, bounds, self._worth)
-
     @cached_property
     def first(self) -> float:
         return min(self._bounds.first_step, COARSEST)
@@ -216,10 +210,10 @@ class Gridded:
         grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)))
         candidate = self._candidate(grid, places - least)
 
-        def unfold(flat: bool) -> Candidate | None:
+        def unfold() -> Candidate | None:
             cell = held / self._prepared.units.scale
             directions, reach = cell * np.eye(3).reshape(1, 9), np.minimum(self._bounds.reaches, MENDED * cell)
-            turned = self._shaper.unfold(candidate.positions, places, directions, reach, flat)
+            turned = self._shaper.unfold(candidate.positions, places, directions, reach)
             return None if turned is None else self._placed(held, turned)
 
         return replace(candidate, unfold=unfold)
@@ -227,28 +221,8 @@ class Gridded:
     def made(self) -> Iterator[Candidate]:
         """The grid that the mesh was made on."""
         step = made_on(self._prepared.mesh.positions)
-        if step is not None:  # wherever coarser ones are looked for, from what looks about right on
-            made = self.at(step / self._prepared.units.scale)
-            yield replace(made, step=max(made.step, self._bounds.rough_step))
-
-    def smooth(self, right: float) -> Iterator[Candidate]:
-        """Grids on which the mesh takes less than on those beside them, as where it was made on one.
-
-        First ones that are finer than one that is about right, and take less all the same; then ones that are coarser.
-        """
-        character, extent = self._shaper.character, float(extent_of(self._prepared.positions).max())
-        steps = {extent / ((1 << bits) - 1) for bits in range(1, FINEST_BITS)}
-        steps |= {extent * 2.0 ** (-k / PARTS_OF_OCTAVE) for k in range(FINEST_BITS * PARTS_OF_OCTAVE)}
-        tried = sorted(step for step in steps if right / FINER <= step <= WIDER * right)
-        entropies = np.array([character.entropy(step) for step in tried])
-        found = np.flatnonzero(entropies[1:-1] <= np.minimum(entropies[:-2], entropies[2:])) + 1
-        made, last = [i for i in found if tried[i] <= right], right
-        made.sort(key=lambda i: float(entropies[i]))
-        for i in found:
-            if tried[i] > APART * last:
-                made.append(i)
-                last = tried[i]
-        yield from (self.at(tried[i]) for i in made)
+        if step is not None:
+            yield self.at(step / self._prepared.units.scale)
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))

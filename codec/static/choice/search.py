@@ -6,8 +6,6 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from copy import copy
-from dataclasses import dataclass, replace
-from itertools import islice
 from operator import attrgetter
 from typing import Protocol
 
@@ -22,7 +20,6 @@ from bsm.codec.static.targets import SLACK, SLACK_OF_LOOK, STEEPEST, TRIES, Cont
 
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 QUICK_TRIES = 3  # steps of each way, where encoding shall be quick
-SMOOTH = 6  # grids that are tried of those that suit a model, and twice as many by the best effort
 
 
 class Way(Protocol):
@@ -35,20 +32,8 @@ class Way(Protocol):
     def first(self) -> float:
         """A step that is about right."""
 
-    def under(self, bounds: Bounds) -> Way:
-        """Return the same way for other bounds."""
-
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
-
-
-@dataclass(frozen=True)
-class Found:
-    """What a search ended with."""
-
-    way: Way
-    step: float
-    contract: Contract
 
 
 class Search:
@@ -60,7 +45,6 @@ class Search:
         self._measures, self._prepared = measures, measures.prepared
         self._options = options
         self._size = size
-        self._before: Found | None = None
 
     @property
     def metric(self) -> LookMetric | None:
@@ -77,45 +61,25 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
-        before, self._before = self._before, None
-        if before is not None and replace(contract, look=before.contract.look) == before.contract:
-            way = before.way.under(bounds)
-            found = widest(way, bounds, first=before.step * contract.look / before.contract.look)
-            if found is not None:
-                return self._noted(found, way, contract)
         grid = Gridded(self._prepared, bounds)
-        kept: list[tuple[Candidate, Way]] = [
-            (candidate, grid) for candidate in grid.made() if bounds.keeps(candidate.positions)
-        ]
+        kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
         for way in self._ways(bounds, contract.look):
-            least = min((candidate.draft.size for candidate, _ in kept), default=math.inf)
+            least = min((candidate.draft.size for candidate in kept), default=math.inf)
             if isinstance(way, Gridded) and kept and SHAPED * grid.begun.draft.size > least:
                 break
             found = widest(way, bounds, least, tries=self._tries)
-            kept += [] if found is None else [(found, way)]
-        for candidate in self._made_on(bounds, [candidate for candidate, _ in kept]):
-            least = min(other.draft.size for other, _ in kept)
-            if candidate.draft.size < least and bounds.keeps(candidate.positions):
-                kept.append((candidate, grid))
+            kept += [] if found is None else [found]
         if not kept:
-            kept += [(self._last_resort(bounds), grid)]
-        best, way = min(kept, key=lambda pair: self._size(pair[0].draft))
-        return self._noted(best, way, contract)
+            kept.append(self._last_resort(bounds))
+        return min((candidate.draft for candidate in kept), key=self._size)
 
     def shaded_by(self, shading: Shading) -> Search:
         """Return a search for the same mesh, where decoded meshes are drawn with normals that `shading` makes."""
         other = copy(self)
-        other._before = None  # other normals may want another way
         other._measures = copy(self._measures)
         if self.metric is not None:
             other._measures.look = self.metric.shaded_by(shading)
         return other
-
-    def _noted(self, found: Candidate, way: Way, contract: Contract) -> Draft:
-        """Remember what was found: a contract of another look begins there."""
-        if found.step > 0.0:
-            self._before = Found(way, found.step, contract)
-        return found.draft
 
     def _last_resort(self, bounds: Bounds) -> Candidate:
         """The result of grids that are finer than where a search began, where it came to nothing."""
@@ -148,7 +112,6 @@ class Search:
             with suppress(LimitError):
                 secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
             found += [fitting[finest] for finest in sorted(fitting)[-1:]]
-        found += self._made_on(bounds, found)
         found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c.positions)]
         return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
 
@@ -177,37 +140,27 @@ class Search:
                 yield Plain(prepared, options, bounds)
         yield from (Gridded(prepared, bounds, worth) for worth in (1.0, 0.0))
 
-    def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
-        """Grids near one that was found, on which a model may have been made."""
-        steps = [candidate.step for candidate in found if candidate.draft.places is not None]
-        if not steps or self._options.quick or not self._measures.shaper.character.is_sharp:
-            return
-        tries = SMOOTH * (2 if self._options.effort == "best" else 1)
-        for candidate in islice(Gridded(self._prepared, bounds, 1.0).smooth(max(steps)), tries):
-            if self.metric is not None and self.metric.spent > 1.0:
-                return
-            yield candidate
 
-
-def widest(
-    way: Way, bounds: Bounds, most_bytes: float = math.inf, first: float | None = None, tries: int = TRIES
-) -> Candidate | None:
-    """Return the smallest candidate found that keeps the bounds; None if it would not be smaller than `most_bytes`."""
-    kept = list[Candidate]()
+def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = TRIES) -> Candidate | None:
+    """Return the smallest candidate found that keeps the bounds, or has few folds, at least; None if it would not be
+    smaller than `most_bytes`."""
+    kept, slack = list[tuple[bool, Candidate]](), SLACK
+    if isinstance(way, Refined) and bounds.contract.look < math.inf:
+        slack = SLACK_OF_LOOK
 
     def at(step: float) -> float | None:
         candidate, sure = way.at(step), math.inf
         if most_bytes < math.inf:  # a step twice as wide saves three bits of a vertex at most, half as wide costs one
             bits = math.log(2.0) * 8.0 * (candidate.draft.size - most_bytes) / len(candidate.positions)
             sure = -bits * STEEPEST if bits < 0.0 else -bits / (3.0 * STEEPEST)
-        over = bounds.excess(candidate)
-        if over <= 0.0 and candidate.suits and bounds.keeps(candidate.positions):
-            kept.append(candidate)
+        over, folded = bounds.excess(candidate), bounds.folds(candidate.positions)
+        if over <= 0.0 and bounds.keeps(candidate.positions):
+            kept.append((folded, candidate))
+        over = max(over, slack) if folded else over  # a finer step has fewer folds
         return over if over < sure else None
 
-    slack = SLACK_OF_LOOK if isinstance(way, Refined) and bounds.contract.look < math.inf else SLACK
-    slack = slack / 4.0 if tries > TRIES else slack
     with suppress(LimitError):  # blocks that decoders would refuse
-        secant(at, min(max(first or way.first, way.least), way.most), way.least, way.most, tries, slack=slack)
-    smallest = min(kept, key=lambda candidate: candidate.draft.size, default=None)
+        fine = slack / 4.0 if tries > TRIES else slack
+        secant(at, min(max(way.first, way.least), way.most), way.least, way.most, tries, slack=fine)
+    smallest = min(kept, key=lambda found: (found[0], found[1].draft.size), default=(False, None))[1]
     return None if smallest is None or smallest.draft.size >= most_bytes else smallest

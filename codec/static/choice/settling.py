@@ -60,16 +60,12 @@ class Settler:
         known: Callable[[Levels], Matrix],
         worth: float,
         reach: Matrix,
-        even: float = math.inf,
     ) -> Levels:
-        """Return levels that are worth their bits, shape (n, axes); `even`: errors in all directions count as much as
-        rounding to such steps would trade them for bits."""
+        """Return levels that are worth their bits, shape (n, axes)."""
         count, axes = steps.shape
         unit = worth * float(steps[0, 0]) ** 2
         tangent = ASIDE / np.square(tangent_steps(self._positions, self._faces, 1.0, RATIO))
         losses = np.column_stack([np.maximum(1.0 - tangent, 0.0), tangent]) / max(unit, 1e-300)
-        if even < math.inf:
-            losses[:, 1] += 1.0 / (worth * even**2)
         normals = in_frames(self._frames[:, 0], frames)
         levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)
         creases = self._creases._replace(costs=self._creases.costs * (CREASED * count / max(worth, 1e-300)))

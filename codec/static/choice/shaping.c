@@ -7,9 +7,7 @@
 
 enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
 enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
-enum { FOLDED = 1, FLAT = 2 };            /* what is wrong with an edge */
 #define FOLD 0.1   /* what a fold costs, over turning a face of mean area by a radian */
-#define AREA 1e-18 /* of squares of sides, squares of normals of faces without area */
 
 /* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the
  * wanted normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the
@@ -310,15 +308,13 @@ INLINE void cross(const double *a, const double *b, const double *c, double *n) 
 
 INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* What is wrong with an edge between two faces: it is FOLDED by more than 90 degrees, or, if that counts, one of these
- * is FLAT, without area. The vertex `v` lies `there`. */
-INLINE int wrong_with(const double *positions, const int32_t *flap, bool flat, int32_t v, const double *there) {
+/* Whether an edge between two faces is folded by more than 90 degrees. The vertex `v` lies `there`. */
+INLINE bool is_folded(const double *positions, const int32_t *flap, int32_t v, const double *there) {
     const double *at[4];
     for (int k = 0; k < 4; k++) at[k] = flap[k] == v ? there : positions + 3 * (int64_t)flap[k];
-    double n[3], m[3], edge = AREA * square(at[0], at[1]);
+    double n[3], m[3];
     cross(at[0], at[1], at[2], n), cross(at[1], at[0], at[3], m);
-    if (flat && (dot(n, n) <= edge * square(at[0], at[2]) || dot(m, m) <= edge * square(at[0], at[3]))) return FLAT;
-    return dot(n, m) < 0.0 ? FOLDED : 0;
+    return dot(n, m) < 0.0;
 }
 
 /* How many edges between faces are folded by more than 90 degrees. */
@@ -326,55 +322,53 @@ int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps) {
     int64_t count = 0;
     if (positions.columns != 3 || flaps.columns != 4) return MISUSED;
     for (int64_t f = 0; f < flaps.rows; f++)
-        count += wrong_with(positions.data, flaps.data + 4 * f, false, -1, positions.data);
+        count += is_folded(positions.data, flaps.data + 4 * f, -1, positions.data);
     return count;
 }
 
-/* Edges between faces, as rows of four vertices, `members` / 2 at each vertex, and what was `wrong` with each. */
+/* Edges between faces, as rows of four vertices, `members` / 2 at each vertex, and which were folded: `wrong`. */
 typedef struct {
     ConstInts2 flaps;
     ConstInts starts, members;
     ConstBytes wrong;
-    bool flat;
 } Edges;
 
-/* How much is wrong with edges beside a vertex that lies `there`, and was not. */
+/* How many edges beside a vertex that lies `there` are folded, and were not. */
 INLINE int wrong_around(const Edges *edges, const double *positions, int32_t v, const double *there) {
     int count = 0;
     for (int32_t i = edges->starts.data[v]; i < edges->starts.data[v + 1]; i++) {
         int64_t f = edges->members.data[i] >> 1;
-        count += !edges->wrong.data[f] && wrong_with(positions, edges->flaps.data + 4 * f, edges->flat, v, there);
+        count += !edges->wrong.data[f] && is_folded(positions, edges->flaps.data + 4 * f, v, there);
     }
     return count;
 }
 
 /* Moves levels (n x 3) by up to two along `directions` (n x 9, or one row for all; a level long) where that turns faces
  * back, however small they are, which rounding has turned over, or folded onto another at more than `most` edges more
- * than there were; or else, with `flat`, gives faces an area again. `moved` is kept in step. No vertex ends up farther
- * from its place than its `reach`, unless it was. `flaps` as in `shape_grid`; `wrong` is scratch. Returns how often one
+ * than there were. `moved` is kept in step. No vertex ends up farther from its place than its `reach`, unless it was. `flaps` as in `shape_grid`; `wrong` is scratch. Returns how often one
  * moved. */
 KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
-                             ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, bool flat,
+                             ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most,
                              Creases creases, Bytes wrong, Bytes open) {
     if (!fits(&wanted, moved, levels, open) || levels.columns != 3 || directions.columns != 9
         || reach.size != levels.rows || (directions.rows != levels.rows && directions.rows != 1) || flaps.columns != 4
         || starts.size != levels.rows + 1 || wrong.size != flaps.rows || !fits_creases(&creases, levels.rows))
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
-    Edges edges = {flaps, starts, members, {wrong.data, wrong.size}, flat};
+    Edges edges = {flaps, starts, members, {wrong.data, wrong.size}};
     double over = FOLD / (double)largest(wanted.faces.rows, 1);
     int64_t more = 0, moves = 0;
     Fan fan;
     for (int64_t v = 0; v < open.size; v++) open.data[v] = 0;
     for (int64_t f = 0; f < flaps.rows; f++) {
         const int32_t *flap = flaps.data + 4 * f;
-        int then = wrong_with(wanted.positions.data, flap, flat, -1, moved.data);
-        int now = wrong_with(moved.data, flap, flat, -1, moved.data);
-        more += flat ? now == FLAT && then != FLAT : now - then;
+        int then = is_folded(wanted.positions.data, flap, -1, moved.data);
+        int now = is_folded(moved.data, flap, -1, moved.data);
+        more += now - then;
         wrong.data[f] = (uint8_t)then;
         for (int k = 0; k < 4 && now && !then; k++) open.data[flap[k]] = 1;
     }
-    if (more <= (flat ? 0 : most)) return 0;
+    if (more <= most) return 0;
     for (int64_t f = 0; f < wanted.faces.rows; f++) {
         const int32_t *face = wanted.faces.data + 3 * f;
         const double *normal = wanted.normals.data + 3 * f, *at[3];
@@ -477,35 +471,5 @@ int64_t group_flaps(ConstInts2 flaps, Ints starts, Ints members) {
     /* Every end has come down to where the row begins: move them up by one. */
     for (int64_t v = 0; v < n; v++) starts.data[v] = starts.data[v + 1];
     starts.data[n] = (int32_t)members.size;
-    return 0;
-}
-
-enum { EXACT = 16, OCTAVE = 4 };
-
-/* Which of `count` a magnitude is counted with: small ones by themselves, four an octave beyond. */
-INLINE int64_t bucket(int64_t magnitude, int64_t count) {
-    if (magnitude < EXACT) return least(magnitude, count - 1);
-    int bits = 63 - __builtin_clzll((uint64_t)magnitude);
-    return least(EXACT + OCTAVE * (bits - 4) + ((magnitude >> (bits - 2)) & 3), count - 1);
-}
-
-/* How often bends of each size come, `counts` (3 x buckets), on a grid: `corners` are rows of four vertices, from the
- * corner of the grid on. */
-KERNEL int64_t count_bends_on(ConstDoubles2 corners, double step, Ints2 counts) {
-    if (corners.columns != 12 || counts.rows != 3 || counts.columns < 1 || !(step > 0.0)) return MISUSED;
-    for (int64_t i = 0; i < 3 * counts.columns; i++) counts.data[i] = 0;
-    double inverse = 1.0 / step;
-    for (int64_t i = 0; i < corners.rows; i++) {
-        const double *corner = corners.data + 12 * i;
-        for (int a = 0; a < 3; a++) {
-            int64_t place[4];
-            for (int k = 0; k < 4; k++) {
-                double at = corner[3 * k + a] * inverse + 0.5;
-                place[k] = at > 0.0 ? at < 0x1p60 ? (int64_t)at : (int64_t)1 << 60 : 0;
-            }
-            int64_t bend = place[0] + place[1] - place[2] - place[3];
-            counts.data[a * counts.columns + bucket(bend < 0 ? -bend : bend, counts.columns)]++;
-        }
-    }
     return 0;
 }

@@ -18,8 +18,6 @@ from bsm.codec.geometry.metrics import LOST, Original
 from bsm.codec.static.choice.settling import PULL, Creases, creases_of
 
 SAMPLE = 1 << 11  # flaps, faces and edges that the character of a surface is measured on
-EXTRA = np.concatenate([np.zeros(16), 2.0 + np.arange(64) // 4])
-"""Bits that tell second differences apart which are counted together (see `bucket` in shaping.c)."""
 SHARP = 0.4  # of the mean angle between faces beside each other: with a median below it, a surface has sharp edges
 UNEVEN = 0.33
 """Of this mean, a third quartile below which nearly all of it is flat; of the mean area of a face, a median below which
@@ -43,18 +41,6 @@ class Character:
         some = faces[:: max(1, len(faces) // SAMPLE), :2]
         a, b = positions[some[:, 0]], positions[some[:, 1]]
         return float(np.sqrt(np.square(a - b).sum(axis=1)).mean())
-
-    def entropy(self, step: float) -> float:
-        """Bytes of the mesh on a rounded grid, if each place took what a second difference takes, by a histogram."""
-        counts = np.empty((3, len(EXTRA)), np.int32)
-        _kernels.count_bends_on(self._corners, step, counts)
-        total = float(counts[0].sum())
-        if not total:
-            return 0.0
-        shares = counts[counts > 0] / total
-        bits = float(counts.sum(axis=0) @ EXTRA) / total - float((shares * np.log2(shares)).sum())
-        signs = 3.0 - float(counts[:, 0].sum()) / total
-        return len(self._original.positions) / 8.0 * (bits + signs)
 
     def rounded_angle(self, step: float) -> float:
         """Mean angle of normals, degrees, on a rounded grid."""
@@ -88,10 +74,6 @@ class Character:
         weights = self._original.weights
         flat = np.quantile(self._dihedrals, 0.75) < UNEVEN * self._dihedrals.mean()
         return bool(flat or np.median(weights) < UNEVEN * weights.mean())
-
-    @cached_property
-    def _corners(self) -> Matrix:
-        return np.ascontiguousarray((self._original.positions[self._flaps] - self._low).reshape(-1, 12))
 
     @cached_property
     def _faces(self) -> tuple[Matrix, Indices, Matrix, Matrix]:
@@ -161,13 +143,10 @@ class Shaper:
         )  # fmt: skip
         return chosen
 
-    def unfold(
-        self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix, flat: bool = False
-    ) -> Levels | None:
-        """Levels, shape (n, 3), that fold fewer edges over, or leave fewer faces `flat`, along `directions`, shape
-        (n or 1, 9); None where few enough are folded, and none flat."""
+    def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
+        """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few are folded."""
         chosen, most = np.array(levels, np.int32, order="C"), self.most_folded - self.folded(self._original.positions)
-        given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most, flat, self._creases
+        given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most, self._creases
         wrong = np.empty(len(self._flaps[0]), np.uint8)
         return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong, self._open) else None
 

@@ -9,7 +9,7 @@ import pytest
 
 from bsm import PRESETS, EncodeOptions, Encoder, TriangleMesh, decode, encode
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.metrics import Original, face_normals, flat_faces, folded_edges
+from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
 from bsm.codec.static.choice.shaping import Character, Shaper
 from bsm.codec.static.preamble_encoding import join
 from bsm.files.mesh import read_mesh
@@ -31,31 +31,6 @@ def box(cells: int, lines: int, seed: int = 0) -> TriangleMesh:
 def character_of(mesh: TriangleMesh) -> Character:
     """Measures of a mesh in its own unit."""
     return Shaper(Original(mesh.positions, mesh.faces), graph_of_faces(mesh.faces, len(mesh.positions))).character
-
-
-def test_entropy_is_that_of_the_histogram() -> None:
-    mesh = curved(patch(20, 30))
-    shaper = Shaper(Original(mesh.positions, mesh.faces), graph_of_faces(mesh.faces, len(mesh.positions)))
-    flaps, step = shaper._flaps[0], 0.004
-    places = np.floor((mesh.positions - mesh.positions.min(axis=0)) / step + 0.5).astype(np.int32)
-    bends = places[flaps[:, 0]] + places[flaps[:, 1]] - places[flaps[:, 2]] - places[flaps[:, 3]]
-    assert np.abs(bends).max() < 16, "where every size is counted by itself"
-    bits = 0.0
-    for axis in np.abs(bends).T:
-        shares = np.bincount(axis) / len(axis)
-        shares = shares[shares > 0]
-        bits += (axis > 0).mean() - (shares * np.log2(shares)).sum()
-    wanted = len(mesh.positions) * bits / 8
-    assert shaper.character.entropy(step) == pytest.approx(wanted)
-
-
-def test_twice_as_fine_a_grid_takes_three_bits_more_of_a_rough_mesh() -> None:
-    mesh = torus(40, 30)
-    noise = np.random.default_rng(0).normal(size=mesh.positions.shape)
-    character = character_of(TriangleMesh(mesh.positions + 0.02 * noise, mesh.faces))
-    for step in (1e-2, 1e-3, 1e-4):
-        more = character.entropy(step / 2) - character.entropy(step)
-        assert 8 * more / len(mesh.positions) == pytest.approx(3.0, abs=0.3)
 
 
 def test_a_step_bends_as_much_as_it_should() -> None:
@@ -109,18 +84,6 @@ def test_faces_that_rounding_turns_over_are_turned_back_within_reach() -> None:
     away = np.linalg.norm(rounded * step - slivers, axis=1)
     assert nearer is None or (np.linalg.norm(nearer * step - slivers, axis=1) <= away + 1e-12).all()
     assert shaper.unfold(slivers, rounded, directions, reach) is None, "nothing is turned over"
-
-
-def test_faces_that_rounding_has_flattened_get_an_area_again() -> None:
-    mesh = curved(patch(24, 24))
-    narrow = mesh.positions * (1, 0.3, 1)
-    shaper, step = Shaper(Original(narrow, mesh.faces), graph_of_faces(mesh.faces, len(narrow))), 1 / 40
-    rounded = np.rint(narrow / step).astype(np.int32)
-    given = rounded * step, rounded, step * np.eye(3).reshape(1, 9), np.full(len(narrow), 2.0 * step)
-    better = shaper.unfold(*given, flat=True)
-    before = int(flat_faces(rounded * step, mesh.faces).sum())
-    assert before > 100 and better is not None and flat_faces(better * step, mesh.faces).sum() < before / 2
-    assert shaper.unfold(narrow, *given[1:], flat=True) is None, "nothing is flat"
 
 
 @pytest.mark.real
