@@ -282,7 +282,7 @@ def test_the_table_of_exit_codes_is_that_of_the_program():
 
 
 def test_the_first_picture_says_what_the_table_says():
-    """`python -m tools.front_page` writes both figures of the bunny into the picture's text."""
+    """`python -m tools.pictures` writes both figures of the bunny into the picture's text."""
     data = (ROOT / "tools" / "front.png").read_bytes()
     figures, at = {}, 8
     while at < len(data):
@@ -293,4 +293,4 @@ def test_the_first_picture_says_what_the_table_says():
         at += size + 12
     row = next(line for line in (ROOT / "README.md").read_text("utf-8").splitlines() if line.startswith("| bunny"))
     cells = [cell.strip() for cell in row.split("|")]
-    assert (figures["file"], figures["balanced"]) == (cells[2], cells[4]), "run python -m tools.front_page MESHES"
+    assert (figures["file"], figures["balanced"]) == (cells[2], cells[4]), "run python -m tools.pictures MESHES"

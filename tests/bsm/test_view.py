@@ -32,6 +32,7 @@ from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Til
 from tests.bitstream.streams import frame_ends
 from tests.shapes import curved, torus
 from tests.streams import moving_events_of
+from tools.pictures import pages
 
 needs_packages = pytest.mark.skipif(
     shutil.which("node") is None or not (Path(__file__).parents[2] / "web/node_modules").is_dir(),
@@ -569,20 +570,7 @@ def test_damage_is_survived_as_in_python(tmp_path):
 @needs_packages
 @pytest.mark.real
 def test_pages_are_drawn_as_in_the_documents(meshes, tmp_path):
-    """With BSM_PICTURES=docs/guides this makes the pictures of the documents anew."""
-    target = Path(os.environ.get("BSM_PICTURES", tmp_path)).resolve()
-    scan, duck = tmp_path / "scan.html", tmp_path / "duck.html"
-    assert main(["view", str(meshes / "static" / "bunny_34834.ply"), "--save", str(scan), "-q"]) == 0
-    assert main(["view", str(meshes / "assets" / "Duck.glb"), "--save", str(duck), "-q"]) == 0
-    shots = [
-        {"page": scan, "picture": "page-scan.jpg", "layers": 3, "keys": "", "dark": False, "size": [1280, 800]},
-        {"page": scan, "picture": "page-errors.jpg", "layers": 3, "keys": "e3", "dark": True, "size": [1280, 800]},
-        {"page": duck, "picture": "page-phone.jpg", "layers": 2, "keys": "", "dark": True, "size": [390, 780]},
-    ]
-    for shot in shots:
-        shot |= {"page": str(shot["page"]), "picture": str(target / str(shot["picture"]))}
-    javascript("pages", BSM_PAGES=json.dumps(shots))
-    assert all(Path(str(shot["picture"])).stat().st_size > 10_000 for shot in shots)
+    assert all(path.stat().st_size > 10_000 for path in pages(meshes, tmp_path, tmp_path))
 
 
 @pytest.mark.slow

@@ -1,13 +1,19 @@
-"""The pictures of the README: a scan, a noisy part, and a moving mesh.
+"""The pictures of README, gallery and guides, made by the present commit.
 
-    python -m tools.front_page FOLDER
+    python -m tools.pictures FOLDER
 
-FOLDER has static/, noisy/ and dynamic/. Writes tools/front.png and tools/motion.gif.
+FOLDER has static/, noisy/, dynamic/ and assets/. The pictures of `bsm view` and of streaming need Node, the packages of
+web/ and Chromium. Blender makes docs/guides/gallop.jpg.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -21,19 +27,45 @@ from bsm.pictures import Image, bounds_of, render, view_matrix, with_titles
 from tools.command import run_command
 
 TOOLS = Path(__file__).parent
+ROOT = TOOLS.parent
+GUIDES = ROOT / "docs" / "guides"
 FRONT = view_matrix(-90.0, 15.0)
 PIXELS = 480
 FRAMES = 24
 
 
 def main(args: argparse.Namespace, console: Console) -> None:
-    """Write both pictures."""
+    """Write all pictures."""
     folder = Path(args.folder)
     pictures, figures = scan(folder / "static" / "bunny_34834.ply")
     titles, images = zip(*pictures, *part(folder), strict=True)
     (TOOLS / "front.png").write_bytes(with_titles(images, titles, figures=figures))
     text = _save_motion(folder / "dynamic" / "samba.npz", TOOLS / "motion.gif")
     console.note(text)
+    with tempfile.TemporaryDirectory() as work:
+        pages(folder, GUIDES, Path(work))
+        stream = Path(work) / "bunny.bsm"
+        stream.write_bytes(bsm.encode(folder / "static" / "bunny_34834.ply"))
+        picture = ["npm", "run", "picture", "--", str(stream), str(GUIDES / "streaming.png")]
+        subprocess.run(picture, cwd=ROOT / "web", env=os.environ | {"PYTHON": sys.executable}, check=True)
+
+
+def pages(folder: Path, target: Path, work: Path) -> list[Path]:
+    """Take pictures of the page of `bsm view` with a scan, its errors, and a textured asset on a phone."""
+    scan, asset = work / "scan.html", work / "asset.html"
+    for mesh, page in (("static/bunny_34834.ply", scan), ("assets/Duck.glb", asset)):
+        command = [sys.executable, "-m", "bsm", "view", str(folder / mesh), "--save", str(page), "-q", "-f"]
+        subprocess.run(command, check=True)
+    shots = [
+        {"page": scan, "picture": "page-scan.jpg", "layers": 3, "keys": "", "dark": False, "size": [1280, 800]},
+        {"page": scan, "picture": "page-errors.jpg", "layers": 3, "keys": "e3", "dark": True, "size": [1280, 800]},
+        {"page": asset, "picture": "page-phone.jpg", "layers": 2, "keys": "", "dark": False, "size": [390, 780]},
+    ]
+    for shot in shots:
+        shot |= {"page": str(shot["page"]), "picture": str(target / str(shot["picture"]))}
+    environment = os.environ | {"BSM_PAGES": json.dumps(shots)}
+    subprocess.run(["node", "scripts/test.mjs", "pages"], cwd=ROOT / "web", env=environment, check=True)
+    return [Path(str(shot["picture"])) for shot in shots]
 
 
 def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
@@ -83,7 +115,7 @@ def _save_motion(path: Path, target: Path) -> str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m tools.front_page", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m tools.pictures", description=__doc__)
     parser.add_argument("folder", metavar="FOLDER", help="folder of meshes")
     return parser
 
