@@ -21,8 +21,8 @@ try {
     await page.goto(pathToFileURL(saved).href);
     await page.waitForSelector("body[data-state=complete]");
     await page.addStyleTag({ content: ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: white !important }" });
-    await page.getByRole("combobox", { name: "Color" }).selectOption("blocks");
     await page.getByRole("button", { name: "Settings" }).click();
+    await page.getByRole("combobox", { name: "Color" }).selectOption("blocks");
     const size = statSync(stream).size;
     const pictures = [];
     for (const share of SHARES.toReversed()) {
