@@ -28,6 +28,7 @@ from bsm.files.formats.polygons import (
 )
 from bsm.files.room import Doubles, require_count
 
+_WAY = "in Python, give bsm.encode what meshio.read or pyvista.read returns, or its surface"
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
 PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joined: for each triangle, and for each part
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
@@ -52,7 +53,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     if kind not in trimesh.available_formats():
         complete = all(map(importlib.util.find_spec, ("lxml", "networkx", "collada")))
         more = "" if complete else f" (trimesh reads 3MF, DAE and others after: {how_to_install('formats')})"
-        raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}")
+        raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}; {_WAY}")
     resolver = _Resolver(Beside(Path(path).resolve().parent if path else None, limits.metadata_bytes))
     try:
         up = re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
