@@ -68,6 +68,11 @@ class Encoder:
         keep the order, the stream returns them.
     options : EncodeOptions
 
+    Attributes
+    ----------
+    look : float or None
+        The look distance of the decoded mesh, once it has been checked; None if the options promise no look.
+
     Examples
     --------
     >>> import bsm
@@ -84,6 +89,7 @@ class Encoder:
         packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Input(mesh, self.options)
+        self.look: float | None = None
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         self._doubt = "" if promise is None else promise.doubt(mesh.diagonal, unit if isinstance(unit, str) else "")
 
@@ -221,7 +227,7 @@ class Encoder:
         most = target.bytes_of(self._input.prepared.graph.size)
         found = self._input.search(promise or anything, near).best(promise or anything, most)
         dressed = None if found is None else self._input.dressed(found)
-        if dressed is not None and not (promise and self._input.broken(dressed, promise)):
+        if dressed is not None and not (promise and self._input.measured(dressed, promise)[0]):
             return self._judged(dressed)
         asked, none = f"{target.worded(target.value)} at most cannot be", self._input.search(anything, near)
         if promise is None:
@@ -268,7 +274,7 @@ class Encoder:
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
             verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
-        broken = "" if contract is None else self._input.broken(draft, contract)
+        broken, self.look = ("", None) if contract is None else self._input.measured(draft, contract)
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         near.to(1.0)
         return draft

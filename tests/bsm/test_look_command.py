@@ -102,6 +102,6 @@ def test_triangles_without_area_and_vertices_at_one_place_are_counted_beyond_the
     bsm.save((after, faces), tmp_path / "b.ply")
     assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply"), "-q"]) == 0
     line = capsys.readouterr().out.splitlines()[0]
-    assert line.endswith("; 2 triangles without area that had one; 1 vertex where another one is, and was not before")
+    assert line.endswith("; 2 triangles flattened by rounding; 1 vertex merged by rounding")
     found = run_json(capsys, tmp_path / "a.ply", tmp_path / "b.ply")
     assert (found["flattened"], found["merged"]) == (2, 1)

@@ -78,7 +78,7 @@ def test_compare_says_it_in_a_sentence_with_units(tmp_path, capsys):
     bsm.save(bsm.TriangleMesh(moved, MESH.faces), tmp_path / "b.ply")
     assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply")]) == 0
     first = capsys.readouterr().out.splitlines()[0]
-    assert first.startswith("the farthest vertex is 0.25 mm off, ") and "% of the diagonal" in first
+    assert first.startswith("largest vertex error 0.25 mm, ") and "% of the diagonal" in first
     assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "a.ply")]) == 0
     assert capsys.readouterr().out.startswith("all vertices are equal\n")
 

@@ -99,19 +99,19 @@ class Input:
         asked = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
         return None if asked or attribute.domain == "face" or quality.way != "bits" else first
 
-    def broken(self, draft: Draft, contract: Contract) -> str:
-        """The bounds of a contract that a draft, with its attributes, breaks, in words; empty: it keeps them all."""
+    def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None]:
+        """Return the bounds of a contract that a draft with its attributes breaks, in words, and its look distance."""
         bounds, positions = Bounds(self.measures, contract), _decoded(self, draft)
         metric, free = bounds.metric, self.free_normals
         if metric is None:
-            return "" if bounds.keeps(positions) else bounds.had
+            return "" if bounds.keeps(positions) else bounds.had, None
         if free is None:
             seen = [metric.distance(positions)]
         else:
             normals = self.carried[free].normals(positions)
             seen = [metric.bare(positions).distance, metric.shaded(positions, normals)]
         seen += [look.distance(positions, self.carried[at].at_corners) for at, look in self.looks]
-        return "" if bounds.keeps(positions, max(seen)) else bounds.had
+        return "" if bounds.keeps(positions, max(seen)) else bounds.had, max(seen)
 
 
 def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:

@@ -58,6 +58,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--json", action="store_true", help="print the result as JSON")
 
 
+EXPLAINED = {
+    "nmsve": "normalized mean squared visual error; 0 is best",
+    "nmsve_db": "the same in decibels; lower is better",
+    "theta_deg": "mean angle between normals of faces, degrees",
+    "angle_deg": "the same, weighted by area",
+    "rms": "root mean square of vertex errors, in the unit of the mesh",
+    "rms_relative": "the same, as a fraction of the diagonal",
+    "max_error": "largest vertex error, in the unit of the mesh",
+    "max_error_relative": "the same, as a fraction of the diagonal",
+    "flattened": "triangles that lost their area",
+    "merged": "vertices that rounding put at one place",
+    "folded_before": "edges folded by over 90 degrees in the original",
+    "folded_after": "the same in the decoded mesh",
+}
+
+
 def run(args: argparse.Namespace, console: Console) -> None:
     if _compare_scenes(args, console) or _compare_sequences(args, console):
         return
@@ -96,7 +112,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
     lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
-    lines += [f"{name:<18} {'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
+    for name, value in compared.items():
+        number = "-inf" if value is None else f"{value:.6g}"
+        lines.append(f"{name:<18} {number:<12} {EXPLAINED.get(name, '')}".rstrip() + "\n")
     if seen:
         parts = f"mean difference of shades {seen.unlike:.3g}, largest {seen.gone:.3g}"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
@@ -137,9 +155,9 @@ def _compared(
 def sentence(compared: dict[str, Any], unit: str) -> str:
     found = [_errors(compared, unit)]
     if compared["flattened"]:
-        found.append(f"{counted(triangles=compared['flattened'])} without area that had one")
+        found.append(f"{counted(triangles=compared['flattened'])} flattened by rounding")
     if compared["merged"]:
-        found.append(f"{counted(vertices=compared['merged'])} where another one is, and was not before")
+        found.append(f"{counted(vertices=compared['merged'])} merged by rounding")
     return "; ".join(found)
 
 
@@ -149,8 +167,8 @@ def _errors(compared: dict[str, Any], unit: str) -> str:
         return "all vertices are equal"
     rms = compared["rms_relative"] / compared["max_error_relative"] * compared["max_error"]
     return (
-        f"the farthest vertex is {length(compared['max_error'], unit)} off, {share:.3g} % of the diagonal; root mean "
-        f"square {length(rms, unit)}; faces are turned by {compared['angle_deg']:.3g} degrees, in the mean by area"
+        f"largest vertex error {length(compared['max_error'], unit)}, {share:.3g} % of the diagonal; root mean square "
+        f"{length(rms, unit)}; mean normal error {compared['angle_deg']:.3g} degrees, weighted by area"
     )
 
 

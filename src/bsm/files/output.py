@@ -221,9 +221,8 @@ def by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
     except OSError as error:
         if str(error.filename).endswith(_TEMPORARY) or (error.filename is None and error.errno in _FULL):
             error.filename, error.filename2 = os.fspath(path), None
-            folder = os.path.dirname(os.fspath(path))
-            if isinstance(error, FileNotFoundError) and not os.path.isdir(folder):
-                error.strerror, error.filename = "the output folder does not exist; create it first", folder
+            if isinstance(error, FileNotFoundError) and not os.path.isdir(os.path.dirname(os.fspath(path))):
+                error.strerror = "the folder of the output does not exist; create it first"
         raise
 
 

@@ -95,20 +95,22 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     ]
     vertices, faces, size, error = result.header.vertices, len(encoder.mesh.faces), result.size, result.comparison
     taken, bpv = size_of(job.input), 8 * (size - images) / vertices
+    promise = chosen.promise
+    look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     _finish(
         job,
         console,
         notes,
         encoder.vertex_order,
         f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, size)}, "
-        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; farthest vertex "
-        f"{100 * error.max_error_relative:.3g} % of the diagonal, normals {error.angle_deg:.2f} degrees, "
-        f"{error.nmsve_db:.2f} dB; {seconds:.2f} s",
+        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}largest vertex error "
+        f"{100 * error.max_error_relative:.3g} % of the diagonal, mean normal error {error.angle_deg:.2f} degrees; "
+        f"{seconds:.2f} s",
     )
     counts = {"vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
     angles = {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
-    ends = {"max_error_relative": error.max_error_relative, "seconds": seconds, "notes": notes}
+    ends = {"max_error_relative": error.max_error_relative, "look": encoder.look, "seconds": seconds, "notes": notes}
     return {"input": job.input, "output": job.output, **counts, **sizes, **angles, **ends}
 
 
@@ -136,8 +138,10 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
     notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else loops.descriptions())]
-    if (chosen.promise is None or chosen.promise.look == math.inf) and (look := encoder.worst_look) is not None:
-        notes.append(f"no look is promised: the worst frame has a look of {look:.2g}, where the default has at most 1")
+    look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
+    if look == math.inf and seen is not None:
+        notes.append(f"no look is promised: the worst frame has a look of {seen:.2g}; the default allows 1")
+    kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame, "
     vertices, faces, bpvf = len(encoder.vertex_order), len(encoder.face_order), 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
     _finish(
@@ -146,7 +150,8 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         notes,
         encoder.vertex_order,
         f"{counted(frames=loops.frames)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
-        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {encoder.kg:.3g} %, {seconds:.2f} s",
+        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
+        f"KG error {encoder.kg:.3g} %; {seconds:.2f} s",
     )
     counts = {"input": job.input, "output": job.output, "frames": loops.frames, "vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
