@@ -399,7 +399,7 @@ typedef struct {
 } bsmdec_changes;
 
 /* What BLOCK and REFINEMENT events have changed since the previous call. Available from CONNECTIVITY on. Not for
- * frames of a sequence: a frame moves every vertex. Calls are not counted as work of the stream. After they took as much
+ * frames of a sequence: a frame moves every vertex. Calls do not count as work of the stream. After they took as much
  * work as the limits allow, `final` is set only after the last block. */
 BSMDEC_API bsmdec_status bsmdec_read_changes(bsmdec *decoder, bsmdec_changes *changes);
 

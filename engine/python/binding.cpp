@@ -36,7 +36,8 @@ const struct {
     LIMIT(most_work), LIMIT(memory), LIMIT(memory_per_vertex), LIMIT(memory_per_byte), LIMIT(most_memory),
 #undef LIMIT
 };
-const nb::dlpack::dtype KINDS[] = {nb::dtype<uint8_t>(), nb::dtype<int8_t>(), nb::dtype<uint16_t>(), nb::dtype<int16_t>(),
+const nb::dlpack::dtype KINDS[] = {nb::dtype<uint8_t>(), nb::dtype<int8_t>(), nb::dtype<uint16_t>(),
+    nb::dtype<int16_t>(),
     nb::dtype<uint32_t>(), nb::dtype<int32_t>(), nb::dtype<float>(), nb::dtype<double>()};
 
 // Numbers of our own, which become an array of numpy without another copy.
@@ -334,7 +335,8 @@ class Decoder {
     }
 };
 
-template <typename T, int64_t columns> using Rows = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
+template <typename T, int64_t columns>
+using Rows = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
 template <typename T> using Row = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Table = nb::ndarray<const int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
@@ -358,7 +360,8 @@ class Field {
         if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows()))
             throw nb::value_error("a grid has three axes");
         begin([&] {
-            return write_grid(writer, given(), largest.data(), light, origin.data(), step, exact ? exact->data() : nullptr);
+            return write_grid(
+                writer, given(), largest.data(), light, origin.data(), step, exact ? exact->data() : nullptr);
         });
     }
     void levels() {

@@ -23,7 +23,8 @@ static bool fill(Context *context, Ints2 to, Written given, int64_t first, const
 
 bool write_grid(bsmdec *decoder, Written given, const int32_t *largest, int light, const double *origin, double step,
     const double *exact) {
-    Header header = {.vertices = given.rows, .faces = given.faces_count, .on_grid = true, .light = light, .scale = step};
+    Header header = {
+        .vertices = given.rows, .faces = given.faces_count, .on_grid = true, .light = light, .scale = step};
     memcpy(header.center, origin, sizeof header.center);
     memcpy(header.grid, largest, sizeof header.grid);
     Mesh *mesh = begin(decoder, &header, given.faces);

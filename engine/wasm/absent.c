@@ -47,8 +47,8 @@ ABSENT bool declare_attribute(Attributes *attributes, int64_t index, const Decla
     (void)attributes, (void)index, (void)declaration, (void)seams;
     return absent(scratch->context);
 }
-ABSENT bool check_rows(const Attributes *attributes, const Numbering *numbering) {
-    (void)attributes, (void)numbering;
+ABSENT bool check_rows(const Attributes *attributes, int64_t index, const Numbering *numbering) {
+    (void)attributes, (void)index, (void)numbering;
     return false;
 }
 ABSENT bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch) {

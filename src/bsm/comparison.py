@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import cKDTree
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError, public
@@ -177,6 +176,8 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
                 whole = join(decoded, keep=False)
                 decoded, kept[1] = whole.mesh, whole.kept
     if by_place and joined and len(original.positions) == len(decoded.positions):
+        from scipy.spatial import cKDTree
+
         nearest = cKDTree(original.positions).query(decoded.positions)[1]
         order = nearest if len(np.unique(nearest)) == len(nearest) else None
     positions = in_order_of(original, decoded, order)

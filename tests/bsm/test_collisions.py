@@ -11,6 +11,7 @@ from tests.bsm.program import bsm
 
 NO_FILES = {
     *("N", "K", "H", "S", "X,Y,Z", "X,Y,Z,X,Y,Z", "A:B", "NAME", "NAME=TEXT", "NAME=HOW", "NAME=VALUE", "FIELD=VALUE"),
+    "NAME=QUALITY",
     "quick|normal|best",
     *("ADDRESS", "LIST", "RULE", "FRACTION", "SIZE", "DEGREES", "DB", "PERCENT", "FORMAT", "TEXT", "FPS"),
 }

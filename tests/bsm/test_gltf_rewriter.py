@@ -392,7 +392,7 @@ def test_scenes_are_compared_primitive_by_primitive(tmp_path, capsys):
         assert row["attributes"]["_ID"]["max_error"] == 0 and row["attributes"]["COLOR_0"]["max_error"] < 0.003
     assert "not_compared" in rows[2]
     assert main(["compare", original, small]) == 0
-    assert "mesh 0, primitive 1: the farthest vertex is" in capsys.readouterr().out
+    assert "mesh 0, primitive 1: largest vertex error" in capsys.readouterr().out
     assert main(["info", small]) == 0
     assert "scene of 3 primitives, 1 streams" in capsys.readouterr().out
 

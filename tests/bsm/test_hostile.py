@@ -16,6 +16,7 @@ BYTES = 1 << 30
 PROGRAM = f"""
 import json, os, signal, sys
 from bsm.bitstream.errors import BsmError
+from bsm.codec.geometry.mesh import NoFacesError
 from bsm.files.mesh import read_mesh
 for path in sys.argv[1:]:
     child = os.fork()
@@ -25,7 +26,7 @@ for path in sys.argv[1:]:
             mesh = read_mesh(path).mesh
             result = len(mesh.positions), len(mesh.faces)
         except BsmError as error:
-            result = type(error).__name__
+            result = "MeshError" if isinstance(error, NoFacesError) else type(error).__name__
         print(json.dumps([path, result]), flush=True)
         os._exit(0)
     status = os.waitpid(child, 0)[1]

@@ -103,7 +103,7 @@ def test_curves_are_measured_beside_ours():
     found = research.curves(MESH, {"short": research.Idea(predictor=short)}, (0.02, 0.01, 0.005))
     assert found["ours"]["bytes_of_ours"] == 1.0 < found["short"]["bytes_of_ours"]
     assert [len(result["points"]) for result in found.values()] == [3, 3]
-    with pytest.raises(bsm.OptionError, match="something else"):
+    with pytest.raises(bsm.OptionError, match="choose another one"):
         research.curves(MESH, {"ours": research.Idea()})
 
 

@@ -10,7 +10,7 @@ import { VIEWER, WEB } from "./shared";
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [19900, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [78400, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [77450, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "sequences": [77500, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     "everything": [114300, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8900, ["three.js", "pool.js"]],
 };

@@ -345,8 +345,8 @@ INLINE int wrong_around(const Edges *edges, const double *positions, int32_t v, 
 
 /* Moves levels (n x 3) by up to two along `directions` (n x 9, or one row for all; a level long) where that turns faces
  * back, however small they are, which rounding has turned over, or folded onto another at more than `most` edges more
- * than there were. `moved` is kept in step. No vertex ends up farther from its place than its `reach`, unless it was. `flaps` as in `shape_grid`; `wrong` is scratch. Returns how often one
- * moved. */
+ * than there were. `moved` is kept in step. No vertex ends up farther from its place than its `reach`, unless it was.
+ * `flaps` as in `shape_grid`; `wrong` is scratch. Returns how often one moved. */
 KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
                              ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most,
                              Creases creases, Bytes wrong, Bytes open) {

@@ -90,8 +90,8 @@ def test_a_draft_is_judged_by_what_is_decoded(tmp_path: Path) -> None:
     made = Encoder(shaded(MESH), EncodeOptions(threads=1))
     draft, promise = made.draft(), made.options.promise
     assert promise is not None
-    assert made._input.broken(draft, promise) == ""
-    assert "look" in made._input.broken(draft, replace(promise, look=promise.look / 50.0))
-    assert "vertex" in made._input.broken(draft, replace(promise, farthest=1e-7))
+    assert made._input.measured(draft, promise)[0] == ""
+    assert "look" in made._input.measured(draft, replace(promise, look=promise.look / 50.0))[0]
+    assert "vertex" in made._input.measured(draft, replace(promise, farthest=1e-7))[0]
     assert Bounds(made._input.measures, promise).keeps(made._input.prepared.units.into(draft.decoded))
     assert len(encode(MESH, EncodeOptions(threads=1))) > 0
