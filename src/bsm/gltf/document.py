@@ -338,6 +338,8 @@ class Growing:
 
 def side_of_image(data: bytes) -> int:
     """The longer side of an image in pixels; 0 if it is not known."""
+    if data.startswith(b"\xabKTX 20"):
+        return int(max(struct.unpack_from("<II", data.ljust(28), 20)))
     try:
         return int(max(importlib.import_module("PIL.Image").open(io.BytesIO(data)).size))
     except Exception:  # without Pillow, and of what it does not know
@@ -358,6 +360,18 @@ def mime_of(data: bytes) -> str | None:
 
 def bounds_of(values: Array) -> Tree:
     return {"min": values.min(axis=0).astype(float).tolist(), "max": values.max(axis=0).astype(float).tolist()}
+
+
+def is_plain(accessor: Tree) -> bool:
+    """Whether its numbers are bytes of a bufferView, and no others."""
+    return "sparse" not in accessor and "bufferView" in accessor and accessor["type"] in VECTORS
+
+
+def span_of(accessor: Tree, view: Tree) -> tuple[int, int]:
+    """Where the bytes of an accessor begin and end in its bufferView."""
+    size = np.dtype(KINDS[accessor["componentType"]]).itemsize * VECTORS[accessor["type"]]
+    start = accessor.get("byteOffset", 0)
+    return start, start + (view.get("byteStride") or size) * (accessor["count"] - 1) + size
 
 
 def _count(where: Tree, name: str) -> int:
