@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 63_528,
-    "product Python, lines": 34_090,
+    "product in all languages, lines": 63_601,
+    "product Python, lines": 34_163,
     "product C and C++, lines": 21_789,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_741,
     "product lines over 120 columns": 259,
-    "all Python, lines": 78_049,
+    "all Python, lines": 78_122,
     "product modules": 201,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
