@@ -120,6 +120,8 @@ def of_meshio(path: Path) -> Read:
         values["color"] = color[faces] / (255 if color.dtype.kind == "u" else 1)
     if all(name in data for name in ("nx", "ny", "nz")):
         values["normal"] = np.column_stack([data[name] for name in ("nx", "ny", "nz")])[faces]
+    if mesh.points.ndim != 2 or mesh.points.shape[1] != 3:
+        raise ValueError("meshio returns points that are not in space")
     return Read(mesh.points[faces], values)
 
 
