@@ -141,7 +141,12 @@ def differential(shard: Shard, number: int, size: int) -> None:
             shard.tally.skipped += 1
             continue
         shard.tally.saw(ours)
-        shard.found(stream, shard.tally.hold(stream, ours, by_release(stream)))
+        released = by_release(stream)
+        # Release 1.0 compared rows of attributes with the mesh only after later sections.
+        if isinstance(ours, BsmError) and isinstance(released, BsmError) and "values where" in f"{ours}{released}":
+            shard.tally.skipped += 1
+            continue
+        shard.found(stream, shard.tally.hold(stream, ours, released))
 
 
 def encodes(shard: Shard, number: int, size: int) -> None:
