@@ -166,7 +166,7 @@ class ArgumentError(BsmError, TypeError):
     >>> import bsm
     >>> bsm.encode("bunny.ply", prest="fine")
     Traceback (most recent call last):
-    bsm.ArgumentError: there is no option prest for a mesh; did you mean preset?
+    bsm.ArgumentError: unknown option prest for a mesh; did you mean preset?
     """
 
 

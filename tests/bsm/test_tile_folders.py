@@ -220,9 +220,9 @@ def test_a_run_that_is_killed_anywhere_goes_on_to_the_same_tiles(source, tmp_pat
         if output.exists() and set(files_of(output)) != set(expected):
             refused = subprocess.run([*words, "-o", output], capture_output=True, text=True, check=False)
             assert refused.returncode == 9 and "--resume" in refused.stderr, refused.stderr
-        done = subprocess.run(
-            [*words, "-o", output, ("--resume", "-f")[trial % 2]], capture_output=True, text=True, check=False
-        )
+        finished = output.exists() and set(files_of(output)) == set(expected)  # before it was killed
+        flag = "-f" if finished or trial % 2 else "--resume"
+        done = subprocess.run([*words, "-o", output, flag], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         assert files_of(output) == expected
 
