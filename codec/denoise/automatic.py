@@ -68,9 +68,10 @@ SEEN_HERALDS = (*SEEN[:3], *SEEN[7:9])
 FINE = (("patches", 0.35), ("own", 0.25), ("own", 0.4))
 FUSED = tuple(Recipe("positions", keep, *fine) for keep in (0.2, 0.1, 0.3) for fine in FINE)
 """For views that are fused, whose triangles are slivers: their vertices slide."""
-AXIAL = tuple(Recipe("positions", keep, "own", sigma_r) for keep in (0.4, 0.2, 0.1) for sigma_r in (0.4, 0.25, 0.55))
-"""For noise along one axis, along which vertices then go back."""
-GROUPS = {"fused": FUSED, "axis": AXIAL}
+_OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for width in (0.4, 0.25, 0.55)]
+AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
+"""For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
+GROUPS = {"fused": (FUSED, FUSED), "axis": (AXIAL, AXIAL[:5])}
 UNEVEN_FUSED, UNEVEN_RATIO, UNEVEN_MOST = Recipe("positions", 0.1, "own", 0.4), 3.0, 150
 """For fused views of a real camera. Their noise is broader than any that is drawn here, so nothing is rehearsed: the
 filter goes on until vertices have moved this many times the fine noise."""
@@ -193,8 +194,7 @@ def choose(
     else:
         patient.expect(LARGEST_KEEP)
         if finding.kind in GROUPS:
-            candidates = heralds = GROUPS[finding.kind]
-            base = candidates[0]
+            (base, *_), _ = candidates, heralds = GROUPS[finding.kind]
     rehearsal = Rehearsal(positions, finding.on(members), patient, base, named("goal", GOALS, goal), progress)
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (candidates, heralds))
     winner = rehearsal.compete(heralds, most, HERALDED)
