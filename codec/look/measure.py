@@ -209,7 +209,7 @@ class LookMetric:
         return self._turned[key]
 
     def _once(self, measure: Callable[[], Look], *of: Matrix | Normals) -> Look:
-        """Return what was measured of these arrays before, or measure it."""
+        """Return the earlier measurement of these arrays, or measure them."""
         key = key_of(*of)
         if key not in self._known:
             self._known[key] = measure()

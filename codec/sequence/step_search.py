@@ -38,7 +38,7 @@ ROUGH = 0  # rounds over levels in a first attempt, which only tells what weight
 FINER = 0.1  # by how much that seems better than it is, since its levels were chosen whatever they cost
 POWERS, PRIOR = (0.7, 2.0), 0.01
 """What pictures show grows with such powers of what normals let expect; and the squares that are for a power of 1."""
-SLOPE = 0.7  # of the step: the power that what is seen grows with
+SLOPE = 0.7  # power of the step with which the look distance grows
 EVENING, SMOOTHNESS = 1.2, 2.0
 """Frames are weighed by this power of what would make all look alike if errors were as weights ask, smoothed over
 several frames: weights that change quickly are dear in the temporal basis."""

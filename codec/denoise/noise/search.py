@@ -279,7 +279,7 @@ noise along normals reads 0 to 0.8 there, triangles that are longer one way 1.8 
 AXIS_MOST = 5.0  # deviations that a vertex has been moved by at most
 SNAP = 0.995  # cosine from which on it is an axis of the coordinates
 DEPTH_WORTH, DEPTH_MOST = 0.7, 3.0
-"""Noise that grows with depth: what is left of the spread, and the logarithm of the ratio between both ends."""
+"""Noise that grows with depth: the rest of the spread, and the logarithm of the ratio between both ends."""
 
 
 def one_axis(positions: Positions, evidence: Evidence) -> Finding | None:

@@ -225,7 +225,7 @@ class Scene:
 
     def at(self, time: float) -> Doubles:
         """The positions of all parts' vertices, one part after the other."""
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+        with np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
             placed = [
                 np.einsum("...ij,...j->...i", matrix[..., :3, :3], points) + matrix[..., :3, 3]
                 for _, matrix, points in self._placed(time)
@@ -474,13 +474,13 @@ PER_TRIANGLE, PER_PART = 200, 2000
 
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
     document = read_document(path, limits)
-    with as_format_error(), np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+    with as_format_error(), np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
         return _frames(path, document, wanted, limits)
 
 
 def read_gltf_mesh(document: Document) -> shapes.MeshFile:
     """Read a scene at rest as one mesh: vertices and faces in the order of the file."""
-    with as_format_error(), np.errstate(all="ignore"):  # what is not finite is refused later
+    with as_format_error(), np.errstate(all="ignore"):  # a later check refuses infinite values
         scene = Scene(document, None, document.limits)
         document.limits.check_work(3 * scene.work, scene.vertices, document.received)
         found = _joined(scene, document, 0.0, document.limits)

@@ -47,7 +47,7 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
 
 
 def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tuple[list[Column], list[str]]:
-    """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and what is not known."""
+    """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and unknown letters."""
     found: list[Column] = []
     place, texcoords = 3, 2 if b"ST" in extras else 0
     behind = 3 * (b"NC" in extras) + texcoords

@@ -350,7 +350,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     body = data[header.size :]
     tables = tables_of(header, body)
     vertex, face = tables["vertex"], tables["face"]
-    with np.errstate(invalid="ignore"):  # what is not a number is refused later
+    with np.errstate(invalid="ignore"):  # a later check refuses NaN
         places = [vertex.element.index(name) for name in "xyz"]
         if min(places) < 0 or any(vertex.element.properties[place].length for place in places):
             raise MeshError("the vertices of this PLY file have no numbers x, y and z")

@@ -55,7 +55,7 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     else:
         count, wrong = binary_triangles(data, len(data))
         records = np.frombuffer(data, RECORD, count, HEAD)
-        with np.errstate(invalid="ignore"):  # what is not a number is refused later
+        with np.errstate(invalid="ignore"):  # a later check refuses NaN
             soup = records["corners"].reshape(-1, 3).astype(np.float64)
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]

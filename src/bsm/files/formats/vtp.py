@@ -116,7 +116,7 @@ class _Numbers:
             data = self._bytes(array)
             if len(data) % np.dtype(kind).itemsize:
                 raise CorruptError(f"{len(data)} bytes are not {array.attrs['type']} numbers")
-            with np.errstate(invalid="ignore"):  # what is not a number is refused later
+            with np.errstate(invalid="ignore"):  # a later check refuses NaN
                 values = np.frombuffer(data, self._order + kind).astype(kind)
         if components < 1 or len(values) % components:
             raise CorruptError(f"{len(values)} numbers are not rows of {components}")

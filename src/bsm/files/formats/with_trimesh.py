@@ -57,7 +57,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     resolver = _Resolver(Beside(Path(path).resolve().parent if path else None, limits.metadata_bytes))
     try:
         up = re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
-        with np.errstate(all="ignore"):  # what is not finite is refused later
+        with np.errstate(all="ignore"):  # a later check refuses infinite values
             expected, left_out = placed_triangles(data, limits) if kind == "3mf" else (None, ())
             surfaces, left_out = placed_surfaces(data, limits) if kind == "dae" else (0, left_out)
             scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False, resolver=resolver)

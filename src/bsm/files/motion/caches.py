@@ -114,7 +114,7 @@ def _samples(path: str, cache: Cache) -> Iterator[Positions]:
 
 
 def _doubles(data: bytes, kind: str) -> Doubles:
-    with np.errstate(invalid="ignore"):  # what is not a number is refused later
+    with np.errstate(invalid="ignore"):  # a later check refuses NaN
         return np.frombuffer(data, kind).astype(np.float64)
 
 

@@ -69,7 +69,7 @@ class FrameWriter(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Shared:
-    """What belongs to all frames of a sequence that is written from frame `first` on, and what is lost of it."""
+    """Return the metadata of a sequence that is written from frame `first` on, and notes on its losses."""
 
     attributes: Callable[[], tuple[Attribute, ...]] = tuple
     metadata: Callable[[], Metadata] = dict

@@ -399,7 +399,7 @@ class _Part:
         if len(points) != shape.vertices:
             raise MeshError(f"{self.name} has {len(points)} points {when} and {shape.vertices} before")
         matrix = self.matrix(time, cache)
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+        with np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
             return points @ matrix[:3, :3] + matrix[3, :3]
 
 
