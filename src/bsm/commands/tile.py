@@ -67,24 +67,23 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if not args.work and work.is_symlink():
         raise OptionError(f"{work} is a symbolic link; remove it, or name a folder with --work")
     with ExitStack() as folders:
-        for folder in [] if is_url(args.output) else [Path(args.output)]:
+        outputs = [] if is_url(args.output) else [Path(args.output)]
+        taken = [*outputs, *([work] if args.work or not outputs else [])]
+        for folder in taken:
             folders.enter_context(there(folder))
-            folders.enter_context(held(folder, args.force or args.resume))
-        if args.work or is_url(args.output):
-            folders.enter_context(there(work))
-            folders.enter_context(held(work, args.force or args.resume))
+        left = max(*(folders.enter_context(held(folder, args.force or args.resume)) for folder in taken), False)
         folders.enter_context(console.progress(seconds=TileJob().seconds_of(args.input)))
-        return _run(args, console, work)
+        return _run(args, console, work, left)
 
 
-def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
-    """Do the work in folders that this process holds."""
+def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> int:
+    """Do the work in folders that this process holds; `left`: a killed process held one before."""
     unfinished = is_unfinished(args.output)
     if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
         message = "these tiles are unfinished: --resume continues, -f starts again"
         raise FileExistsError(errno.EEXIST, message, args.output)
-    refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished))
     over = args.force or args.resume
+    refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished) or (left and over))
     state = Unfinished(args.output, args.input)
     refuse_others(work)
     if unfinished is not False:

@@ -37,8 +37,8 @@ def there(folder: Path) -> Iterator[None]:
 
 
 @contextmanager
-def held(folder: Path, take_over: bool) -> Iterator[None]:
-    """Hold a folder; `OSError` with the process and host of whoever holds it, or left it unless `take_over`."""
+def held(folder: Path, take_over: bool) -> Iterator[bool]:
+    """Hold a folder; yield whether a dead process held it. `OSError` names a live one, or a dead unless `take_over`."""
     path = folder / LOCK
     while True:
         file = os.fdopen(open_own(path, os.O_RDWR | os.O_CREAT | os.O_APPEND), "a+")
@@ -52,13 +52,13 @@ def held(folder: Path, take_over: bool) -> Iterator[None]:
             with file:
                 raise _held_by(path, "works in this folder; wait until it has ended, or name another one") from error
     with file:
-        if file.seek(0, os.SEEK_END) and not take_over:
+        if (left := file.seek(0, os.SEEK_END) > 0) and not take_over:
             raise _held_by(path, "left this folder unfinished; --resume continues, -f starts again")
         file.truncate(0)
         file.write(f"{os.getpid()} {socket.gethostname()}\n")
         file.flush()
         try:
-            yield
+            yield left
         finally:
             with suppress(OSError):
                 path.unlink()
