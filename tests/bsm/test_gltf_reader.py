@@ -10,6 +10,7 @@ import bsm
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.gltf.coding import COMPONENTS
+from bsm.gltf.document import read_document
 from tests.bsm.test_gltf import glb, scene
 from tests.shapes import torus
 
@@ -290,6 +291,9 @@ def test_draco(tmp_path, monkeypatch, capsys):
     np.testing.assert_allclose(*middles, atol=1e-3)
     assert attribute(mesh, "texcoord").values.shape == (count, 2)
     (tmp_path / "a.glb").write_bytes(built.bytes)
+    assert main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb")]) == 0
+    assert "1 of 1 primitives coded" in capsys.readouterr().err
+    assert read_document(str(tmp_path / "b.glb")).compressed == ["EXT_bsm_compression"]
     monkeypatch.setitem(sys.modules, "DracoPy", None)
     assert main(["encode", str(tmp_path / "a.glb"), "-o", str(tmp_path / "a.bsm")]) == 8
     assert "DracoPy" in capsys.readouterr().err and not (tmp_path / "a.bsm").exists()

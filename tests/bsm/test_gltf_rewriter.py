@@ -3,6 +3,7 @@
 import copy
 import io
 import json
+import os
 import subprocess
 
 import numpy as np
@@ -330,6 +331,13 @@ def test_types_of_images_are_told_by_their_bytes(data, kind, tmp_path):
     assert images[1:] == built.tree["images"][1:]
 
 
+def test_zeros_without_bytes_are_not_counted_as_saved():
+    built = Built()
+    built.tree["accessors"] = [{"componentType": 5126, "type": "VEC3", "count": 60_000}]
+    built.nodes({"mesh": built.mesh({"attributes": {"POSITION": 0}, "indices": built.array(np.arange(3, dtype="u2"))})})
+    assert len(compress(Document(built.bytes), FINE).data) <= len(restore(Document(built.bytes)))
+
+
 def test_strips_become_triangles():
     built = Built()
     row = np.arange(200, dtype=np.float32)
@@ -350,6 +358,21 @@ def test_processes_give_the_same_scene(tmp_path):
     for jobs in ("1", "2"):
         assert main(["glb", str(tmp_path / "a.glb"), "-j", jobs, "-o", str(tmp_path / f"{jobs}.glb")]) == 0
     assert (tmp_path / "1.glb").read_bytes() == (tmp_path / "2.glb").read_bytes()
+
+
+def die(*_):
+    os._exit(1)
+
+
+def test_a_process_that_dies_is_an_error(tmp_path, monkeypatch, capsys):
+    built, _ = ring()
+    built.tree["meshes"].append(copy.deepcopy(built.tree["meshes"][0]))
+    moved = built.array(torus(24, 16).positions.astype(np.float32))
+    built.tree["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = moved
+    (tmp_path / "a.glb").write_bytes(built.bytes)
+    monkeypatch.setattr("bsm.gltf.compress.code_bundle", die)
+    assert main(["glb", str(tmp_path / "a.glb"), "-j", "2", "-o", str(tmp_path / "b.glb")]) == 6
+    assert "a process died" in capsys.readouterr().err and not (tmp_path / "b.glb").exists()
 
 
 def test_a_scene_is_restored(tmp_path):

@@ -17,7 +17,7 @@ Tree = dict[str, Any]
 KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 COMPONENTS = {np.dtype(kind).name: number for number, kind in KINDS.items()}
 FLOAT, UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
-TRIANGLES, STRIP, FAN = 4, 5, 6
+TRIANGLES, STRIP, FAN = TRIANGULAR = 4, 5, 6
 EXTENSION, DRACO = "EXT_bsm_compression", "KHR_draco_mesh_compression"
 MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 PIECE = "material"  # the attribute of faces by which decoders sort them

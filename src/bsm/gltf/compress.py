@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import copy
 import io
-import json
 import math
 import multiprocessing
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 from urllib.parse import quote
@@ -32,13 +32,11 @@ from bsm.gltf.coding import (
     COMPONENTS,
     DRACO,
     EXTENSION,
-    FAN,
     FLOAT,
-    KINDS,
     MESHOPT,
     PIECE,
-    STRIP,
     TRIANGLES,
+    TRIANGULAR,
     UINT,
     Array,
     Drawn,
@@ -60,6 +58,7 @@ _TURN = "0.002"  # of what targets add to directions: a tenth of a degree
 _COARSEST, _FINEST = 12, 22  # bits of texture coordinates; with more, they are exact
 _TEXELS, _SIDE = 0.25, 2048  # how many texels they may be off, and pixels of the side of an image that is not known
 _SHORT = 1 << 10  # indices from which on 16 bits of each are worth their words
+_WORDS = 90  # bytes of JSON of an accessor or a bufferView
 _WHOLE = 2**24  # up to which single precision has all whole numbers
 
 
@@ -89,7 +88,7 @@ def like(document: gltf.Document, primitive: Tree) -> str:
 def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     primitives = [same[0] for same in bundle]
-    if primitives[0].get("mode", TRIANGLES) not in (TRIANGLES, STRIP, FAN):
+    if primitives[0].get("mode", TRIANGLES) not in TRIANGULAR:
         return "points or lines"
     indexes = [*{index for primitive in primitives for index in arrays_of(primitive).values()}]
     indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
@@ -326,7 +325,7 @@ _OF_LOOKS = re.compile(
 
 
 def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | None:
-    if primitive.get("mode", TRIANGLES) not in (TRIANGLES, STRIP, FAN):
+    if primitive.get("mode", TRIANGLES) not in TRIANGULAR:
         return "points or lines"
     accessors = [document.item("accessors", index) for index in _accessors_of(primitive).values()]
     named = [name for name in mesh.get("extensions", {}) if not _OF_LOOKS.fullmatch(name)]
@@ -513,8 +512,11 @@ def _coded(
     if jobs == 1 or len(bundles) < 2:
         yield from map(code_bundle, found, map(len, bundles), options)
         return
-    with ProcessPoolExecutor(jobs or None, multiprocessing.get_context("spawn")) as pool:
-        yield from pool.map(code_bundle, found, map(len, bundles), options)
+    try:
+        with ProcessPoolExecutor(jobs or None, multiprocessing.get_context("spawn")) as pool:
+            yield from pool.map(code_bundle, found, map(len, bundles), options)
+    except BrokenProcessPool as error:
+        raise MemoryError("a process died, probably for lack of memory; use fewer (-j)") from error
 
 
 def _one_grid(
@@ -556,10 +558,6 @@ def error_of(positions: Array, decoded: TriangleMesh) -> tuple[float, float]:
     return float(errors.max()), float((farthest / np.where(diagonals > 0, diagonals, np.inf)).max())
 
 
-def _length(entry: Tree) -> int:
-    return len(json.dumps(_short(entry), separators=(",", ":"))) + 1
-
-
 class _Rewritten(gltf.Growing):
     """The tree of a document that is changed, and the bytes of its new buffer."""
 
@@ -581,7 +579,6 @@ class _Rewritten(gltf.Growing):
             for number in numbers:
                 document.item(kind, number)
         self._moved: set[int] = set()  # bufferViews whose bytes are in the new buffer
-        self._coded = False
         self._virtual = 0  # bytes of what decoders fill
         self.plain: list[bytes] = []
 
@@ -592,44 +589,34 @@ class _Rewritten(gltf.Growing):
         return view
 
     def would_shrink(self, found: list[BundleStream], freed: list[int]) -> bool:
-        """Return whether streams and their JSON are smaller than the accessors that they replace."""
-        before = 0
-        for index in freed:
-            accessor = self._document.item("accessors", index)
-            before += _length(accessor)
-            if accessor.get("bufferView") not in self.named:
-                before += self._document.array(index).nbytes
-        after = sum(len(coded.stream) for coded in found)
-        for coded in found:
-            entries = [self._view(0, name, array, coded) for name, array in self._arrays(coded)]
-            entries += [{"buffer": 0, "byteOffset": 0, "byteLength": len(coded.stream)}]
-            entries += [self._accessor(0, name, array, coded, {}) for name, array in coded.shape.arrays.items()]
-            entries += [self._corners(0, piece, coded, {}) for piece in coded.shape.pieces]
-            after += sum(map(_length, entries))
-        return bool(found) and after < before
+        """Return whether streams and their words are smaller than the accessors that they replace."""
+        entries = {index: self._document.item("accessors", index) for index in freed}
+        views = {entry["bufferView"] for entry in entries.values() if "bufferView" in entry} - self.named
+        held = [n for n, e in entries.items() if e.get("bufferView") in views or n in self._document.of_draco]
+        before = _WORDS * (len(freed) + len(views)) + sum(self._document.array(index).nbytes for index in held)
+        words = sum(3 + 2 * len(coded.shape.arrays) + len(coded.shape.pieces) for coded in found)
+        return bool(found) and sum(len(coded.stream) for coded in found) + _WORDS * words < before
 
     def put(self, bundle: Bundle, coded: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
-        stream, self._coded = self.fresh(coded.stream), True
-        views = {}
-        for name, array in self._arrays(coded):
-            view = self._view(stream, name, array, coded)
-            if self._fallback:
-                view["byteOffset"] = self._virtual
-                self.plain.append(array.tobytes() + b"\0" * (-array.nbytes % 4))
-                self._virtual += array.nbytes + -array.nbytes % 4
-            else:
-                self._virtual = max(self._virtual, array.nbytes)
-            views[name] = self.add("bufferViews", view)
+        stream = self.fresh(coded.stream)
         entries: list[Tree] = self.tree["accessors"]
-        given = arrays_of(bundle[0][0])
-        places = {
-            name: self.add("accessors", self._accessor(views[name], name, array, coded, entries[given[name]]))
-            for name, array in coded.shape.arrays.items()
-        }
-        for same, piece in zip(bundle, coded.shape.pieces, strict=True):
-            before = entries[same[0]["indices"]] if "indices" in same[0] else {}
-            indices = self.add("accessors", self._corners(views["indices"], piece, coded, before))
+        given, places = arrays_of(bundle[0][0]), dict[str, int]()
+        for name, array in coded.shape.arrays.items():
+            component, normalized = coded.accessors[name]
+            view = self._view(stream, name, stored(name, array, component), component)
+            accessor: Tree = {"bufferView": view, "componentType": component, "count": len(array)}
+            accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {})}
+            accessor |= gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {}
+            places[name] = self.add("accessors", accessor | _words(entries[given[name]]))
+        component, _ = coded.accessors.get("indices", (UINT, False))
+        corners = stored("indices", coded.shape.index, component)
+        view = self._view(stream, "indices", corners, component)
+        for same, (start, count) in zip(bundle, coded.shape.pieces, strict=True):
+            accessor = {"bufferView": view, "componentType": component, "count": count, "type": "SCALAR"}
+            accessor |= {"byteOffset": start * corners.itemsize} if start else {}
+            accessor |= _words(entries[same[0]["indices"]] if "indices" in same[0] else {})
+            indices = self.add("accessors", accessor)
             for primitive in same:
                 primitive["indices"] = indices
                 primitive.pop("mode", None)
@@ -638,32 +625,17 @@ class _Rewritten(gltf.Growing):
                 for number, target in enumerate(primitive.get("targets", [])):
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
-    @staticmethod
-    def _arrays(coded: BundleStream) -> list[tuple[str, Array]]:
-        arrays = {**coded.shape.arrays, "indices": coded.shape.index}
-        return [(name, stored(name, array, coded.accessors.get(name, (UINT,))[0])) for name, array in arrays.items()]
-
-    @staticmethod
-    def _view(stream: int, name: str, array: Array, coded: BundleStream) -> Tree:
-        usual = UINT if name == "indices" else FLOAT
-        component, _ = coded.accessors.get(name, (UINT, False))
+    def _view(self, stream: int, name: str, array: Array, component: int) -> int:
         extension: Tree = {"stream": stream, "attribute": name}
-        extension |= {"componentType": component} if component != usual else {}
-        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: extension}}
-
-    @staticmethod
-    def _accessor(view: int, name: str, array: Array, coded: BundleStream, before: Tree) -> Tree:
-        component, normalized = coded.accessors[name]
-        accessor: Tree = {"bufferView": view, "componentType": component, "count": len(array)}
-        accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {}), **_words(before)}
-        return accessor | (gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})
-
-    @staticmethod
-    def _corners(view: int, piece: tuple[int, int], coded: BundleStream, before: Tree) -> Tree:
-        component, (start, count) = coded.accessors.get("indices", (UINT, False))[0], piece
-        accessor: Tree = {"bufferView": view, "componentType": component, "count": count, "type": "SCALAR"}
-        offset = start * np.dtype(KINDS[component]).itemsize
-        return accessor | ({"byteOffset": offset} if start else {}) | _words(before)
+        extension |= {} if component == (UINT if name == "indices" else FLOAT) else {"componentType": component}
+        view: Tree = {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: extension}}
+        if self._fallback:
+            view["byteOffset"] = self._virtual
+            self.plain.append(array.tobytes() + b"\0" * (-array.nbytes % 4))
+            self._virtual += array.nbytes + -array.nbytes % 4
+        else:
+            self._virtual = max(self._virtual, array.nbytes)
+        return self.add("bufferViews", view)
 
     def rewrite_images(self, rule: ImageRule) -> None:
         """Write images by a rule where that makes them smaller."""
@@ -696,16 +668,11 @@ class _Rewritten(gltf.Growing):
                 image.pop("uri")
                 image |= {"mimeType": kind, "bufferView": self.fresh(data)}
         self._write_draco()
-        blank: Tree = {"componentType": COMPONENTS["uint8"], "count": 1, "type": "SCALAR"}
-        _renumber(tree, "accessors", self.named, self._before["accessors"], blank)
-        self._trim()
+        self._drop_accessors()
         self._place_views()
-        for name in (DRACO, *MESHOPT):
-            for key in ("extensionsUsed", "extensionsRequired"):
-                tree[key] = [other for other in tree.get(key, []) if other != name]
-        if not self._virtual:
-            for key in ("extensionsUsed", "extensionsRequired"):
-                tree[key] = [other for other in tree[key] if other != EXTENSION]
+        gone = {DRACO, *MESHOPT, *([] if self._virtual else [EXTENSION])}
+        for key in ("extensionsUsed", "extensionsRequired"):
+            tree[key] = [name for name in tree.get(key, []) if name not in gone]
         tree["buffers"] = [{"byteLength": self.size}] if self.size else []
         if self._virtual:
             filled: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
@@ -717,12 +684,29 @@ class _Rewritten(gltf.Growing):
         self.tree = _short(tree)
         return self.whole()
 
+    def _drop_accessors(self) -> None:
+        """Drop those that were replaced; others take their bytes out of bufferViews that they shared with these."""
+        entries: list[Tree] = self.tree.get("accessors", [])
+        numbers = {id(entry): number for number, entry in enumerate(entries)}
+        blank: Tree = {"componentType": COMPONENTS["uint8"], "count": 1, "type": "SCALAR"}
+        _renumber(self.tree, "accessors", self.named, self._before["accessors"], blank)
+        kept = self.tree["accessors"]
+        gone = numbers.keys() - {id(entry) for entry in kept}
+        shared = {entry.get("bufferView") for entry in entries if id(entry) in gone} - self.named
+        for entry in kept:
+            if entry.get("bufferView") in shared and "sparse" not in entry:
+                strided = "byteStride" in self._document.item("bufferViews", entry["bufferView"])
+                entry["bufferView"] = self.table(self._document.array(numbers[id(entry)]), packed=not strided)
+                self._moved.add(entry["bufferView"])
+                entry.pop("byteOffset", None)
+
     def _write_draco(self) -> None:
         """Write what Draco held of primitives that were not coded."""
         for primitive in (primitive for mesh in self.tree.get("meshes", []) for primitive in mesh["primitives"]):
             if DRACO not in primitive.get("extensions", {}):
                 continue
             del primitive["extensions"][DRACO]
+            primitive.pop("mode", None)
             if not primitive["extensions"]:
                 del primitive["extensions"]
             for name, index in _accessors_of(primitive).items():
@@ -748,48 +732,9 @@ class _Rewritten(gltf.Growing):
         blank: Tree = {"buffer": 0, "byteLength": 1}
         _renumber(self.tree, "bufferViews", self.named, self._before["bufferViews"], blank)
 
-    def _trim(self) -> None:
-        """Leave out of bufferViews that accessors share what none of them uses any more."""
-        readers: dict[int, list[Tree]] = {}
-        for accessor in self.tree.get("accessors", []) if self._coded else ():
-            if gltf.is_plain(accessor):
-                readers.setdefault(accessor["bufferView"], []).append(accessor)
-        counts = Counter(holder[key] for holder, key in references(self.tree, "bufferViews"))
-        for number, accessors in readers.items():
-            view = self.tree["bufferViews"][number]
-            kept_whole = number in self._moved or number in self.named or view.get("extensions")
-            if kept_whole or counts[number] > len(accessors):
-                continue
-            kept = _used(self._document.view(number), [gltf.span_of(accessor, view) for accessor in accessors])
-            if kept is None:
-                continue
-            for accessor, start in zip(accessors, kept[1], strict=True):
-                accessor["byteOffset"] = start
-            view |= {"buffer": 0, "byteOffset": self.append(kept[0]), "byteLength": len(kept[0])}
-            self._moved.add(number)
-
 
 def _words(accessor: Tree) -> Tree:
     return {key: accessor[key] for key in ("name", "extras") if key in accessor}
-
-
-def _used(data: bytes, spans: list[tuple[int, int]]) -> tuple[bytes, list[int]] | None:
-    """The bytes that spans cover, and where each begins in them, of four bytes as before; None if that is all."""
-    if any(not 0 <= start < end <= len(data) for start, end in spans):
-        return None
-    kept = bytearray()
-    last = shift = 0
-    starts = [0] * len(spans)
-    for number in sorted(range(len(spans)), key=spans.__getitem__):
-        start, end = spans[number]
-        if start >= last:  # apart from those before it
-            kept += b"\0" * (-len(kept) % 4)
-            last = start // 4 * 4
-            shift = last - len(kept)
-        kept += data[last:end]
-        last = max(last, end)
-        starts[number] = start - shift
-    return (bytes(kept), starts) if len(kept) < len(data) else None
 
 
 def _short(node: Any) -> Any:

@@ -136,7 +136,7 @@ class Document:
         return coding.unpack_meshopt(data[start : start + size], how)
 
     @cached_property
-    def _draco(self) -> dict[int, tuple[Tree, int]]:
+    def of_draco(self) -> dict[int, tuple[Tree, int]]:
         """Accessors that Draco holds: the extension of their primitive, and their number there; -1: the indices."""
         found: dict[int, tuple[Tree, int]] = {}
         for primitive in self.primitives():
@@ -146,8 +146,8 @@ class Document:
                 found |= {primitive["indices"]: (how, -1)} if "indices" in primitive else {}
         return found
 
-    def _of_draco(self, index: int, kind: str, count: int, width: int) -> Array:
-        how, number = self._draco[index]
+    def _from_draco(self, index: int, kind: str, count: int, width: int) -> Array:
+        how, number = self.of_draco[index]
         key = (DRACO, how["bufferView"])
         if key not in self._unpacked:
             self._unpacked[key] = coding.unpack_draco(self.view(how["bufferView"]))
@@ -178,8 +178,8 @@ class Document:
             raise UnsupportedError(f"accessor {index} of this glTF holds small matrices of small numbers")
         if "bufferView" in accessor:
             found = self._strided(accessor, kind, count, width)
-        elif isinstance(index, int) and index in self._draco:
-            found = self._of_draco(index, kind, count, width)
+        elif isinstance(index, int) and index in self.of_draco:
+            found = self._from_draco(index, kind, count, width)
         else:
             found = np.zeros((count, width), kind)
         if sparse := accessor.get("sparse"):
@@ -227,7 +227,10 @@ class Document:
             sources = [texture, *texture.get("extensions", {}).values()]
             source = next((entry["source"] for entry in sources if "source" in entry), None)
             data = None if source is None else self.bytes_of_image(source)
-            self._sides[index] = (side_of_image(data) if data else 0) or usual
+            try:
+                self._sides[index] = max(importlib.import_module("PIL.Image").open(io.BytesIO(data or b"")).size)
+            except Exception:  # without Pillow, and of what it does not know
+                self._sides[index] = usual
         return self._sides[index]
 
     def is_normalized(self, index: object) -> bool:
@@ -336,16 +339,6 @@ class Growing:
         return written.getvalue()
 
 
-def side_of_image(data: bytes) -> int:
-    """The longer side of an image in pixels; 0 if it is not known."""
-    if data.startswith(b"\xabKTX 20"):
-        return int(max(struct.unpack_from("<II", data.ljust(28), 20)))
-    try:
-        return int(max(importlib.import_module("PIL.Image").open(io.BytesIO(data)).size))
-    except Exception:  # without Pillow, and of what it does not know
-        return 0
-
-
 def mime_of(data: bytes) -> str | None:
     """The type that the first bytes of an image tell."""
     kind = kind_of_image(data) or ("avif" if data[4:12] in (b"ftypavif", b"ftypavis") else None)
@@ -360,18 +353,6 @@ def mime_of(data: bytes) -> str | None:
 
 def bounds_of(values: Array) -> Tree:
     return {"min": values.min(axis=0).astype(float).tolist(), "max": values.max(axis=0).astype(float).tolist()}
-
-
-def is_plain(accessor: Tree) -> bool:
-    """Whether its numbers are bytes of a bufferView, and no others."""
-    return "sparse" not in accessor and "bufferView" in accessor and accessor["type"] in VECTORS
-
-
-def span_of(accessor: Tree, view: Tree) -> tuple[int, int]:
-    """Where the bytes of an accessor begin and end in its bufferView."""
-    size = np.dtype(KINDS[accessor["componentType"]]).itemsize * VECTORS[accessor["type"]]
-    start = accessor.get("byteOffset", 0)
-    return start, start + (view.get("byteStride") or size) * (accessor["count"] - 1) + size
 
 
 def _count(where: Tree, name: str) -> int:

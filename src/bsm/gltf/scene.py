@@ -26,7 +26,7 @@ from bsm.files.motion.frames import (
 )
 from bsm.files.pipes import is_url
 from bsm.files.room import Doubles, Ints, require_count
-from bsm.gltf.coding import DRACO, EXTENSION, FAN, MESHOPT, STRIP, TRIANGLES, Array, Tree
+from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document, triangles_of
 
 
@@ -332,7 +332,7 @@ class Scene:
         found = []
         for number, primitive in enumerate(mesh["primitives"]):
             mode = primitive.get("mode", TRIANGLES)
-            if mode not in (TRIANGLES, STRIP, FAN) or "POSITION" not in primitive["attributes"]:
+            if mode not in TRIANGULAR or "POSITION" not in primitive["attributes"]:
                 self.notes.append("points and lines were left out")
                 continue
             made = self._made.get((tree["mesh"], number, bound))  # one that stands in several places is made once
