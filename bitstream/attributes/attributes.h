@@ -37,7 +37,7 @@ struct Work { /* what codes a vertex needs to know */
     CodeVertex *code;
 };
 
-int64_t code_vertices(Coder given, Work *work, int64_t learners, int64_t first, int64_t count);
+int64_t code_vertices(Coder given, Work *work, int64_t first, int64_t count);
 void keep_value(const Values *values, int32_t v, int component, int32_t value);
 
 int64_t expect_normals(Corners corners, Values values);
@@ -57,8 +57,6 @@ INLINE void choose_learners(Forecast *f, const Values *g, int components, int j,
     f->guess = learners + (j * BASES + number) * VALENCES + valence;
     f->size = learners + components * BASES * VALENCES + j * BASES + number;
 }
-
-INLINE int64_t learners_of(int components) { return components * BASES * (VALENCES + 1); }
 
 /* What is known around a vertex before its values. See places.c. */
 enum { MOST_BASES = 8, MOST_TWINS = 8 };

@@ -87,11 +87,7 @@ static bool code_face(void *work, int64_t f) {
 }
 
 int64_t code_faces(Coder given, ValueModel model, Corners corners, FaceValues g, int64_t first, int64_t count) {
-    int64_t rows = corners.faces.rows, columns = g.largest.size;
-    if (!fits_values(&model) || !fits_corners(&corners) || columns < 1 || columns > MOST_COMPONENTS
-        || !fits_range(g.largest, columns) || !shaped(g.values, rows, columns) || !shaped(g.gaps, rows, columns)
-        || !shaped(g.memory, columns, MEMORIES + 1))
-        return MISUSED;
+    int64_t rows = corners.faces.rows;
     Faces work = {.model = model, .corners = corners, .values = g};
     return code_rows(given, &work.coder, rows, first, count, MOST_COMPONENTS * VALUE_BYTES, code_face, &work);
 }

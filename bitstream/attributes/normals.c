@@ -126,16 +126,8 @@ static void average_ring(const Corners *c, const Values *g, int32_t v) {
     own[RING] = nowhere(sum) ? own[BY_AREA] : scaled(sum, FINE * middle(g));
 }
 
-static bool fits_normals(const Corners *corners, const Values *g) {
-    return g->largest.size == PAIR && g->largest.data[0] == g->largest.data[1] && g->largest.data[0] >= 2
-        && g->largest.data[0] % 2 == 0 && g->largest.data[0] < 1 << 20 && g->values.columns == PAIR
-        && fits_corners(corners) && g->directions.rows == corners->rank.size && g->directions.columns == ROLES * AXES
-        && (g->geometry.rows == 0 || (g->geometry.rows == g->directions.rows && g->geometry.columns == AXES));
-}
-
 /* Fill the directions that the surface tells; zeros where it tells none. Comes before code_normals. */
 int64_t expect_normals(Corners corners, Values values) {
-    if (!fits_normals(&corners, &values)) return MISUSED;
     if (values.geometry.rows == 0) return 0;
     for (int32_t v = 0; v < corners.rank.size; v++) expect_normal(&corners, &values, v);
     for (int32_t v = 0; v < corners.rank.size; v++) average_ring(&corners, &values, v);
@@ -258,7 +250,6 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
 }
 
 int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    if (!fits_normals(&corners, &values)) return MISUSED;
     Work work = {.model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(coder, &work, learners_of(PAIR), first, count);
+    return code_vertices(coder, &work, first, count);
 }

@@ -124,5 +124,5 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
 
 int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
     Work work = {.model = model, .corners = corners, .values = values, .code = code_vertex};
-    return code_vertices(coder, &work, learners_of(MOST_COMPONENTS), first, count);
+    return code_vertices(coder, &work, first, count);
 }

@@ -1,17 +1,6 @@
 /* What all kinds of values share (specification, A 1, A 2). */
 #include "bitstream/attributes/attributes.h"
 
-static bool fits(const Work *w, int64_t learners) {
-    const Values *g = &w->values;
-    int64_t n = w->corners.rank.size, columns = g->largest.size;
-    return fits_values(&w->model) && fits_corners(&w->corners) && columns >= 1 && columns <= MOST_COMPONENTS
-        && fits_range(g->largest, columns) && fits_seen(g->largest, g->seen) && g->order.size == n && g->twin.size == n
-        && g->geometry.columns == 3 && (g->geometry.rows == n || g->geometry.rows == 0)
-        && shaped(g->values, n, columns) && shaped(g->gaps, n, columns) && g->sums.rows == n
-        && g->sums.columns == columns + 1 && g->learners.rows == learners && g->learners.columns == LEARNER_COLUMNS
-        && g->chart.size == 2;
-}
-
 static bool code_one(void *work, int64_t i) {
     Work *w = work;
     const int32_t *order = w->values.order.data;
@@ -20,8 +9,7 @@ static bool code_one(void *work, int64_t i) {
     return true;
 }
 
-int64_t code_vertices(Coder given, Work *w, int64_t learners, int64_t first, int64_t count) {
-    if (!fits(w, learners)) return MISUSED;
+int64_t code_vertices(Coder given, Work *w, int64_t first, int64_t count) {
     return code_rows(given, &w->coder, w->values.order.size, first, count, MOST_COMPONENTS * VALUE_BYTES, code_one, w);
 }
 

@@ -114,7 +114,6 @@ OFTEN static void complete(const Corners *c, Waiting *w, int32_t v) {
  * has had them for longest; where none waits, the one of lowest number. scratch: 3 x n. */
 int64_t order_vertices(Corners c, Ints order, Ints2 scratch) {
     int64_t n = c.rank.size;
-    if (!fits_corners(&c) || order.size != n || scratch.rows != 3 || scratch.columns != n) return MISUSED;
     Waiting w = {.next = scratch.data, .previous = scratch.data + n, .queue = scratch.data + 2 * n};
     for (int q = 0; q < QUEUES; q++) w.first[q] = w.last[q] = -1;
     for (int64_t v = 0; v < n; v++) c.rank.data[v] = w.queue[v] = -1;
@@ -153,12 +152,6 @@ void gather_around(const Corners *c, int32_t v, Around *around) {
     }
 }
 
-bool fits_values(const ValueModel *model) {
-    return model->slots.size == CONTEXTS * CONTEXT_SIZE * VALUE_NODES && model->hits.size == HIT_CONTEXTS * MODEL_ROW
-        && model->weights.rows == VALUE_NODES + WEIGHT_SETS * KINDS && model->weights.columns == WEIGHT_ROW
-        && model->scales.rows == SCALE_CONTEXTS && model->scales.columns == MODEL_ROW;
-}
-
 enum { WORDS_SEARCHED = 4 };
 
 int32_t nearest_seen(const int64_t *row, int64_t words, int32_t v) {
@@ -182,18 +175,6 @@ int32_t nearest_seen(const int64_t *row, int64_t words, int32_t v) {
 }
 
 enum { MOST_ERROR = 1 << 28 };
-
-bool fits_range(ConstInts largest, int64_t columns) {
-    bool fits = largest.size == columns;
-    for (int j = 0; j < columns && fits; j++) fits = largest.data[j] >= 0 && largest.data[j] < MOST_SPAN;
-    return fits;
-}
-
-bool fits_seen(ConstInts largest, Longs2 seen) {
-    bool fits = seen.rows == largest.size;
-    for (int j = 0; j < largest.size && fits; j++) fits = largest.data[j] / 64 < seen.columns;
-    return fits;
-}
 
 int32_t error_at(const Ints2 *gaps, int32_t v) {
     int64_t sum = 0;

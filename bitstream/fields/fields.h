@@ -110,7 +110,6 @@ INLINE int32_t hits_of(const Expectation *e, int32_t value) {
     return hits;
 }
 
-bool fits_values(const ValueModel *model);
 /* Codes an integer less than 2^21 away from the best guess; what a reader returns may be 2^24 away. */
 int32_t ISA(code_value)(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value);
 
@@ -241,9 +240,6 @@ INLINE int64_t code_rows(Coder given, RangeCoder *coder, int64_t rows, int64_t f
     return done;
 }
 
-INLINE bool shaped(Ints2 x, int64_t rows, int64_t columns) { return x.rows == rows && x.columns == columns; }
-bool fits_range(ConstInts largest, int64_t columns);
-bool fits_seen(ConstInts largest, Longs2 seen);
 
 /* Sizes of the gaps of a vertex, added. */
 int32_t error_at(const Ints2 *gaps, int32_t v);

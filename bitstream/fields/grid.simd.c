@@ -249,10 +249,6 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
 
 int64_t ISA(code_grid)(Coder given, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {
     int64_t n = corners.rank.size;
-    if (!fits_values(&model) || !fits_corners(&corners) || !fits_range(g.largest, AXES) || !fits_seen(g.largest, g.seen)
-        || g.order.size != n || !shaped(g.values, n, AXES) || !shaped(g.gaps, n, AXES) || g.sums.rows != n
-        || g.sums.columns != AXES + 1 || g.learners.rows != LEARNERS || g.learners.columns != LEARNER_COLUMNS)
-        return MISUSED;
     Work work = {.model = model, .corners = corners, .grid = g};
     return code_rows(given, &work.coder, n, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }

@@ -143,9 +143,6 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
 
 int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int64_t count) {
     int64_t n = corners.rank.size;
-    if (!fits_corners(&corners) || !fits_range(light.largest, AXES) || !shaped(light.values, n, AXES)
-        || !shaped(light.gaps, n, AXES) || light.slots.size != LIGHT_SLOTS)
-        return MISUSED;
     Work work = {.corners = corners, .light = light};
     return code_rows(given, &work.coder, n, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }
@@ -181,19 +178,11 @@ static bool code_cells(void *work, int64_t i) {
     return true;
 }
 
-static bool cells_shaped(ConstLongs2 x, int64_t rows) { return x.rows == rows && x.columns == AXES; }
-
 /* Code the numbers of floats, from `low` to below `high`, of values of a grid: each may be the latest of its value, or
  * else, where the value is new, the `nearest` to its place. Returns of how many vertices. */
 int64_t code_floats(Coder given, Floats f, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest, ConstLongs2 high,
                     Longs2 chosen) {
     int64_t rows = values.rows;
-    if (values.columns != AXES || !cells_shaped(low, rows) || !cells_shaped(nearest, rows) || !cells_shaped(high, rows)
-        || chosen.rows != rows || chosen.columns != AXES || f.slots.size != AXES * SLOTS || f.latest.size != AXES
-        || f.known.rows != AXES)
-        return MISUSED;
-    for (int64_t i = 0; i < AXES * rows; i++)
-        if (values.data[i] < 0 || values.data[i] >= f.known.columns) return MISUSED;
     Cells work = {.floats = f, .values = values.data, .low = low.data, .nearest = nearest.data, .high = high.data,
         .chosen = chosen.data};
     return code_rows(given, &work.coder, rows, 0, rows, AXES * VALUE_BYTES, code_cells, &work);
