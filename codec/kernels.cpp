@@ -43,7 +43,7 @@ NB_MODULE(_kernels, m) {
           "cosine"_a, "half"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
     m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,
           "away"_a, "depth"_a, "lengths"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
-    m.def("paint_colours", checked<&paint_colours>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "picture"_a,
+    m.def("paint_colors", checked<&paint_colors>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "picture"_a,
           "painted"_a, Unlocked());
     m.def("paint_checker", checked<&paint_checker>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "steepness"_a,
           "dark"_a, "picture"_a, Unlocked());

@@ -32,7 +32,7 @@ from reference_integers import (
     TruncatedError,
     UnsupportedError,
     decode_connectivity,
-    neighbours_of,
+    neighbors_of,
     place,
 )
 
@@ -351,8 +351,8 @@ class Block:  # M 6: vertices in row order, and the Laplacian (M 7.1) of the blo
         self.vertices, self.graph = [found[old] for old in order], [[row[w] for w in local[old]] for old in order]
         self.size, self.degrees = len(found), np.array([len(r) for r in self.graph], float)
         self.laplacian = np.diag(self.degrees)
-        for r, neighbours in enumerate(self.graph):
-            self.laplacian[r, neighbours] = -1.0
+        for r, neighbors in enumerate(self.graph):
+            self.laplacian[r, neighbors] = -1.0
 
     def connected(self):  # M 8.3
         return len(grow(self.graph, [0], self.size)) == self.size
@@ -730,7 +730,7 @@ def decode_packets(packets, fault):
             reader.read(payload, count)
         positions = np.array([place(values, header) for values in reader.x])
     elif packets[BLOCK] or not fault:
-        graph = neighbours_of(faces, vertices)
+        graph = neighbors_of(faces, vertices)
         positions = decode_blocks(header, graph, packets[BLOCK])
         if fault and not packets[REFINEMENT]:
             raise fault

@@ -52,10 +52,10 @@ class RangeDecoder:  # C 1: decisions out of a payload
         else:
             self.low -= bound
             self.range -= bound
-        self.renormalise()
+        self.renormalize()
         return bit
 
-    def renormalise(self):  # C 1.3
+    def renormalize(self):  # C 1.3
         while self.range < 1 << 24:
             self.range *= 256
             self.low = 256 * self.low + (self.payload[self.taken] if self.taken < len(self.payload) else 0)
@@ -72,7 +72,7 @@ class RangeDecoder:  # C 1: decisions out of a payload
         value = min(self.low // unit, count - 1)
         self.low -= value * unit
         self.range = unit if value < count - 1 else self.range - value * unit
-        self.renormalise()
+        self.renormalize()
         return value
 
     def overran(self):  # C 1.5: whether more was taken than a payload of this length can hold
@@ -374,14 +374,14 @@ def read_seams(decoder, faces, fans):  # C 7: the vertex of each fan
 
     def candidates(fan):  # C 7.4
         found = []
-        for neighbour, ways in ((after[fan], (before, after)), (before[fan], (after, before))):
-            if neighbour < 0 or vertex[neighbour] < 0:
+        for neighbor, ways in ((after[fan], (before, after)), (before[fan], (after, before))):
+            if neighbor < 0 or vertex[neighbor] < 0:
                 continue
-            other = latest[vertex[neighbour]]
+            other = latest[vertex[neighbor]]
             for _ in range(8):
                 for way in ways:
                     u = vertex[way[other]] if way[other] >= 0 else -1
-                    if u >= 0 and u != vertex[neighbour] and u not in found:
+                    if u >= 0 and u != vertex[neighbor] and u not in found:
                         found.append(u)
                 other = earlier[other]
                 if other < 0:
@@ -424,7 +424,7 @@ def read_degenerate(decoder, count, known, vertices):  # C 8: `count` faces that
     return faces
 
 
-def neighbours_of(faces, vertices):  # M 2.1: the neighbours of each vertex, ascending
+def neighbors_of(faces, vertices):  # M 2.1: the neighbors of each vertex, ascending
     found = [set() for _ in range(vertices)]
     for face in faces:
         for a in face:
@@ -432,7 +432,7 @@ def neighbours_of(faces, vertices):  # M 2.1: the neighbours of each vertex, asc
     return [sorted(row) for row in found]
 
 
-# ---------------------------------------------------------------- V 1 to V 3: corners, order, neighbourhood
+# ---------------------------------------------------------------- V 1 to V 3: corners, order, neighborhood
 
 
 class Mesh:  # What both sides know
@@ -496,7 +496,7 @@ class Mesh:  # What both sides know
                     promote(self.vertex[t], int(t in self.opposite and known[self.vertex[self.opposite[t]]]))
         return order
 
-    def neighbours(self, v):  # V 3.1
+    def neighbors(self, v):  # V 3.1
         found = []
         for k in self.corners[v]:
             for u in (self.vertex[self.next[k]], self.vertex[self.previous[k]]):
@@ -615,14 +615,14 @@ class ValueModel:  # V 4.3
             refuted.append(q)
         return None, refuted
 
-    def search(self, decoder, e, inverse, centre, k, refuted):
+    def search(self, decoder, e, inverse, center, k, refuted):
         p = e.predictions
-        g = centre + (centre in refuted)  # V 5.5
-        lean = sum(q > centre for q in refuted) - sum(q < centre for q in refuted)
+        g = center + (center in refuted)  # V 5.5
+        lean = sum(q > center for q in refuted) - sum(q < center for q in refuted)
         node = 14 if not refuted else 15 if lean < 0 else 16 if lean == 0 else 17
         away = [16 * g - 8 - p[j] for j in range(7)]
         up = self.bit(decoder, e, node, 1, [(survival(-d, s) - survival(d, s)) >> 8 for d, s in zip(away, inverse)])
-        r, f = (1, g) if up else (-1, centre - 1)
+        r, f = (1, g) if up else (-1, center - 1)
         m = 16 * f - 8 * r
 
         def beyond(distance, j):
@@ -755,7 +755,7 @@ class GridReader(Field):
 
     def vertex(self, decoder, v):
         mesh, x = self.mesh, self.x
-        near = mesh.neighbours(v)
+        near = mesh.neighbors(v)
         flaps = sorted(mesh.flaps(v), key=lambda f: 2 * self.error(f[2]) + self.error(f[0]) + self.error(f[1]))  # V 8.1
         before = mesh.order[mesh.rank[v] - 1] if mesh.rank[v] > 0 else None
         across = [[16 * (x[a][j] + x[b][j] - x[c][j]) for j in range(3)] for a, b, c, _ in flaps]
@@ -876,7 +876,7 @@ class LevelsReader(Field):
         self.ring = [[0] * 3 for _ in range(vertices)]
 
     def vertex(self, decoder, v):
-        near, flaps, own = self.mesh.neighbours(v), self.mesh.flaps(v), 0
+        near, flaps, own = self.mesh.neighbors(v), self.mesh.flaps(v), 0
         busy = rounded(sum(16 * abs(level) for u in near for level in self.x[u]), len(near)) if near else 64  # V 11.3
         for j in range(3):
             self.x[v][j] = level = self.level(decoder, v, j, near, flaps, busy, own)

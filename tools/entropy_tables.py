@@ -46,8 +46,8 @@ def stretch_table() -> npt.NDArray[np.int32]:
     """The least log-odds whose probability reaches the middle of each of 2**STRETCH_BITS equal cells, made odd."""
     half = 1 << (STRETCH_BITS - 1)
     width = ONE >> STRETCH_BITS
-    centres = (np.arange(half, 2 * half) * width) + width // 2
-    upper = np.searchsorted(squash_table(), centres, side="left").astype(np.int32) - SQUASH_REACH
+    centers = (np.arange(half, 2 * half) * width) + width // 2
+    upper = np.searchsorted(squash_table(), centers, side="left").astype(np.int32) - SQUASH_REACH
     return np.concatenate([-upper[::-1], upper])
 
 

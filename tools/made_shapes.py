@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats
-from bsm.codec.geometry.graph import vertex_neighbours
+from bsm.codec.geometry.graph import vertex_neighbors
 
 Field = Callable[[Floats], Floats]
 """From places, shape (..., 3), to values that are negative inside, and about a distance."""
@@ -124,8 +124,8 @@ def _triangles(positions: Positions, quads: npt.NDArray[np.int64]) -> Faces:
 
 
 def _evened(field: Field, positions: Positions, faces: Faces, firm: npt.NDArray[np.bool_], step: float) -> Positions:
-    """Smooth vertices to the mean of their neighbours, back onto the surface; those on creases stay."""
-    starts, members = vertex_neighbours(faces, len(positions))
+    """Smooth vertices to the mean of their neighbors, back onto the surface; those on creases stay."""
+    starts, members = vertex_neighbors(faces, len(positions))
     degrees = np.diff(starts)
     owners = np.repeat(np.arange(len(positions)), degrees)
     free = ~firm & (degrees > 0)
@@ -182,7 +182,7 @@ def _joined(a: Floats, b: Floats, width: float, way: int) -> Floats:
 
 def _primitive(random: Random, size: float) -> Field:
     """A box, cylinder, cone, ball or ring anywhere."""
-    centre, axis = random.uniform(-0.5, 0.5, 3), np.eye(3)[random.integers(3)]
+    center, axis = random.uniform(-0.5, 0.5, 3), np.eye(3)[random.integers(3)]
     if random.random() < 0.3:
         axis = _direction(random)
     rest = random.permutation(3)
@@ -190,7 +190,7 @@ def _primitive(random: Random, size: float) -> Field:
     kind, tilt = random.integers(5), random.uniform(0.2, 0.7)
 
     def field(places: Floats) -> Floats:
-        apart = places - centre
+        apart = places - center
         if kind == 0:
             return np.asarray((np.abs(apart[..., rest]) - half).max(axis=-1))
         along = apart @ axis

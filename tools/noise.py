@@ -1,7 +1,7 @@
 """Seeded noise on vertices, its strength in mean edge lengths; the same seed gives the same noise.
 
 The kinds are those that scanners, cameras and careless exports leave behind: white noise along the normals or in all
-directions, white noise of bounded size, outliers, noise along one axis (a depth camera's), noise that neighbours share
+directions, white noise of bounded size, outliers, noise along one axis (a depth camera's), noise that neighbors share
 (a line scanner's or a filtered depth map's), waves, noise that grows with the distance from a camera, coordinates
 rounded to a grid, and noise in one part of the mesh only.
 """
@@ -13,7 +13,7 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats, Topology, surface_normals
-from bsm.codec.geometry.graph import vertex_neighbours
+from bsm.codec.geometry.graph import vertex_neighbors
 from bsm.codec.geometry.metrics import mean_edge_length
 
 
@@ -57,13 +57,13 @@ def gaussian_along_axis(
 
 
 def correlated_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int, rounds: int = 2) -> Positions:
-    """Move every vertex along its normal by an amount that it shares in part with its neighbours."""
-    neighbours = vertex_neighbours(faces, len(positions))
-    degrees = np.diff(neighbours.starts)
+    """Move every vertex along its normal by an amount that it shares in part with its neighbors."""
+    neighbors = vertex_neighbors(faces, len(positions))
+    degrees = np.diff(neighbors.starts)
     owners = np.repeat(np.arange(len(positions)), degrees)
     amounts = np.random.default_rng(seed).normal(size=len(positions))
     for _ in range(rounds):
-        sums = np.bincount(owners, amounts[neighbours.members], len(positions))
+        sums = np.bincount(owners, amounts[neighbors.members], len(positions))
         amounts = np.where(degrees > 0, 0.5 * (amounts + sums / np.maximum(degrees, 1)), amounts)
     amounts *= _length(positions, faces, sigma) / (float(np.sqrt(np.square(amounts).mean())) or 1.0)
     return positions + amounts[:, None] * _directions(positions, faces)

@@ -86,10 +86,10 @@ def decode_levels(
     finish_reading(coder)
 
 
-def decode_labels(payload: bytes, offsets: Ints, neighbours: Ints, parts: int) -> Ints:
+def decode_labels(payload: bytes, offsets: Ints, neighbors: Ints, parts: int) -> Ints:
     """Return the part of each vertex of a graph, shape (n,)."""
     labels, coder = np.zeros(len(offsets) - 1, np.int32), start_reading(payload)
-    if code_labels(coder, offsets, neighbours, labels, parts) != parts:
+    if code_labels(coder, offsets, neighbors, labels, parts) != parts:
         raise CorruptError(f"the partition has not {parts} parts")
     finish_reading(coder)
     return labels

@@ -30,7 +30,7 @@ from bsm.codec.geometry.metrics import distances_to_surface
 
 BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that it resolves
 WINDOW_SPREAD, LATERAL, SHAPED = 2.5, 0.5, 0.5  # pixels: of the window that is matched, of places, of flight's filter
-JUMP = 12.0  # pixels' widths between neighbours from which on they are on different surfaces
+JUMP = 12.0  # pixels' widths between neighbors from which on they are on different surfaces
 
 
 class Camera(NamedTuple):

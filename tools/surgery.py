@@ -143,10 +143,10 @@ PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part i
 def header_frame(**values: Any) -> tuple[int, bytes]:
     """A header of any fields, by name, but for those that have their default; checked by nobody."""
     entries = {
-        HEADER_FIELDS[name].key: HEADER_FIELDS[name].normalise(value)
+        HEADER_FIELDS[name].key: HEADER_FIELDS[name].normalize(value)
         for name, value in values.items()
         if name not in PLACES
-        and (name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != HEADER_FIELDS[name].normalise(value))
+        and (name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != HEADER_FIELDS[name].normalize(value))
     }
     _set_parts(entries, {name: value for name, value in values.items() if name in PLACES})
     return FrameType.HEADER, write_map(sorted(entries.items()))

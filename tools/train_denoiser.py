@@ -82,8 +82,8 @@ def _clean(folder: Path, shapes: int) -> Iterator[tuple[Positions, Faces]]:
         centroids = mesh.positions[mesh.faces].mean(axis=1)
         random = np.random.default_rng(len(mesh.faces))
         for _ in range(CROPS if len(mesh.faces) > 2 * CROP else 1):
-            centre = centroids[random.integers(len(centroids))]
-            near = np.argsort(np.square(centroids - centre).sum(axis=1), kind="stable")[:CROP]
+            center = centroids[random.integers(len(centroids))]
+            near = np.argsort(np.square(centroids - center).sum(axis=1), kind="stable")[:CROP]
             used, corners = np.unique(mesh.faces[near], return_inverse=True)
             yield mesh.positions[used].astype(np.float64), corners.reshape(-1, 3).astype(np.int32)
 

@@ -1,4 +1,4 @@
-"""Adaptive coding of quantized coefficients (M 9), by what their neighbours let expect and what was learnt before."""
+"""Adaptive coding of quantized coefficients (M 9), by what their neighbors let expect and what was learnt before."""
 
 from __future__ import annotations
 
@@ -47,10 +47,10 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
 
 
 Magnitudes = npt.NDArray[np.int32]
-NEIGHBOURS = 20  # inputs of an expectation
+NEIGHBORS = 20  # inputs of an expectation
 SITUATIONS = 6  # each has its own weights: first block of a chain or a later one, times coordinate
 BINS = 48  # three to the octave
-_ABOVE = 8  # rows of zeros in front of the first frequency, as far as any neighbour reaches
+_ABOVE = 8  # rows of zeros in front of the first frequency, as far as any neighbor reaches
 _BEYOND = 3  # and behind the last
 
 
@@ -84,7 +84,7 @@ EXPECTATIONS = 3  # from everything, from the same block alone, from earlier blo
 NODES = 38  # binary decisions that have a probability of their own, see `bitstream.coefficients.adaptive`
 SELECTORS = 2  # sets of mixing weights for each node: first block of a chain, later blocks
 _SHAPES = {
-    "expectations": (EXPECTATIONS, SITUATIONS, NEIGHBOURS),
+    "expectations": (EXPECTATIONS, SITUATIONS, NEIGHBORS),
     "mixing": (SELECTORS * NODES, EXPECTATIONS),
     "slots": (EXPECTATIONS * BINS * NODES,),
 }
@@ -148,7 +148,7 @@ class CoefficientModel:
         self.bank.slots[:] = self.experience.first_slots
         self.bank.weights[:] = self.experience.first_weights
         self.past = make_past(self.width)
-        self.expectations = self.experience.expectations.astype(np.int32).reshape(-1, NEIGHBOURS)
+        self.expectations = self.experience.expectations.astype(np.int32).reshape(-1, NEIGHBORS)
 
     def copy(self) -> CoefficientModel:
         twin = CoefficientModel(self.width, self.experience)

@@ -1,4 +1,4 @@
-"""Levels of sequences: rows are frequencies, columns components, contexts are neighbours and a reference (S 4)."""
+"""Levels of sequences: rows are frequencies, columns components, contexts are neighbors and a reference (S 4)."""
 
 from collections.abc import Sequence
 from typing import TypeAlias
@@ -65,7 +65,7 @@ def first_prices(rows: int, columns: int, lead: Lead | None = None) -> Prices:
 
 
 def price_levels(bank: entropy.Bank, matrix: Levels, reference: Levels, lead: Lead | None = None) -> Prices:
-    """What each place of a matrix would cost if it were coded next, and its neighbours as they are."""
+    """What each place of a matrix would cost if it were coded next, and its neighbors as they are."""
     rows, columns = matrix.shape
     prices = first_prices(rows, columns, lead)
     coder, slow = entropy.start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)

@@ -129,7 +129,7 @@ def make_guide(surface: Surface, face_count: int) -> Guide:
 def make_conquest(face_count: int, fans: int, dummies: int) -> Conquest:
     tallies = np.zeros(_TALLIES, np.int64)
     tallies[_DUMMIES] = dummies
-    tallies[_TURNS] = 4 * face_count  # each real face has at most three dummy neighbours
+    tallies[_TURNS] = 4 * face_count  # each real face has at most three dummy neighbors
     tallies[_STEPS] = 65536 + 16 * face_count
     heads = np.full(_TAILS + _BUCKETS, -1, np.int32)
     heads[_MADE] = heads[_ALIVE] = 0

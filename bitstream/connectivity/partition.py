@@ -1,4 +1,4 @@
-"""The part of each vertex, asked for among those of its neighbours, then one that is new, then any (C 10)."""
+"""The part of each vertex, asked for among those of its neighbors, then one that is new, then any (C 10)."""
 
 import numpy as np
 import numpy.typing as npt
@@ -13,13 +13,13 @@ _INPUTS = 3
 _CONTEXTS = 16 * (_CANDIDATES + 1)
 
 
-def encode_labels(offsets: Indices, neighbours: Indices, labels: Indices, parts: int) -> bytes:
+def encode_labels(offsets: Indices, neighbors: Indices, labels: Indices, parts: int) -> bytes:
     """Code `labels`, shape (n,), numbered by first appearance, over the graph that the decoder will have."""
     coder = start_writing(8 * len(labels) + 64)
-    code_labels(coder, offsets, neighbours, np.array(labels, np.int32, order="C"), parts)
+    code_labels(coder, offsets, neighbors, np.array(labels, np.int32, order="C"), parts)
     return finish_writing(coder)
 
 
-def code_labels(coder: Coder, offsets: Indices, neighbours: Indices, labels: Indices, parts: int) -> int:
+def code_labels(coder: Coder, offsets: Indices, neighbors: Indices, labels: Indices, parts: int) -> int:
     bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)
-    return _kernels.code_labels(coder, bank, offsets, neighbours, labels, parts)
+    return _kernels.code_labels(coder, bank, offsets, neighbors, labels, parts)

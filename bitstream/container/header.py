@@ -30,14 +30,14 @@ class Field:
     lengths: tuple[int, int] = (0, 0)
     item: Kind = float
 
-    def normalise(self, value: Any) -> Any:
+    def normalize(self, value: Any) -> Any:
         """`value` as a plain int, float or tuple of these; `TypeError` or `ValueError` if it is none."""
         if self.type is tuple:
             return tuple(_plain(self.item, item) for item in value)
         return _plain(self.type, value)
 
     def problem(self, value: Any) -> str | None:
-        """What is wrong with a normalised value, or None."""
+        """What is wrong with a normalized value, or None."""
         items = value if self.type is tuple else (value,)
         if self.type is str:
             items = (len(value.encode() if isinstance(value, str) else value),)
@@ -106,7 +106,7 @@ class Paper:
     springs: int = integer(7, 0, 1, default=1)  # 1: a block hangs on springs, the prediction between blocks
 
     def __post_init__(self) -> None:
-        normalise_fields(self, "paper")
+        normalize_fields(self, "paper")
 
     def entry(self, law: Paper) -> tuple[float, ...]:
         """What a header stores of it; empty: nothing, it is what the law says."""
@@ -134,7 +134,7 @@ class Header:
     coefficients: int = integer(5, 0, COUNT, default=0)  # columns of the largest dictionary: the largest c_i
     key_interval: int = integer(6, 0, COUNT, default=0)
     """One block of every `key_interval` depends on no other; 0: only the first."""
-    step: float = real(7, 2.0**-40, 2.0**20, default=2.0**-8)  # quantisation step of a coefficient, in BSM units
+    step: float = real(7, 2.0**-40, 2.0**20, default=2.0**-8)  # quantization step of a coefficient, in BSM units
     center: tuple[float, ...] = reals(8, -1e300, 1e300, (3, 3), default=(0.0, 0.0, 0.0))
     """The origin of BSM units, in the mesh's unit."""
     scale: float = real(9, 1e-300, 1e300, default=1.0)
@@ -158,7 +158,7 @@ class Header:
     paper: tuple[float, ...] = reals(19, 0.0, 2.0**30, (0, 8), default=())  # see `Paper`; empty: what the law says
 
     def __post_init__(self) -> None:
-        normalise_fields(self, "header")
+        normalize_fields(self, "header")
 
     @property
     def law(self) -> Paper:
@@ -204,12 +204,12 @@ HEADER_FIELDS: dict[str, Field] = fields_of(Header)
 HEADER_DEFAULTS: dict[str, Any] = defaults_of(Header)
 
 
-def normalise_fields(record: Any, what: str) -> None:
+def normalize_fields(record: Any, what: str) -> None:
     """Make the values of a record's fields plain, in place; raise `OptionError` for one that is not legal."""
     for name, declared in fields_of(type(record)).items():
         given = getattr(record, name)
         try:
-            value = declared.normalise(given)
+            value = declared.normalize(given)
         except (TypeError, ValueError, OverflowError) as error:
             raise OptionError(f"{what} field {name} cannot be {given!r}: {error}") from error
         problem = declared.problem(value)
@@ -274,7 +274,7 @@ class Declaration:
     """0: the seams follow; otherwise they are those of attribute `seams_of` - 1."""
 
     def __post_init__(self) -> None:
-        normalise_fields(self, "attribute")
+        normalize_fields(self, "attribute")
 
     @property
     def words(self) -> int:

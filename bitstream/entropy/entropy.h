@@ -246,7 +246,7 @@ SHARED int64_t code_unsigned(RangeCoder *coder, const Mixer *mixer, int inputs, 
         && code_mixed_bit(coder, mixer, inputs, contexts, node + unary + size, selector, rest >> (size + 1) > 0))
         size++;
     int64_t result = 1;
-    if (size > 0) { /* the leading bit below the first is worth modelling, the others are noise */
+    if (size > 0) { /* the leading bit below the first is worth modeling, the others are noise */
         int leading = (int)(rest >> (size - 1)) & 1;
         result = 2 + code_mixed_bit(coder, mixer, inputs, contexts, node + unary + SUFFIX_NODES, selector, leading);
         if (size > 1) {

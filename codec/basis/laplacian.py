@@ -50,7 +50,7 @@ class Fronts(NamedTuple):
     sums: npt.NDArray[np.float64]
 
 
-def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32]) -> Fronts:
+def find_fronts(offsets: npt.NDArray[np.int32], neighbors: npt.NDArray[np.int32]) -> Fronts:
     """Fronts of a graph whose rows are in the order of a recursive bisection; any order will do."""
     n = len(offsets) - 1
     rows, steps, owners = np.empty((3, n), np.uint32)
@@ -60,7 +60,7 @@ def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32
     while count == _FULL:
         borders = np.empty(room, np.uint32)
         made = scratch, rows, steps, owners, firsts, starts, borders, places, sums
-        count = _kernels.find_fronts(offsets, neighbours, LEAF, float(WORK * n), *made)
+        count = _kernels.find_fronts(offsets, neighbors, LEAF, float(WORK * n), *made)
         room *= 4
     if count == _TOO_MUCH:
         raise LimitError(
@@ -86,15 +86,15 @@ class Laplacian:
 
 def laplacian_of(block: Block) -> Laplacian:
     """L of a block whose rows are in the order of a recursive bisection, with all weights one."""
-    fronts = find_fronts(block.offsets, block.neighbours)
+    fronts = find_fronts(block.offsets, block.neighbors)
     return Laplacian(block, fronts, np.empty(0), block.degrees.astype(np.float64))
 
 
 def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:
-    """`laplacian_of` with the given weights, one for each entry of `block.neighbours`, shape (e,)."""
+    """`laplacian_of` with the given weights, one for each entry of `block.neighbors`, shape (e,)."""
     rows = np.repeat(np.arange(block.size), block.degrees)
     diagonal: Matrix = np.bincount(rows, weights=weights, minlength=block.size).astype(np.float64)
-    return Laplacian(block, find_fronts(block.offsets, block.neighbours), weights, diagonal)
+    return Laplacian(block, find_fronts(block.offsets, block.neighbors), weights, diagonal)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +111,7 @@ def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
     values, inverse = factor_room(fronts), np.empty(n, np.float32)
     column, scratch = np.empty(n + 1, np.uint32), np.empty(3 * (n + 16) + PADDING, np.float32)
-    given = block.offsets, block.neighbours, laplacian.weights, laplacian.diagonal + shift, fronts
+    given = block.offsets, block.neighbors, laplacian.weights, laplacian.diagonal + shift, fronts
     _kernels.factorize_fronts(*given, column, scratch, values, inverse)
     return Factor(fronts, values, inverse)
 
@@ -134,7 +134,7 @@ def check_rows(factor: Factor, rows: int) -> None:
 def dense_laplacian(block: Block) -> Matrix:
     """L of a block, with all weights one, as a dense matrix, shape (n, n)."""
     laplacian = np.zeros((block.size, block.size))
-    laplacian[np.repeat(np.arange(block.size), block.degrees), block.neighbours] = -1.0
+    laplacian[np.repeat(np.arange(block.size), block.degrees), block.neighbors] = -1.0
     np.fill_diagonal(laplacian, block.degrees)
     return laplacian
 
@@ -152,7 +152,7 @@ def solve_cost(fronts: Fronts, columns: int) -> float:
 
 
 def onorm_cost(rows: int, columns: int) -> float:
-    """Work of one orthonormalisation, nanoseconds."""
+    """Work of one orthonormalization, nanoseconds."""
     whole = _whole(columns)
     return rows * (3.0 + 0.4 * whole + whole * whole / 80.0) + 3000.0
 
@@ -181,12 +181,12 @@ BEND = 2.0**-6  # how softly negative sums of cotangents become zero
 
 
 def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matrix:
-    """Weight of every entry of `graph.neighbours`: half the cotangents opposite to the edge, softly bounded."""
+    """Weight of every entry of `graph.neighbors`: half the cotangents opposite to the edge, softly bounded."""
     if positions.shape != (graph.size, 3):
         raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
-    sums = np.zeros(len(graph.neighbours))
+    sums = np.zeros(len(graph.neighbors))
     positions = np.ascontiguousarray(positions)
-    _kernels.cotangents(graph.offsets, graph.neighbours, faces, positions, FLATNESS, SMALLNESS, sums)
+    _kernels.cotangents(graph.offsets, graph.neighbors, faces, positions, FLATNESS, SMALLNESS, sums)
     if not np.isfinite(sums).all():
         raise NumericError("the first frame is too large for weights of its edges")
     positive = 0.5 * (sums + np.sqrt(sums * sums + BEND))
@@ -213,13 +213,13 @@ class Held:
 
 def hold(graph: Graph, weights: Matrix, rank: Indices, block: Block) -> Held:
     """Hang a part on the parts before it."""
-    if len(weights) != len(graph.neighbours) or len(rank) != graph.size:
+    if len(weights) != len(graph.neighbors) or len(rank) != graph.size:
         raise ValueError(f"{len(weights)} weights and {len(rank)} ranks for a graph of {graph.size} vertices")
     vertices = block.vertices
     room = int((graph.offsets[vertices + 1] - graph.offsets[vertices]).sum())
-    inner, springs = np.empty(len(block.neighbours)), np.empty(block.size)
+    inner, springs = np.empty(len(block.neighbors)), np.empty(block.size)
     starts, outer, stiffness = np.empty(block.size + 1, np.int32), np.empty(room, np.int32), np.empty(room)
-    given = graph.offsets, graph.neighbours, weights, rank, vertices, block.offsets, block.neighbours
+    given = graph.offsets, graph.neighbors, weights, rank, vertices, block.offsets, block.neighbors
     count = _kernels.hold(*given, inner, springs, starts, outer, stiffness)
     around, ends = np.unique(outer[:count], return_inverse=True)
     laplacian = weighted_laplacian(block, inner)

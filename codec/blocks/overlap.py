@@ -1,6 +1,6 @@
 """A mesh cut into parts and overlapping blocks, in a chain; the blend of copies of a vertex (paper, sections 4 and 6).
 
-Each part of the partition is grown by breadth-first rings into its neighbours until it holds n_d vertices; the blocks
+Each part of the partition is grown by breadth-first rings into its neighbors until it holds n_d vertices; the blocks
 are visited along a chain in which each lies beside its predecessor where the mesh allows it; and the rows of each block
 are brought into the order of a full bisection, so that row r means about the same place in every block.
 
@@ -28,7 +28,7 @@ def bisect(graph: Graph, parts: int) -> tuple[Indices, Indices]:
     """Cut a graph into parts whose sizes differ by as little as proportional halving allows."""
     order, bounds = np.empty(graph.size, np.int32), np.empty(parts + 1, np.int32)
     scratch = np.empty(_kernels.bisection_scratch(graph.size), np.uint32)
-    if not _kernels.bisect(graph.offsets, graph.neighbours, order, bounds, scratch):
+    if not _kernels.bisect(graph.offsets, graph.neighbors, order, bounds, scratch):
         raise OptionError(f"{graph.size} vertices cannot be cut into {parts} parts")
     return order, bounds
 
@@ -55,12 +55,12 @@ def partition_of_labels(labels: Indices) -> Partition:
 
 
 def derive_partition(graph: Graph, parts: int) -> Partition:
-    """Recursive bisection, then two passes that move boundary vertices to where most of their neighbours are."""
+    """Recursive bisection, then two passes that move boundary vertices to where most of their neighbors are."""
     order, bounds = bisect(graph, parts)
     labels = np.empty(graph.size, np.int32)
     _kernels.label_parts(order, bounds, labels)
     sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)
-    _kernels.refine_partition(graph.offsets, graph.neighbours, labels, REFINEMENT_PASSES, sizes, votes)
+    _kernels.refine_partition(graph.offsets, graph.neighbors, labels, REFINEMENT_PASSES, sizes, votes)
     return _grouped(labels)
 
 
@@ -69,7 +69,7 @@ def metis_partition(graph: Graph, parts: int) -> Partition:
     pymetis = imported("pymetis", "METIS is not installed", "denoise")
     if parts == 1:
         return partition_of_labels(np.zeros(graph.size, np.int32))
-    adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbours)
+    adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbors)
     _, labels = pymetis.part_graph(parts, adjacency)
     return partition_of_labels(np.asarray(labels, dtype=np.int32))
 
@@ -86,7 +86,7 @@ class Block:
 
     vertices: Indices
     offsets: Indices
-    neighbours: Indices
+    neighbors: Indices
 
     @property
     def size(self) -> int:
@@ -94,7 +94,7 @@ class Block:
 
     @cached_property
     def degrees(self) -> Indices:
-        """Neighbours of each row inside the block, shape (n_i,): the weights of the blend."""
+        """Neighbors of each row inside the block, shape (n_i,): the weights of the blend."""
         return self.offsets[1:] - self.offsets[:-1]
 
 
@@ -144,12 +144,12 @@ def block_size(partition: Partition, overlap: float) -> int:
 
 def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
     """Put the parts into a chain and grow each by breadth-first rings to `size` vertices (n_d)."""
-    parts, ends = partition.parts, len(graph.neighbours)
+    parts, ends = partition.parts, len(graph.neighbors)
     chain, starts, edges = np.empty(parts, np.int32), np.empty(parts + 1, np.int64), np.empty(parts, np.int64)
     members, seen = np.empty(parts * min(size, graph.size), np.int32), np.empty(graph.size, np.int32)
     pairs = min(ends, parts * (parts - 1))
     links, shares, scratch = np.empty(pairs, np.int32), np.empty(pairs, np.int64), np.empty(7 * parts, np.int64)
-    given = graph.offsets, graph.neighbours, partition.order, partition.bounds, partition.labels, size
+    given = graph.offsets, graph.neighbors, partition.order, partition.bounds, partition.labels, size
     count = _kernels.chain_blocks(*given, links, shares, scratch, seen, chain, starts, edges, members)
     cores = np.diff(partition.bounds)[chain]
     return Blocks(graph, chain, cores, starts, edges, members[:count])
@@ -159,11 +159,11 @@ def _ordered(graph: Graph, rows: Indices) -> Block:
     size, room = len(rows), 8 * len(rows)
     vertices, offsets = np.empty(size, np.int32), np.empty(size + 1, np.int32)
     while True:
-        neighbours = np.empty(room, np.int32)
+        neighbors = np.empty(room, np.int32)
         scratch = np.empty(_kernels.order_scratch(size, room), np.uint32)
-        ends = _kernels.order_block(graph.offsets, graph.neighbours, rows, vertices, offsets, neighbours, scratch)
+        ends = _kernels.order_block(graph.offsets, graph.neighbors, rows, vertices, offsets, neighbors, scratch)
         if ends <= room:
-            return Block(vertices, offsets, neighbours[:ends].copy())
+            return Block(vertices, offsets, neighbors[:ends].copy())
         room = ends
 
 
@@ -193,5 +193,5 @@ class Blend:
 
 
 def degree_weights(degrees: Indices) -> Matrix:
-    """Weight of each row, shape (n_i,): its neighbours inside the block; a row without any counts as one."""
+    """Weight of each row, shape (n_i,): its neighbors inside the block; a row without any counts as one."""
     return np.maximum(degrees, 1).astype(np.float64)

@@ -24,7 +24,7 @@ from bsm.codec.geometry.graph import Rows
 
 
 def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: float, sigma_r: float) -> Floats:
-    """Average each face's normal with its neighbours', by area, distance and likeness of guides (paper, 9 to 11)."""
+    """Average each face's normal with its neighbors', by area, distance and likeness of guides (paper, 9 to 11)."""
     filtered, packed = np.empty_like(geometry.normals), np.empty((len(geometry.normals), 12))
     _kernels.filter_normals(*geometry, guide, near.starts, near.members, sigma_s, sigma_r, packed, filtered)
     return filtered
@@ -60,7 +60,7 @@ def own_normals(geometry: FaceGeometry, topology: Topology) -> Floats:
 
 
 class GuidedFilter:
-    """The filter with its neighbourhoods, which are found once, on the mesh that it starts from."""
+    """The filter with its neighborhoods, which are found once, on the mesh that it starts from."""
 
     def __init__(
         self, positions: Positions, topology: Topology, within: Callable[[Positions], Positions] = np.asarray

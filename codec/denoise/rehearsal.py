@@ -186,7 +186,7 @@ class Rehearsal:
         return float((heights < self.level.normal + self.level.tangential).mean())
 
     def _roughness(self, positions: Positions) -> float:
-        """Mean distance between the normals of neighbouring faces."""
+        """Mean distance between the normals of neighboring faces."""
         normals = face_geometry(positions, self._topology.faces).normals
         return float(pair_distances(normals, self._topology.pairs).mean())
 

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Positions
-from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbours
+from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
 
 Floats = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -19,7 +19,7 @@ CROWD = 32
 
 @dataclass(frozen=True, eq=False)
 class Topology:
-    """Neighbourhoods of faces; what not every filter needs is found when it is first asked for."""
+    """Neighborhoods of faces; what not every filter needs is found when it is first asked for."""
 
     faces: Faces
     n: int
@@ -32,8 +32,8 @@ class Topology:
         return vertex_faces(self.faces, self.n)
 
     @cached_property
-    def neighbours(self) -> Rows:
-        return vertex_neighbours(self.faces, self.n)
+    def neighbors(self) -> Rows:
+        return vertex_neighbors(self.faces, self.n)
 
     @cached_property
     def patches(self) -> Rows:

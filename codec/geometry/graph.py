@@ -1,7 +1,7 @@
 """The graph of a mesh: its vertices, and an edge wherever two of them share a face; and who touches whom there.
 
 Everything that encoder and decoder derive from connectivity starts here. Rows are stored compressed (CSR) and
-sorted, so that every rule built on "the first neighbour" is the same on both sides.
+sorted, so that every rule built on "the first neighbor" is the same on both sides.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class Graph:
     """An undirected graph without loops or repeated edges."""
 
     offsets: Indices
-    neighbours: Indices
+    neighbors: Indices
 
     @property
     def size(self) -> int:
@@ -37,11 +37,11 @@ def component_sizes(graph: Graph) -> Indices:
     """Vertices of each connected component, shape (k,), in the order of their first vertices."""
     sizes, waiting = np.zeros(graph.size, np.int32), np.empty(graph.size, np.int32)
     seen = np.zeros(graph.size, np.uint8)
-    return sizes[: _kernels.component_sizes(graph.offsets, graph.neighbours, seen, waiting, sizes)]
+    return sizes[: _kernels.component_sizes(graph.offsets, graph.neighbors, seen, waiting, sizes)]
 
 
 def is_connected(graph: Graph) -> bool:
-    return bool(_kernels.reaches_all(graph.offsets, graph.neighbours, np.empty(2 * graph.size + 1, np.int32)))
+    return bool(_kernels.reaches_all(graph.offsets, graph.neighbors, np.empty(2 * graph.size + 1, np.int32)))
 
 
 class Rows(NamedTuple):
@@ -58,15 +58,15 @@ def vertex_faces(faces: Faces, n: int) -> Rows:
     return Rows(starts, members[: starts[n]])
 
 
-def vertex_neighbours(faces: Faces, n: int) -> Rows:
+def vertex_neighbors(faces: Faces, n: int) -> Rows:
     """Vertices that share an edge with each vertex, itself excluded."""
     graph = graph_of_faces(faces, n)
-    return Rows(graph.offsets.astype(np.int64), graph.neighbours)
+    return Rows(graph.offsets.astype(np.int64), graph.neighbors)
 
 
 def mesh_edges(faces: Faces, n: int) -> Indices:
     """Undirected edges, each once, as rows (a, b) with a < b, ascending; shape (e, 2)."""
-    starts, members = vertex_neighbours(faces, n)
+    starts, members = vertex_neighbors(faces, n)
     first = np.repeat(np.arange(n, dtype=np.int32), np.diff(starts))
     once = first < members
     return np.stack([first[once], members[once]], axis=1)

@@ -16,7 +16,7 @@ import numpy as np
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Order, Positions
-from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbours
+from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbors
 from bsm.codec.geometry.mesh import extent_of, require_sizes
 
 Floats = Matrix
@@ -71,8 +71,8 @@ class Reference:
         require_sizes(self.positions, done="compared")
         self.faces = np.ascontiguousarray(faces, dtype=np.int32)
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
-        self._neighbours = vertex_neighbours(self.faces, len(self.positions))
-        self._laplacian = geometric_laplacian(self.positions, self._neighbours)
+        self._neighbors = vertex_neighbors(self.faces, len(self.positions))
+        self._laplacian = geometric_laplacian(self.positions, self._neighbors)
         areas, centroids = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
         self._normals = np.empty((len(self.faces), 3))
         _kernels.face_geometry(self.positions, self.faces, centroids, areas, self._normals)
@@ -81,9 +81,9 @@ class Reference:
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
     def nmsve(self, decoded: Positions) -> float:
-        """Normalised mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos, Moustakas."""
+        """Normalized mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos, Moustakas."""
         decoded = self._checked(decoded)
-        detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbours))
+        detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbors))
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
 
     def theta(self, decoded: Positions) -> float:
@@ -187,11 +187,11 @@ def folded_edges(positions: Positions, faces: Faces) -> int:
     return int(np.count_nonzero(np.where(same_way, -turned, turned) < 0.0))
 
 
-def geometric_laplacian(positions: Positions, neighbours: Rows) -> Floats:
-    """Each vertex minus the mean of its neighbours, weighted by inverse distance; shape (n, 3)."""
+def geometric_laplacian(positions: Positions, neighbors: Rows) -> Floats:
+    """Each vertex minus the mean of its neighbors, weighted by inverse distance; shape (n, 3)."""
     laplacian = np.empty((len(positions), 3))
     _kernels.geometric_laplacian(
-        np.ascontiguousarray(positions, np.float64), neighbours.starts, neighbours.members, laplacian
+        np.ascontiguousarray(positions, np.float64), neighbors.starts, neighbors.members, laplacian
     )
     return laplacian
 

@@ -11,7 +11,7 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
     ConstInts around, double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals);
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
     Doubles2 placed, Ints away, Singles2 depth, Singles2 lengths, Singles2 farthest, Singles2 picture, Ints2 owner);
-int64_t paint_colours(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
+int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
     ConstSingles2 picture, Singles2 painted);
 int64_t paint_checker(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
     ConstDoubles steepness, double dark, Singles2 picture);

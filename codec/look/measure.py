@@ -294,7 +294,7 @@ class LookMetric:
 
 
 class AttributeLook:
-    """Pictures of an original under a checker, at texture coordinates, or in colours: `spec/look.md`, L 7 and L 8.
+    """Pictures of an original under a checker, at texture coordinates, or in colors: `spec/look.md`, L 7 and L 8.
 
     `values` are what corners have, shape (m, 3 c)."""
 
@@ -321,7 +321,7 @@ class AttributeLook:
 
     def _painting(self, values: Matrix, positions: Positions, faces: Faces) -> Paint:
         if self._semantic == "color":
-            return Canvas.in_colours
+            return Canvas.in_colors
         return partial(Canvas.checkered, steepness=checker_steepness(values, self._metric._placed(positions), faces))
 
     def _far(self, drawn: Sequence[list[Picture]]) -> float:
@@ -390,7 +390,7 @@ def look_values(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
 
 
 def has_look(attribute: Attribute) -> bool:
-    """Whether an attribute is seen in pictures: texture coordinates of a plane; and colours, if floats from 0 to 1."""
+    """Whether an attribute is seen in pictures: texture coordinates of a plane; and colors, if floats from 0 to 1."""
     kind = attribute.values.dtype.kind
     if attribute.semantic == "color":
         return kind == "u" or (kind == "f" and bool(np.abs(attribute.values - 0.5).max(initial=0.0) <= 0.5))
@@ -399,7 +399,7 @@ def has_look(attribute: Attribute) -> bool:
 
 
 def painted(semantic: Semantic, corners: npt.NDArray[Any]) -> Matrix:
-    """Values of corners as `AttributeLook` takes them, shape (m, 3, c): of colours red, green, blue, from 0 to 1."""
+    """Values of corners as `AttributeLook` takes them, shape (m, 3, c): of colors red, green, blue, from 0 to 1."""
     if semantic == "color":
         whole = 1.0 if corners.dtype.kind == "f" else float(np.iinfo(corners.dtype).max)
         corners = (corners[..., :3] if corners.shape[2] > 2 else corners[..., [0, 0, 0]]) / whole

@@ -91,11 +91,11 @@ class Canvas:
         _kernels.draw_shaded(positions, faces, normals, camera, *room, self.samples, self.owner)
         return averaged(self.samples)
 
-    def in_colours(self, faces: Faces, colours: Matrix) -> list[Picture]:
+    def in_colors(self, faces: Faces, colors: Matrix) -> list[Picture]:
         """Return the last picture in red, in green and in blue, given those of corners, shape (m, 9)."""
         painted = np.empty((3, *self.samples.shape), np.float32)
-        _kernels.paint_colours(
-            self.owner, self._placed, faces, colours, self.samples, painted.reshape(-1, len(self.owner))
+        _kernels.paint_colors(
+            self.owner, self._placed, faces, colors, self.samples, painted.reshape(-1, len(self.owner))
         )
         return [averaged(samples) for samples in painted]
 
@@ -173,7 +173,7 @@ class Size:
 
 
 def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Matrix:
-    """One over the part of a checker's square that its edges take on each face, shape (m,), 0: it is grey there; where
+    """One over the part of a checker's square that its edges take on each face, shape (m,), 0: it is gray there; where
     corners are at places of it, shape (m, 6), and positions in a box of diagonal 1 fill a picture."""
     first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
     texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2

@@ -392,9 +392,9 @@ INLINE bool is_corner(ConstInts2 faces, int64_t face, ConstDoubles2 placed) {
     return is;
 }
 
-/* `picture` times the colour that corners have, three numbers of each in `values`: red, green, and blue below each
+/* `picture` times the color that corners have, three numbers of each in `values`: red, green, and blue below each
  * other in `painted`. `owner` and `placed` are as `draw_shaded` leaves them. */
-KERNEL int64_t paint_colours(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
+KERNEL int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
                              ConstSingles2 picture, Singles2 painted) {
     int64_t pixels = owner.rows * owner.columns;
     if (placed.columns != 3 || faces.columns != 3 || values.columns != 9 || values.rows < faces.rows ||

@@ -13,7 +13,7 @@ from bsm.codec.arrays import Levels, Matrix
 
 LEADING = 24  # columns of a row that help to predict the columns behind them
 FORGETTING = 0.985  # how much the past counts, per row, in the weights of the prediction
-RIDGE = 0.004  # regularisation of the weights
+RIDGE = 0.004  # regularization of the weights
 NOISE = 30.0
 """Energy in squared steps that is added to that of a row before the row is weighed by the inverse of it;
 half costs 0.3 %, twice saves 0.1 %."""
@@ -27,7 +27,7 @@ LARGEST_LEVEL = (1 << 23) - 1
 
 WEIGHT = 0.1  # squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones
 ROUNDS = 1
-"""How often levels are chosen before those that stay: prices depend on the neighbours, which depend on prices. 3 save
+"""How often levels are chosen before those that stay: prices depend on the neighbors, which depend on prices. 3 save
 0.7 % at coarse steps, nothing at fine ones, and take twice the time."""
 
 

@@ -113,7 +113,7 @@ class RunSplitter:
 
 
 def can_move(attribute: Attribute) -> bool:
-    """Whether GOPs can tell how an attribute changes: colours and numbers of vertices."""
+    """Whether GOPs can tell how an attribute changes: colors and numbers of vertices."""
     return attribute.domain == "vertex" and attribute.semantic in ("color", "generic")
 
 

@@ -52,19 +52,19 @@ BENDING_COLUMNS = 3 + len(PRODUCTS)
 class Bending:
     """The powers that belong to a part."""
 
-    centre: Matrix
+    center: Matrix
     radius: float
 
     @classmethod
     def of(cls, positions: Matrix) -> Bending:
         """How a part bends that has the positions, shape (n_i, 3), in its first frame, in BSM units."""
-        centre = sum_in_order(positions) / len(positions)
-        x, y, z = np.square(positions - centre).T
-        return cls(centre, float(np.sqrt(sum_in_order(x + y + z) / len(positions) + SMALLEST)))
+        center = sum_in_order(positions) / len(positions)
+        x, y, z = np.square(positions - center).T
+        return cls(center, float(np.sqrt(sum_in_order(x + y + z) / len(positions) + SMALLEST)))
 
     def columns(self, positions: Matrix) -> Matrix:
         """Positions, shape (m, 3), and behind them their squares and cubes about the part: shape (m, 19)."""
-        own = (positions - self.centre) / self.radius
+        own = (positions - self.center) / self.radius
         powers = [reduce(mul, own.T[list(axes)], factor * self.radius) for factor, axes in PRODUCTS]
         return np.column_stack([positions, *powers])
 

@@ -78,7 +78,7 @@ class Surroundings(Suspended):
     def _ground(self) -> tuple[Factor, Matrix]:
         block, fronts, rows = self.laplacian.block, self.laplacian.fronts, len(self.springs)
         values, inverse, continued = factor_room(fronts), np.empty(rows, np.float32), np.empty((rows, 3))
-        given = block.offsets, block.neighbours, self.laplacian.weights, self.laplacian.diagonal, fronts
+        given = block.offsets, block.neighbors, self.laplacian.weights, self.laplacian.diagonal, fronts
         scratch = np.empty(rows), np.empty(rows + 1, np.uint32), solving_room(rows, 3)
         _kernels.suspend(*given, self.springs, self.pulls, self.shift, *scratch, values, inverse, continued)
         return Factor(fronts, values, inverse), continued
@@ -101,7 +101,7 @@ class Known:
         """What holds a block."""
         graph, blend, block = self._graph, self._blend, laplacian.block
         found = Surroundings(laplacian, np.empty(block.size), shift, np.empty((block.size, 3)))
-        given = graph.offsets, graph.neighbours, block.vertices, self._inside, blend.sums, blend.weights
+        given = graph.offsets, graph.neighbors, block.vertices, self._inside, blend.sums, blend.weights
         _kernels.look_around(*given, self._stiffness, found.springs, found.pulls)
         return found
 
@@ -191,7 +191,7 @@ def key_dictionary(rules: ChainRules, around: Suspended, width: int) -> Basis:
 
 
 def in_pieces(block: Block) -> bool:
-    return not is_connected(Graph(block.offsets, block.neighbours))
+    return not is_connected(Graph(block.offsets, block.neighbors))
 
 
 class Chain:

@@ -5,7 +5,7 @@ as roughness; a low-pass filter on the whole mesh takes most of it away. The fil
 random-walk Laplacian K = I - D^-1 A, so a vertex depends on five rings around it only and can be finished while the
 rest of the stream is still on its way.
 
-Frames are smooth functions of the positions, and so they are of the surface: what is coded in the frames of neighbours
+Frames are smooth functions of the positions, and so they are of the surface: what is coded in the frames of neighbors
 can be predicted from one to the other, and rounding of positions only rounds frames.
 """
 
@@ -43,7 +43,7 @@ def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
         return positions
     positions = np.ascontiguousarray(positions)
     smoothed, scratch = np.empty(positions.shape), np.empty(2 * positions.size + 2)
-    _kernels.smooth_all(graph.offsets, graph.neighbours, positions, filter_polynomial(amount), scratch, smoothed)
+    _kernels.smooth_all(graph.offsets, graph.neighbors, positions, filter_polynomial(amount), scratch, smoothed)
     return smoothed
 
 
@@ -75,7 +75,7 @@ def smoothing_spectrum(graph: Graph, positions: Matrix) -> Spectrum:
         raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
     powers = np.empty((DEGREE + 1) * positions.size + 1)
     powers[: positions.size] = positions.reshape(-1)
-    _kernels.apply_powers(graph.offsets, graph.neighbours, powers, DEGREE)
+    _kernels.apply_powers(graph.offsets, graph.neighbors, powers, DEGREE)
     return Spectrum(np.ascontiguousarray(positions), powers[2 * positions.size : -1].reshape(DEGREE - 1, -1, 3))
 
 

@@ -231,7 +231,7 @@ class Parts:
         """The labels of parts, where a decoder cannot derive them."""
         if not self.metis:
             return ()
-        labels = encode_labels(graph.offsets, graph.neighbours, partition.labels, partition.parts)
+        labels = encode_labels(graph.offsets, graph.neighbors, partition.labels, partition.parts)
         return (packets.Partition(labels),)
 
 

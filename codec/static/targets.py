@@ -32,7 +32,7 @@ class Contract:
     alike : bool
         In `angle` all faces count alike, whatever their area.
     visual : float
-        Normalised mean visual error (`codec.geometry.metrics.Reference.nmsve`); infinite: any.
+        Normalized mean visual error (`codec.geometry.metrics.Reference.nmsve`); infinite: any.
     by_part : float
         The same as `farthest`, but relative to the diagonal of each connected part, down to a tenth of the whole's.
         Parts near each other keep their order in depth. Infinite: no such bound.

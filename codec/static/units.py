@@ -36,14 +36,14 @@ def checksum_of(positions: Positions, before: int = 0) -> int:
 
 
 def units_of(mesh: TriangleMesh) -> Units:
-    """Centre and diagonal of the bounding box, in single precision where that is exact enough."""
+    """Center and diagonal of the bounding box, in single precision where that is exact enough."""
     low, high = box_around(mesh.positions)
     center, diagonal = low / 2 + high / 2, mesh.diagonal
     if not diagonal > 0.0:
         return Units(tuple(center), 1.0)
     with np.errstate(over="ignore"):
         coarse = center.astype(np.float32).astype(np.float64)
-        # Rounded up, so that positions stay within half a unit of the centre.
+        # Rounded up, so that positions stay within half a unit of the center.
         scale = float(np.nextafter(np.float32(diagonal * (1 + 4e-6)), np.float32(np.inf)))
     if np.abs(coarse - center).max() < 1e-6 * diagonal:
         center = coarse

@@ -129,7 +129,7 @@ def triangles_of(data: Any) -> tuple[Faces, Array]:
 
 
 def attributes_of(data: Any, corners: Array) -> tuple[Attribute, ...]:
-    """What a mesh of Blender's carries: texture coordinates, colours, numbers, and which material a face has."""
+    """What a mesh of Blender's carries: texture coordinates, colors, numbers, and which material a face has."""
     found: dict[str, Attribute] = {}
     owner = np.empty(len(corners), np.int32)
     data.loop_triangles.foreach_get("polygon_index", owner)
@@ -167,7 +167,7 @@ def _values(layer: Any, kind: str) -> tuple[Array, Semantic]:
 
 
 def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
-    """The metadata of an object's materials: names, colours, and the images of base colours."""
+    """The metadata of an object's materials: names, colors, and the images of base colors."""
     found: dict[str, str | int | float | bytes] = {}
     images = 0
     for number, slot in enumerate(slots):

@@ -14,7 +14,7 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Positions
 
 SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
-"""Colours from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
+"""Colors from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
 Image = npt.NDArray[np.float64]
 _LOUDER = 4.0  # how much larger a difference is drawn than it is
 
@@ -25,7 +25,7 @@ def side_by_side(first: npt.NDArray[Any], second: npt.NDArray[Any]) -> npt.NDArr
 
 
 def png(picture: npt.NDArray[Any]) -> bytes:
-    """A file of a picture from 0 to 1, of shades, shape (height, width), or of colours, (height, width, 3)."""
+    """A file of a picture from 0 to 1, of shades, shape (height, width), or of colors, (height, width, 3)."""
     height, width = picture.shape[:2]
     shades = np.rint(255 * picture.clip(0.0, 1.0)).astype(np.uint8).reshape(height, -1)
     rows = np.pad(shades, ((0, 0), (1, 0)))  # zero before each row: it is predicted from nothing
@@ -61,7 +61,7 @@ def with_titles(
 
 
 def colors_of(shares: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Colours of numbers from 0 to 1, shape (n,), from 0 to 255, shape (n, 3); larger ones have the last."""
+    """Colors of numbers from 0 to 1, shape (n,), from 0 to 255, shape (n, 3); larger ones have the last."""
     places = np.linspace(0.0, 1.0, len(SCALE))
     return np.stack([np.interp(shares, places, channel) for channel in SCALE.T], axis=1)
 

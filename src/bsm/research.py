@@ -11,7 +11,7 @@
 >>> encoded.mesh.faces.shape == mesh.faces.shape
 True
 
-All else stays as it is: connectivity, quantisation, entropy coding, smoothing. `curves` measures ideas beside what the
+All else stays as it is: connectivity, quantization, entropy coding, smoothing. `curves` measures ideas beside what the
 codec does, `blocks` gives what the codec itself works on. Names here may change with any release.
 """
 
@@ -45,31 +45,36 @@ __all__ = ["BlockArrays", "Encoded", "Idea", "Site", "blocks", "curves", "encode
 class Site:
     """A block as both sides see it before it is coded: its `vertices` (n,), its graph, and what holds it.
 
-    Neighbours of row r are `neighbours[offsets[r]:offsets[r + 1]]`; `springs` (n,) are the stiffnesses by which known
+    Neighbors of row r are `neighbors[offsets[r]:offsets[r + 1]]`; `springs` (n,) are the stiffnesses by which known
     vertices hold each row, `pulls` (n, 3) stiffness times known position, in units of the box's longest side, and
     `prediction` (n, 3) where the codec expects the block.
     """
 
     vertices: Integers
     offsets: Integers
-    neighbours: Integers
+    neighbors: Integers
     springs: Floats
     pulls: Floats
     prediction: Floats
     _columns: Columns | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
-        return f"Site({self.size} vertices, {len(self.neighbours) // 2} edges)"
+        return f"Site({self.size} vertices, {len(self.neighbors) // 2} edges)"
 
     @property
     def size(self) -> int:
         return len(self.vertices)
 
     @property
+    def neighbours(self) -> Integers:
+        """The former name of `neighbors`."""
+        return self.neighbors
+
+    @property
     def laplacian(self) -> Floats:
         """L = D - A of the block's graph, float64, shape (n, n), without springs."""
         dense = np.diag(np.diff(self.offsets).astype(np.float64))
-        dense[np.repeat(np.arange(self.size), np.diff(self.offsets)), self.neighbours] = -1.0
+        dense[np.repeat(np.arange(self.size), np.diff(self.offsets)), self.neighbors] = -1.0
         return dense
 
     def ours(self, width: int) -> Floats:
@@ -85,7 +90,7 @@ class Idea:
 
     `dictionary` is a function of a `Site` and a number of columns c: U, shape (n, c), orthonormal. `predictor` is one
     of a `Site`: positions, shape (n, 3); the codec codes the difference. `partition` is one of the mesh's graph
-    (offsets, neighbours) and a number of parts: a part for each vertex, shape (n,), which is sent, so any decoder
+    (offsets, neighbors) and a number of parts: a part for each vertex, shape (n,), which is sent, so any decoder
     decodes it.
     """
 
@@ -109,7 +114,7 @@ class BlockArrays:
 
     @property
     def coefficients(self) -> Floats:
-        """What U makes of the difference from the prediction, before it is quantised: shape (c, 3)."""
+        """What U makes of the difference from the prediction, before it is quantized: shape (c, 3)."""
         product: Floats = self.dictionary.T @ (self.positions - self.site.prediction)
         return product
 
@@ -200,7 +205,7 @@ def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepare
     size, overlap = options.block_size, options.growth
     parts = Parts(size, overlap, options.paper.partition == "metis")
     if idea.partition is not None:
-        parts = _OwnParts(size, overlap, metis=True, labelled=idea.partition)
+        parts = _OwnParts(size, overlap, metis=True, labeled=idea.partition)
     return prepare(mesh, parts, keep_order=options.keep_order)
 
 
@@ -219,7 +224,7 @@ def _overrides(idea: Idea) -> Overrides:
     def site_of(around: Surroundings, columns: Columns | None = None) -> Site:
         block = around.laplacian.block
         known = around.springs, around.pulls, around.continuation
-        return Site(block.vertices, block.offsets, block.neighbours, *known, columns)
+        return Site(block.vertices, block.offsets, block.neighbors, *known, columns)
 
     def dictionary(around: Surroundings, width: int, columns: Columns) -> Floats:
         site = site_of(around, columns)
@@ -243,10 +248,10 @@ def _checked(what: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> Floats
 
 @dataclass(frozen=True)
 class _OwnParts(Parts):
-    labelled: Callable[[Integers, Integers, int], npt.ArrayLike] = field(kw_only=True)
+    labeled: Callable[[Integers, Integers, int], npt.ArrayLike] = field(kw_only=True)
 
     def cut(self, graph: Graph) -> Partition:
-        labels = np.asarray(self.labelled(graph.offsets, graph.neighbours, self.count(graph.size)))
+        labels = np.asarray(self.labeled(graph.offsets, graph.neighbors, self.count(graph.size)))
         if labels.shape != (graph.size,) or labels.dtype.kind not in "iu":
             raise ArgumentError(f"the partition must give {graph.size} whole numbers, not {labels.dtype}{labels.shape}")
         return partition_of_labels(labels.astype(np.int32))

@@ -1,6 +1,6 @@
 """trimesh opens and writes .bsm: ``import bsm.trimesh``, then ``trimesh.load("a.bsm")`` and ``mesh.export("b.bsm")``.
 
-What a mesh shows goes along: texture coordinates, materials and their images as `TextureVisuals`, colours as
+What a mesh shows goes along: texture coordinates, materials and their images as `TextureVisuals`, colors as
 `ColorVisuals`, normals, and other values as `vertex_attributes` and `face_attributes`.
 
 >>> import bsm.trimesh, trimesh
@@ -71,7 +71,7 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         numbers = formats.face_numbers(mesh, "material")
         place = {number: place for place, number in enumerate(known)}
         if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
-            # For faces without a material: trimesh would give them a grey one, and an image.
+            # For faces without a material: trimesh would give them a gray one, and an image.
             materials.append(_library.visual.material.PBRMaterial())
         several = numbers is not None and len(materials) > 1
         material = _library.visual.material.MultiMaterial(materials) if several else materials[0]

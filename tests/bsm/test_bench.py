@@ -39,7 +39,7 @@ def test_iterations_are_those_of_dense_solvers(power, block):
     found = iterated(block, 12, power)
     columns = cosine_columns(block.size, 12)
     for _ in range(power):
-        # Orthonormalised every time: the same subspaces in exact arithmetic, and no loss of precision.
+        # Orthonormalized every time: the same subspaces in exact arithmetic, and no loss of precision.
         columns = np.linalg.qr(np.linalg.solve(dense_laplacian(block) + SHIFT * np.eye(block.size), columns))[0]
     aligned = columns * np.where(np.einsum("ij,ij->j", columns, found) < 0, -1.0, 1.0)
     assert np.abs(aligned - found).max() < 1e-6

@@ -285,8 +285,8 @@ def test_primitives_of_a_mesh_share_a_stream(source, tmp_path):
     positions, faces = document.array(0), document.array(4).ravel()
     for accessor, piece, corners in zip(accessors, pieces, (faces[:half], faces[half:]), strict=True):
         assert accessor["count"] == len(corners) == len(piece)
-        centres = [some.reshape(-1, 3, 3).mean(axis=1) for some in (piece, positions[corners])]
-        apart = np.linalg.norm(centres[0][:, None] - centres[1][None], axis=-1)
+        centers = [some.reshape(-1, 3, 3).mean(axis=1) for some in (piece, positions[corners])]
+        apart = np.linalg.norm(centers[0][:, None] - centers[1][None], axis=-1)
         assert apart.min(axis=0).max() < 0.03 and apart.min(axis=1).max() < 0.03
     assert accessors[1]["byteOffset"] == 2 * half and "byteOffset" not in accessors[0]
 

@@ -83,7 +83,7 @@ def test_trimesh_exports_a_stream(trimesh, tmp_path):
 
 
 @pytest.mark.parametrize("domain", ["vertex", "face"])
-def test_colours_of_trimesh(trimesh, domain):
+def test_colors_of_trimesh(trimesh, domain):
     sphere = trimesh.creation.icosphere(subdivisions=2)
     size = len(sphere.vertices if domain == "vertex" else sphere.faces)
     colors = np.random.default_rng(1).integers(0, 256, (size, 4), np.uint8)

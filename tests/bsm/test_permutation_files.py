@@ -28,7 +28,7 @@ def test_reorder_undoes_a_numbering(order):
     assert np.array_equal(back.faces, SAMPLE.faces)
 
 
-def test_equal_numbering_is_recognised_whatever_the_order_of_faces_and_corners():
+def test_equal_numbering_is_recognized_whatever_the_order_of_faces_and_corners():
     shuffled = np.random.default_rng(1).permutation(np.roll(SAMPLE.faces, 1, axis=1))
     other = TriangleMesh(SAMPLE.positions + 1, shuffled)
     assert np.array_equal(in_order_of(SAMPLE, other), other.positions)

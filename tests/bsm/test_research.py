@@ -22,7 +22,7 @@ def short(site):
     return 0.95 * site.prediction
 
 
-def stripes(offsets, neighbours, parts):
+def stripes(offsets, neighbors, parts):
     return np.arange(len(offsets) - 1) * parts // (len(offsets) - 1)
 
 
@@ -84,7 +84,7 @@ def test_blocks_are_what_the_codec_works_on():
             "finite",
         ),
         (research.Idea(predictor=lambda site: site.ours(3)), bsm.OptionError, "not known"),
-        (research.Idea(partition=lambda offsets, neighbours, parts: [0.5]), bsm.ArgumentError, "whole numbers"),
+        (research.Idea(partition=lambda offsets, neighbors, parts: [0.5]), bsm.ArgumentError, "whole numbers"),
     ],
 )
 def test_what_cannot_be_is_reported(idea, error, words):

@@ -163,7 +163,7 @@ def test_usd_has_time_samples_of_faces(stream, tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["max_error_relative"] < 2e-3
 
 
-def test_colours_of_runs_go_to_usd_and_come_back(tmp_path):
+def test_colors_of_runs_go_to_usd_and_come_back(tmp_path):
     pytest.importorskip("pxr.Usd")
     meshes = [
         replace(

@@ -124,7 +124,7 @@ def test_the_first_frame_with_other_faces_is_named(tmp_path, capsys):
         assert not (tmp_path / "x.bsm").exists()
 
 
-def test_colours_that_change_are_not_dropped_in_silence(tmp_path, capsys):
+def test_colors_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     positions, faces = bending(3)
     for name, domain, shades in (
         ("once", "face", (0, 9, 0)),

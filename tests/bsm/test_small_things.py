@@ -102,7 +102,7 @@ def test_a_map_shows_where_vertices_are_off(tmp_path, capsys):
     assert "a picture (.png)" in capsys.readouterr().err
 
 
-def test_obj_has_colours_that_every_reader_takes(tmp_path, capsys):
+def test_obj_has_colors_that_every_reader_takes(tmp_path, capsys):
     rgba = np.tile(np.array([[255, 0, 51, 128]], np.uint8), (len(MESH.positions), 1))
     mesh = bsm.TriangleMesh(MESH.positions, MESH.faces, (bsm.Attribute("color", rgba, semantic="color"),))
     assert bsm.save(mesh, tmp_path / "a.obj") == ("alpha of color",)

@@ -203,10 +203,10 @@ def test_untile_of_a_box_and_of_a_level(folder, tmp_path):
 
 
 @pytest.mark.parametrize("suffix", ["ply", "npz", "obj"])
-def test_colours_and_normals_go_along(mesh, tmp_path, suffix):
-    colour = (np.abs(mesh.positions) * 90).astype(np.uint8)
+def test_colors_and_normals_go_along(mesh, tmp_path, suffix):
+    color = (np.abs(mesh.positions) * 90).astype(np.uint8)
     normal = (mesh.positions / np.linalg.norm(mesh.positions, axis=1, keepdims=True)).astype(np.float32)
-    dressed = [Attribute("color", colour, "vertex", "color")]
+    dressed = [Attribute("color", color, "vertex", "color")]
     dressed += [] if suffix == "obj" else [Attribute("normal", normal, "vertex", "normal")]
     output = made(TriangleMesh(mesh.positions, mesh.faces, dressed), tmp_path / "out", suffix=suffix)
     assert program("untile", output, "-o", tmp_path / "back.ply").returncode == 0
@@ -215,25 +215,25 @@ def test_colours_and_normals_go_along(mesh, tmp_path, suffix):
     places = Lattice(CELL).places
     order, other = (np.lexsort(places(shown.positions).T) for shown in (mesh, back))
     found = {attribute.name: attribute.values[other] for attribute in back.attributes}
-    assert np.array_equal(found["color"], colour[order])
+    assert np.array_equal(found["color"], color[order])
     if suffix != "obj":
         assert np.abs(found["normal"] - normal[order]).max() < 0.01
     assert program("untile", output, "-o", tmp_path / "coarse.bsm", "--level", 0).returncode == 0
     coarse = bsm.load(tmp_path / "coarse.bsm")
     nearest = np.argmin(((coarse.positions[:, None] - mesh.positions) ** 2).sum(axis=2), axis=1)
     coarse_colors = next(attribute.values for attribute in coarse.attributes if attribute.name == "color").astype(int)
-    assert len(coarse.faces) < 0.4 * len(mesh.faces) and np.abs(coarse_colors - colour[nearest]).mean() < 4
+    assert len(coarse.faces) < 0.4 * len(mesh.faces) and np.abs(coarse_colors - color[nearest]).mean() < 4
 
 
-def test_vertices_that_differ_in_colour_alone_stay_apart(tmp_path):
+def test_vertices_that_differ_in_color_alone_stay_apart(tmp_path):
     positions = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 0), (1, 1, 0)], float)
-    colour = np.array([(1, 2, 3)] * 4 + [(9, 9, 9)] * 2, np.uint8)
-    square = TriangleMesh(positions, [(0, 1, 2), (4, 5, 3)], [Attribute("color", colour, "vertex", "color")])
+    color = np.array([(1, 2, 3)] * 4 + [(9, 9, 9)] * 2, np.uint8)
+    square = TriangleMesh(positions, [(0, 1, 2), (4, 5, 3)], [Attribute("color", color, "vertex", "color")])
     write_mesh(tmp_path / "a.ply", square)
     tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 1)
     found = bsm.open_tiles(str(tmp_path / "out")).region((0, 0, 0), (1, 1, 1))
     rows = {(*at, *it) for at, it in zip(found.positions.tolist(), found.attributes[0].values.tolist())}
-    assert rows == {(*at, *it) for at, it in zip(positions.tolist(), colour.tolist())}
+    assert rows == {(*at, *it) for at, it in zip(positions.tolist(), color.tolist())}
 
 
 @pytest.mark.parametrize("suffix", ["ply", "npz", "obj"])

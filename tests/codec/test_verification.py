@@ -66,7 +66,7 @@ BROKEN: dict[str, tuple[Callable[[], bytes], type, Change]] = {
     "name": (
         painted,
         packets.Attribute,
-        lambda packet: replace(packet, declaration=replace(packet.declaration, name="colour")),
+        lambda packet: replace(packet, declaration=replace(packet.declaration, name="color")),
     ),
     "metadata": (painted, packets.Metadata, lambda packet: replace(packet, entries={"unit": "cm"})),
     "frames": (moving, packets.Gop, lambda packet: replace(packet, data=flipped(packet.data))),

@@ -110,7 +110,7 @@ def drawn(
 
 
 def of_corners(mesh: bsm.TriangleMesh, attribute: bsm.Attribute) -> npt.NDArray[Any]:
-    """The values of all corners, fractions of one for integers of colours and normals."""
+    """The values of all corners, fractions of one for integers of colors and normals."""
     index = mesh.faces if attribute.indices is None else attribute.indices
     values = np.asarray(attribute.values[index], np.float64)
     integers = attribute.semantic in ("color", "normal")

@@ -80,8 +80,8 @@ def test_faces(soup, data):
     encoded = encode_connectivity(faces, vertices)
     assert check_faces(encoded.payload, vertices, len(faces)) == encoded.faces.tolist()
     graph = graph_of_faces(encoded.faces, vertices)
-    neighbours = reference.neighbours_of(encoded.faces.tolist(), vertices)
-    assert neighbours == [list(row) for row in np.split(graph.neighbours, graph.offsets[1:-1])]
+    neighbors = reference.neighbors_of(encoded.faces.tolist(), vertices)
+    assert neighbors == [list(row) for row in np.split(graph.neighbors, graph.offsets[1:-1])]
     check_faces(damaged(encoded.payload, data), vertices, len(faces) + data.draw(st.sampled_from([0, 0, 0, 1])))
 
 

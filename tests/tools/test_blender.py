@@ -34,7 +34,7 @@ def blender():
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Streams to import, with texture coordinates, colours and a material."""
+    """Streams to import, with texture coordinates, colors and a material."""
     folder = tmp_path_factory.mktemp("blender")
     (folder / "project").mkdir()
     positions, faces = bending(10)

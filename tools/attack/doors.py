@@ -170,7 +170,7 @@ def compared(path: Path, readers: Sequence[str]) -> Iterator[tuple[str, str, str
         return
     if notes and notes[0] == "grid14":
         most = ON_GRID
-    said = " | ".join((*given.notes, *notes)).lower().replace("colour", "color")
+    said = " | ".join((*given.notes, *notes)).lower().replace("color", "color")
     moments = ours.moments()
     for name, read in theirs.items():
         differences = {}

@@ -1,7 +1,7 @@
 """Coverage-guided fuzzing with atheris: `python -m tools.attack fuzz --seconds N`; exit code 1 if a target falls.
 
 Compiled kernels are instrumented, too: libFuzzer follows their coverage, and AddressSanitizer and traps turn a read or
-write outside an array, and undefined behaviour, into a finding. `python -m tools.attack.fuzz TARGET [options]` is one
+write outside an array, and undefined behavior, into a finding. `python -m tools.attack.fuzz TARGET [options]` is one
 target in one process, with options of libFuzzer.
 """
 

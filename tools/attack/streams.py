@@ -69,9 +69,9 @@ def _glued(rows: int, columns: int) -> EncodedConnectivity:
     coder, conquest = conquer(coder, models, guide, make_conquest(faces, size, 0))
     coder = make_room(coder, 32 * size)
     place = surface.vertex[guide.fans]
-    colours = ((place // columns + place % columns) % 3).astype(np.int32)
-    _, number = _number_by_appearance(colours, 3)
-    vertices = number[colours]
+    colors = ((place // columns + place % columns) % 3).astype(np.int32)
+    _, number = _number_by_appearance(colors, 3)
+    vertices = number[colors]
     write_seams(coder, conquest.faces, vertices)
     return EncodedConnectivity(
         finish_writing(coder), np.arange(3, dtype=np.int32), np.arange(faces, dtype=np.int32), vertices[conquest.faces]
@@ -155,7 +155,7 @@ def _scattered(shape: tuple[Any, ...], parts: int) -> tuple[int, bytes]:
     coded = _coded(*shape)
     graph = graph_of_faces(coded.faces, len(coded.vertex_order))
     labels = partition_of_labels(np.arange(graph.size, dtype=np.int32) % parts).labels
-    return FrameType.PARTITION, encode_labels(graph.offsets, graph.neighbours, labels, parts)
+    return FrameType.PARTITION, encode_labels(graph.offsets, graph.neighbors, labels, parts)
 
 
 def _tiny_blocks(shape: tuple[Any, ...], size: int, **fields: Any) -> bytes:

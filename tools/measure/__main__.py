@@ -3,7 +3,7 @@
 attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
 speed       what decoding by bsmdec takes, over Draco's
-fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
+fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
 butteraugli how presets look to Butteraugli, beside Draco at 11 bits
 targets     what a target beside the look takes, over the larger of what both take alone
 same        whether another checkout writes the same bytes

@@ -4,7 +4,7 @@
 
 Both put positions on the same grid. What an attribute takes is the file with it less the file
 without; in Draco's (level 10), vertices are split where the attribute needs it. Texture coordinates have 12 bits,
-normals 8 on an octahedron, colours and whole numbers are exact, and other numbers are kept to 1 % of their range (for
+normals 8 on an octahedron, colors and whole numbers are exact, and other numbers are kept to 1 % of their range (for
 Draco: rounded so first). Every attribute of ours is decoded and compared before it counts. `--normals` computes normals
 for meshes that have none: of the faces around each corner, by their angles, up to edges that are sharper than that.
 Draco has no values of faces. Needs DracoPy and scipy.

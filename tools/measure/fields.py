@@ -1,6 +1,6 @@
 """What attributes that move take: `python -m tools.measure fields SEQUENCES [NAME ...]`.
 
-Of each npz two are baked of its frames: the colours that two lamps give it, and how far its edges are stretched against
+Of each npz two are baked of its frames: the colors that two lamps give it, and how far its edges are stretched against
 the first frame. Each has its usual quality, a root mean square error of every frame, which is checked on the decoded
 file; what it takes is the file with it less the file without. Beside it stand the same values in even steps of the same
 root mean square error: as differences from frame to frame in zstd (level 19), and in Draco (level 10), every tenth
@@ -27,7 +27,7 @@ from bsm.codec.static.attributes.quality import MOVING
 from bsm.files.formats.npz import read_arrays
 
 LAMPS = (((0.5, 0.7, 0.5), (255.0, 230.0, 190.0)), ((-0.8, 0.1, -0.6), (60.0, 90.0, 140.0)))
-"""Where light comes from, and its colour."""
+"""Where light comes from, and its color."""
 EVERY = 10
 STEP = 0.002
 
@@ -35,7 +35,7 @@ Array = npt.NDArray[Any]
 
 
 def lit(frames: Positions, faces: Faces) -> Array:
-    """Colours of vertices, shape (T, n, 3), uint8."""
+    """Colors of vertices, shape (T, n, 3), uint8."""
     found = np.empty(frames.shape, np.uint8)
     for number, frame in enumerate(frames):
         a, b, c = (frame[corner] for corner in faces.T)
@@ -44,9 +44,9 @@ def lit(frames: Positions, faces: Faces) -> Array:
         lengths = np.linalg.norm(sums, axis=1, keepdims=True)
         normals = np.divide(sums, lengths, out=sums, where=lengths > 0.0)
         light = np.full(frame.shape, 12.0)
-        for direction, colour in LAMPS:
+        for direction, color in LAMPS:
             towards = np.array(direction) / np.linalg.norm(direction)
-            light += np.maximum(normals @ towards, 0.0)[:, None] * colour
+            light += np.maximum(normals @ towards, 0.0)[:, None] * color
         found[number] = np.clip(light, 0.0, 255.0)
     return found
 

@@ -67,7 +67,7 @@ def _lopsided() -> bytes:
     """Parts of 40 and 16 vertices, blocks of 32."""
     frames, labels = frames_of(_base()), np.repeat(np.array([0, 1], np.int32), [40, 16])
     graph = graph_of_faces(decode(_base()).faces, 56)
-    payload = b"\0" + encode_labels(graph.offsets, graph.neighbours, labels, 2)
+    payload = b"\0" + encode_labels(graph.offsets, graph.neighbors, labels, 2)
     return stream_of([*frames[:2], (PARTITION, payload), *frames[2:]])
 
 

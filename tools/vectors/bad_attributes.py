@@ -32,7 +32,7 @@ ATTRIBUTE, VALUES, ORDER, BLOCK = FrameType.ATTRIBUTE, FrameType.VALUES, FrameTy
 
 @cache
 def _all() -> bytes:
-    """Texture coordinates, normals, colours, groups, and floats to the bit, in two chunks each."""
+    """Texture coordinates, normals, colors, groups, and floats to the bit, in two chunks each."""
     mesh = with_attributes(torus(8, 7), charts, creases, colors, groups, lambda m: wild(m, "float32"))
     return in_chunks(mesh, replace(GRID, attributes={"float32": "exact"}), 70)
 
@@ -180,8 +180,8 @@ BAD_ATTRIBUTES: dict[str, Bad] = {
     "bad-attribute-step-zero": _declared("a step of 0", 0, step=[0.0]),
     "bad-attribute-offset": _declared("an offset too few", 0, offset=[1.0]),
     "bad-attribute-infinite": _declared("values beyond the type", 0, step=[1e38]),
-    "bad-attribute-overflow": _declared("colours above 255", 2, offset=[100.0] * 4),
-    "bad-attribute-below": _declared("colours below 0", 2, offset=[-1.0] * 4),
+    "bad-attribute-overflow": _declared("colors above 255", 2, offset=[100.0] * 4),
+    "bad-attribute-below": _declared("colors below 0", 2, offset=[-1.0] * 4),
     "bad-attribute-fraction": _declared("whole numbers in steps that are none", 2, step=[0.5]),
     "bad-attribute-octahedron-odd": _declared("an odd octahedron", 1, largest=[127, 127]),
     "bad-attribute-octahedron-uneven": _declared("an octahedron of two sizes", 1, largest=[126, 128]),

@@ -75,7 +75,7 @@ def _header(**values: Any) -> bytes:
 
 
 def _asked() -> bytes:
-    """Vertices without neighbours, each at the place of the one before or at another."""
+    """Vertices without neighbors, each at the place of the one before or at another."""
     misses = [bit == "0" for bit in f"{ASKED:b}"[1:]]
     values = np.random.default_rng(5).integers(0, 10, (len(misses) + 12, 3)).astype(np.int32)
     values[0] = 0
@@ -100,7 +100,7 @@ def _scales(mesh: TriangleMesh, seed: int) -> bytes:
 
 
 def _levels(mesh: TriangleMesh, seed: int, growth: int) -> bytes:
-    """Levels up to the largest: some multiple of what the first neighbour has, as long as there is room, or any."""
+    """Levels up to the largest: some multiple of what the first neighbor has, as long as there is room, or any."""
     made = base(mesh)
     faces, random, size = made.prepared.mesh.faces, np.random.default_rng(seed), len(mesh.positions)
     first = np.arange(size)
@@ -214,7 +214,7 @@ BOUNDS: dict[str, Good] = {
         "any levels up to 2^20", lambda: _levels(together(torus(10, 8), hub(), patch(6, 5)), 3, 0)
     ),
     "good-refined-steep": Good(
-        "levels that grow eightfold from neighbour to neighbour: weights at their bounds",
+        "levels that grow eightfold from neighbor to neighbor: weights at their bounds",
         lambda: _levels(torus(24, 16), 4, 8),
     ),
     "good-refined-steep-turned": Good(
@@ -223,7 +223,7 @@ BOUNDS: dict[str, Good] = {
     "good-grid-tilted": Good("a vertex farther from a plane than terms may be (V 6.1)", _tilted),
     "good-grid-knot": Good("any faces of 24 vertices (C 7)", lambda: _knot(8, 24, 90)),
     "good-grid-knot-small": Good("any faces of 10 vertices", lambda: _knot(1, 10, 60)),
-    "good-grid-knot-first": Good("a neighbour that is fan 0 (C 7.4)", lambda: _knot(3, 5, 6)),
+    "good-grid-knot-first": Good("a neighbor that is fan 0 (C 7.4)", lambda: _knot(3, 5, 6)),
     "good-expected": Good("zeros behind the first 32 rows of a first block (M 9.1, M 9.4)", lambda: _expected(20)),
     "good-expected-most": Good("a level of 23 bits, which are the most (M 9.6)", lambda: _expected((1 << 23) - 1)),
     "good-grid-nested": Good("high valences side by side (C 5.4)", _nested),

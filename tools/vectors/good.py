@@ -118,7 +118,7 @@ STATIC: dict[str, Good] = {
     ),
     "good-isolated": _static("a vertex in no face: not in the stream", _with_isolated),
     "good-tangled": _static("non-manifold, repeated, turned and degenerate faces; a vertex without edges", tangled),
-    "good-hub": _static("a vertex with more neighbours than a block has rows", hub, block_size=12),
+    "good-hub": _static("a vertex with more neighbors than a block has rows", hub, block_size=12),
     "good-boundary": _static("a disc: one boundary loop", lambda: patch(12, 11)),
     "good-genus": _static("closed, genus one", lambda: torus(9, 8)),
     "good-ordered": _static("ORDER: vertices, faces and first corners as given", _shuffled, keep_order=True),
@@ -133,7 +133,7 @@ STATIC: dict[str, Good] = {
         "other exponent, iterations and shift", _small, power=1, iterations=3, key_iterations=5, shift=0.5
     ),
     "good-ill-conditioned": _static(
-        "a power of which rounding leaves nothing, unless every solution is orthonormalised",
+        "a power of which rounding leaves nothing, unless every solution is orthonormalized",
         _small,
         power=16,
         shift=1e-6,

@@ -222,11 +222,11 @@ ATTRIBUTES: dict[str, Good] = {
         ),
     ),
     "good-attribute-colors": Good(
-        "colours of vertices, four bytes each, in chunks",
+        "colors of vertices, four bytes each, in chunks",
         lambda: in_chunks(with_attributes(torus(9, 8), colors), BASE, 40),
     ),
     "good-attribute-colors-float": Good(
-        "colours as floats, and of 16 bits",
+        "colors as floats, and of 16 bits",
         lambda: encode(
             with_attributes(
                 torus(9, 8), lambda m: colors(m, "float32"), lambda m: replace(colors(m, "uint16"), name="c16")
@@ -292,7 +292,7 @@ ATTRIBUTES: dict[str, Good] = {
         "a vertex of very many corners", lambda: encode(with_attributes(hub(), charts, creases, colors), GRID)
     ),
     "good-attribute-tent": Good(
-        "more neighbours, flaps, bases and corners than are looked at",
+        "more neighbors, flaps, bases and corners than are looked at",
         lambda: encode(with_attributes(tent(), tips, colors), GRID),
     ),
     "good-attribute-small": Good(

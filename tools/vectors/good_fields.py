@@ -133,9 +133,9 @@ FIELDS: dict[str, Good] = {
         "non-manifold, repeated, turned and degenerate faces on a grid",
         lambda: encode(tangled(), EncodeOptions(grid=9)),
     ),
-    "good-grid-hub": Good("a vertex with very many neighbours on a grid", lambda: encode(hub(), EncodeOptions(grid=9))),
+    "good-grid-hub": Good("a vertex with very many neighbors on a grid", lambda: encode(hub(), EncodeOptions(grid=9))),
     "good-grid-tent": Good(
-        "more neighbours and flaps than are looked at, known when their vertex comes",
+        "more neighbors and flaps than are looked at, known when their vertex comes",
         lambda: encode(tent(), EncodeOptions(grid=9)),
     ),
     "good-grid-components": Good(
@@ -163,7 +163,7 @@ FIELDS: dict[str, Good] = {
     "good-refined-tangled": Good(
         "refinement where faces have no area", lambda: refined(tangled(), LAYER, (len(tangled().positions),))
     ),
-    "good-refined-deep": Good("levels of many bits, of a vertex with many neighbours", _deep),
+    "good-refined-deep": Good("levels of many bits, of a vertex with many neighbors", _deep),
     "good-refined-large": Good(
         "refinement of more vertices than are looked back on", lambda: refined(torus(30, 24), LAYER, (720,))
     ),

@@ -90,7 +90,7 @@ LIGHT: dict[str, Good] = {
         "non-manifold, repeated, turned and degenerate faces",
         lambda: light(tangled(), 20, len(tangled().positions) - 20),
     ),
-    "good-light-hub": _good("a vertex with very many neighbours", lambda: light(hub())),
+    "good-light-hub": _good("a vertex with very many neighbors", lambda: light(hub())),
     "good-light-hub-noise": _good(
         "the same, values without relation", lambda: drawn(hub().faces.astype(np.int32), (99, 999, 9))
     ),

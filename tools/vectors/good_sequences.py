@@ -91,7 +91,7 @@ def _moving(probes: str, *kinds: int, heats: Sequence[int] = (0, 1, 2, 3), **opt
 
 
 def _returning(probes: str, *times: int) -> Good:
-    """Frames of a torus, with a colour, at times that come again."""
+    """Frames of a torus, with a color, at times that come again."""
 
     def make() -> bytes:
         frames = []

@@ -72,7 +72,7 @@ def tangled() -> TriangleMesh:
 
 
 def hub() -> TriangleMesh:
-    """A cone over a ring of 40 vertices: one vertex is the neighbour of all others."""
+    """A cone over a ring of 40 vertices: one vertex is the neighbor of all others."""
     angle = np.linspace(0, 2 * np.pi, 40, endpoint=False)
     ring = np.stack([np.cos(angle), np.sin(angle), 0.1 * np.sin(5 * angle)], -1)
     k = np.arange(40)

@@ -23,7 +23,7 @@ renderer.setSize(${SIZE}, ${SIZE});
 document.body.append(renderer.domElement);
 const draco = new DRACOLoader().setDecoderPath("/three/examples/jsm/libs/draco/");
 const loader = new GLTFLoader().setDRACOLoader(draco).register((parser) => new GLTFBSMExtension(parser));
-/** Grey values of a scene, half a second into its first animation and with its morph targets half there, from two sides. */
+/** Gray values of a scene, half a second into its first animation and with its morph targets half there, from two sides. */
 let box;
 window.pictures = async (address, first) => {
     const gltf = await loader.loadAsync(address);
@@ -55,7 +55,7 @@ window.pictures = async (address, first) => {
 window.ready = true;
 `;
 
-/** Structural similarity of two pictures of grey values (Wang and others 2004), over squares of 8 by 8 that overlap by half, where either shows something. */
+/** Structural similarity of two pictures of gray values (Wang and others 2004), over squares of 8 by 8 that overlap by half, where either shows something. */
 function similarity(one, other) {
     const [c1, c2] = [(0.01 * 255) ** 2, (0.03 * 255) ** 2];
     let [sum, count] = [0, 0];

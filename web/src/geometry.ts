@@ -26,7 +26,7 @@ interface Frame {
 }
 
 /**
- * Texture coordinates are `uv`, colours `color`, normals `normal`, others have their names, and second ones of a kind a
+ * Texture coordinates are `uv`, colors `color`, normals `normal`, others have their names, and second ones of a kind a
  * number behind it. While it grows the index has room for all faces; those whose corners are known come first, and the draw
  * range ends behind them. At the end it is indexed by all that a corner has, and its groups have one material each.
  */
@@ -54,8 +54,8 @@ export class BSMGeometry extends BufferGeometry {
     readonly frames: Frame[] = [];
     /** The frame that is shown. */
     shown = -1;
-    /** The colours that the stream has, of what is shown. */
-    colour?: BufferAttribute;
+    /** The colors that the stream has, of what is shown. */
+    color?: BufferAttribute;
     /** What the frames that come are drawn as, and the one that is shown. */
     private coming?: Shape;
     private worn?: Shape;
@@ -167,7 +167,7 @@ export class BSMGeometry extends BufferGeometry {
         this.setAttribute("position", new BufferAttribute(positions, 3));
         this.setAttribute("normal", new BufferAttribute(normals, 3));
         for (const { name, values, components } of attributes) this.setAttribute(name, new BufferAttribute(values, components));
-        this.colour = this.attributes.color as BufferAttribute | undefined;
+        this.color = this.attributes.color as BufferAttribute | undefined;
         this.setDrawRange(0, index.length);
         if (pieces.some(({ material }) => material > 0)) pieces.forEach(({ start, count, material }) => this.addGroup(start, count, material));
         this.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));

@@ -22,7 +22,7 @@ const TEXTURES: Record<string, Slot[]> = {
     metallicRoughnessTexture: ["metalnessMap", "roughnessMap"],
     occlusionTexture: ["aoMap"],
 };
-const COLOURED = ["map", "emissiveMap"];
+const COLORED = ["map", "emissiveMap"];
 
 /** The images of metadata, by their numbers. */
 export async function imagesOf(metadata: Metadata): Promise<Map<number, Texture>> {
@@ -75,7 +75,7 @@ function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMat
     }
     for (const [name, slots] of Object.entries(TEXTURES)) {
         const texture = images.get(Number(words.get(name) ?? NaN));
-        if (texture) for (const slot of slots) material[slot] = inSpace(texture, COLOURED.includes(slot));
+        if (texture) for (const slot of slots) material[slot] = inSpace(texture, COLORED.includes(slot));
     }
     if (material.emissiveMap && emissive.length === 0) material.emissive.set(0xffffff);
     const opacity = a * Number(words.get("d") ?? 1);
@@ -87,7 +87,7 @@ function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMat
     return material;
 }
 
-/** A texture in the space of its colours; an image that is used as both is so two textures. */
+/** A texture in the space of its colors; an image that is used as both is so two textures. */
 function inSpace(texture: Texture, colored: boolean): Texture {
     const space = colored ? SRGBColorSpace : NoColorSpace;
     if (texture.colorSpace === space) return texture;

@@ -86,7 +86,7 @@ function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], 
     return { index, vertices: used, rows };
 }
 
-/** Numbers of the drawn vertices; integers of colours are shares of their range. */
+/** Numbers of the drawn vertices; integers of colors are shares of their range. */
 export function numbersOf({ semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
     const most = semantic === "color" ? { uint8: 255, uint16: 65535 }[kind as string] ?? 1 : 1;
     const numbers = spread(values, components, rows);

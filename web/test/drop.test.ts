@@ -10,7 +10,7 @@ const given = process.env.BSM_DROP;
 describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`) }, () => {
     const { address, mesh } = JSON.parse(given ?? "{}") as { address: string; mesh: string };
 
-    test("is encoded with a bar, and both are shown; another one can be cancelled while it is sent and while it is encoded", async () => {
+    test("is encoded with a bar, and both are shown; another one can be canceled while it is sent and while it is encoded", async () => {
         const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
         try {
             const page = await browser.newPage();

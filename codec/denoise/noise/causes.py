@@ -63,8 +63,8 @@ class Grid:
         return np.clip(moved, rounded - half, rounded + half)
 
     def parted(self, rounded: Positions, probe: Probe) -> Positions:
-        """Rounded positions, shape (n, 3); neighbours at one position are drawn to their other neighbours."""
-        starts, members = probe.topology.neighbours
+        """Rounded positions, shape (n, 3); neighbors at one position are drawn to their other neighbors."""
+        starts, members = probe.topology.neighbors
         owners = np.repeat(np.arange(len(rounded)), np.diff(starts))
         merged = np.unique(owners[(rounded[owners] == rounded[members]).all(axis=1)])
         result, around = rounded.copy(), probe.average[merged]
@@ -163,7 +163,7 @@ class Steps:
 
 def find_steps(view: View, positions: Positions, probe: Probe) -> Steps | None:
     """Steps of the depths of a view without noise: on slopes they are uneven, and nowhere a vertex stands out alone."""
-    starts, members = probe.topology.neighbours
+    starts, members = probe.topology.neighbors
     owners = np.repeat(np.arange(len(positions)), np.diff(starts))
     for axis in np.eye(3):
         depth = (positions - view.eye) @ axis

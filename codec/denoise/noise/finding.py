@@ -43,7 +43,7 @@ def lattice_step(positions: Positions) -> float:
 UNEVEN = 0.26  # largest spread of the levels of strong noise (logarithms) beyond chance
 LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
 ASIDE = 0.2  # largest median of the standardised residual: noise lies on both sides
-CENTRE = (0.55, 1.6)  # share of residuals about zero, as a multiple of the normal distribution's
+CENTER = (0.55, 1.6)  # share of residuals about zero, as a multiple of the normal distribution's
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,5 +107,5 @@ def spread(levels: Floats, windows: Windows) -> float:
 
 def is_random(values: Floats) -> bool:
     """Whether standardised values, shape (k,), lie on both sides, with neither a heap of zeros nor a hole there."""
-    centre = float(np.mean(np.abs(values) < 0.1)) / 0.0797
-    return abs(float(np.median(values))) < ASIDE and CENTRE[0] < centre < CENTRE[1]
+    center = float(np.mean(np.abs(values) < 0.1)) / 0.0797
+    return abs(float(np.median(values))) < ASIDE and CENTER[0] < center < CENTER[1]

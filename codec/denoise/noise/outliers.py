@@ -1,6 +1,6 @@
 """Single vertices that stand out: they are put back, and nothing else is touched.
 
-Those that lie outside the ring of their neighbours are known for it, beside other noise as well. Fainter ones only on a
+Those that lie outside the ring of their neighbors are known for it, beside other noise as well. Fainter ones only on a
 mesh that else is clean:
 
 A vertex off its place by a leaves ``K a`` behind the high-pass filter K: the vertex's own column of K, a pattern that
@@ -35,7 +35,7 @@ LARGEST = 1.2
 DISTINCT = 4.0  # displacement over what calm surroundings show
 CALM, CALM_BOUND = 0.5, 0.6745
 STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75
-"""Distance from the middle of the neighbours, in theirs, of a vertex that may be far off, and of one that is; and the
+"""Distance from the middle of the neighbors, in theirs, of a vertex that may be far off, and of one that is; and the
 length of the mean normal around it below which it stands out."""
 STRAYS, STRAY_SHARE, STRAY_USUAL, FARTHER = 25, 0.0018, 1.2, 2.5
 """How many are plainly off, how far nine tenths may be, and how much farther those are: noise alone has fewer, too."""
@@ -61,7 +61,7 @@ NO_OUTLIERS = Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
 
 
 def find_outliers(positions: Positions, probe: Probe) -> Outliers:
-    """Find vertices that lie far outside their neighbours, noise or not; then what stands out of calm surroundings."""
+    """Find vertices that lie far outside their neighbors, noise or not; then what stands out of calm surroundings."""
     back = put_strays_back(positions, probe)
     back = _peeled(back, probe).put_back(back)
     vertices = np.flatnonzero((back != positions).any(axis=1))
@@ -69,7 +69,7 @@ def find_outliers(positions: Positions, probe: Probe) -> Outliers:
 
 
 def put_strays_back(positions: Positions, probe: Probe) -> Positions:
-    """Vertices far outside their neighbours, put in the middle of them, if there are many."""
+    """Vertices far outside their neighbors, put in the middle of them, if there are many."""
     if not probe.counted.any():
         return positions
     around, n = probe.topology.around, len(positions)
@@ -97,8 +97,8 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
 
 
 def _distances(positions: Positions, probe: Probe) -> tuple[Floats, Floats]:
-    """Distance and height of each vertex from the median of its neighbours, over the median of theirs, shape (n,)."""
-    starts, members = probe.topology.neighbours
+    """Distance and height of each vertex from the median of its neighbors, over the median of theirs, shape (n,)."""
+    starts, members = probe.topology.neighbors
     sizes = np.diff(starts)
     owners = np.repeat(np.arange(len(positions)), sizes)
     halves = np.maximum(sizes - 1, 0) // 2, sizes // 2
@@ -124,7 +124,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
     energy = np.maximum(np.asarray(operator.multiply(operator).sum(axis=0)).ravel(), 1e-12)
     support = (operator != 0).astype(np.float64).T.tocsr()
     transposed = operator.T.tocsr()
-    neighbours = probe.topology.neighbours
+    neighbors = probe.topology.neighbors
 
     rest, amounts = seen.copy(), np.zeros(len(positions))
     most = np.inf
@@ -146,7 +146,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
         for _ in range(ROUNDS):
             fit = (transposed @ rest) / energy
             explained = np.where(probe.counted, fit**2 * energy, 0.0)
-            best = _largest_nearby(_largest_nearby(explained, neighbours), neighbours)
+            best = _largest_nearby(_largest_nearby(explained, neighbors), neighbors)
             found = (explained > 0.0) & (explained >= best) & (explained >= share * (support @ rest**2))
             found &= (np.abs(fit) > least) & (np.abs(fit) < most)
             if not found.any():
@@ -158,17 +158,17 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
     if len(vertices) > MOST_SHARE * len(positions):
         # This many are no exceptions: the filters remove noise that is everywhere.
         return NO_OUTLIERS
-    # The first ones were measured beside neighbours that were off as well: all of them again, together.
+    # The first ones were measured beside neighbors that were off as well: all of them again, together.
     change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
     amounts[vertices] += change
     return Outliers(vertices, edge * amounts[vertices, None] * normals[vertices])
 
 
-def _largest_nearby(values: Floats, neighbours: Rows) -> Floats:
-    """The largest of each vertex's value and those of its neighbours."""
-    filled = np.diff(neighbours.starts) > 0
+def _largest_nearby(values: Floats, neighbors: Rows) -> Floats:
+    """The largest of each vertex's value and those of its neighbors."""
+    filled = np.diff(neighbors.starts) > 0
     largest = values.copy()
     if filled.any():
-        around = np.maximum.reduceat(values[neighbours.members], neighbours.starts[:-1][filled])
+        around = np.maximum.reduceat(values[neighbors.members], neighbors.starts[:-1][filled])
         largest[filled] = np.maximum(values[filled], around)
     return largest

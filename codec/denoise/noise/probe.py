@@ -48,7 +48,7 @@ class Windows:
         """Windows that have an edge to one of the chosen windows, shape (count,)."""
         ends = np.repeat(self.labels, np.diff(self._graph.offsets))
         beside = np.zeros(self.count, dtype=np.bool_)
-        beside[ends[chosen[self.labels[self._graph.neighbours]]]] = True
+        beside[ends[chosen[self.labels[self._graph.neighbors]]]] = True
         return beside
 
     def quantiles(self, values: Floats, share: float) -> Floats:
@@ -85,7 +85,7 @@ class Probe:
 
     def __init__(self, topology: Topology) -> None:
         self.topology = topology
-        starts, members = topology.neighbours
+        starts, members = topology.neighbors
         degrees = np.diff(starts)
         lonely = degrees == 0
         weights = np.repeat(1.0 / np.maximum(degrees, 1), degrees)
@@ -143,7 +143,7 @@ class Probe:
         return np.asarray(normals / np.where(length > 0.0, length, 1.0))
 
     def correlated(self, white: Floats, steps: int) -> Floats:
-        """White values, shape (n, d), averaged half and half with their neighbours as often as `steps` says."""
+        """White values, shape (n, d), averaged half and half with their neighbors as often as `steps` says."""
         for _ in range(steps):
             white = 0.5 * (white + self.average @ white)
         return white

@@ -181,7 +181,7 @@ def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:
     level = float(np.median(levels))
     if level < FAINTEST or not is_random(_standardised(evidence, chosen)):
         return None
-    kind, whiteness = _colour(positions, evidence, windows.valid, chosen)
+    kind, whiteness = _color(positions, evidence, windows.valid, chosen)
     if len(levels) < MANY_WINDOWS:
         broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))
         share = float(np.quantile(broad[windows.valid] / levels, 0.25))
@@ -248,8 +248,8 @@ def _standardised(evidence: Evidence, chosen: Mask) -> Floats:
     return result
 
 
-def _colour(positions: Positions, evidence: Evidence, valid: Mask, chosen: Mask) -> tuple[str, float]:
-    """White, white with heavy tails, or correlated between neighbours; and the level of the finest over the fine."""
+def _color(positions: Positions, evidence: Evidence, valid: Mask, chosen: Mask) -> tuple[str, float]:
+    """White, white with heavy tails, or correlated between neighbors; and the level of the finest over the fine."""
     probe = evidence.probe
     finest = _levels(evidence, probe.finest(positions / evidence.edge))
     ratio = float(np.quantile(finest[valid], 0.25) / np.quantile(evidence.levels[valid], 0.25))

@@ -32,7 +32,7 @@ class NoiseLevel:
 def estimate_noise(positions: Positions, smooth: Positions, topology: Topology, seed: int = 0) -> NoiseLevel:
     normals = surface_normals(smooth, topology)
     white = np.random.default_rng(seed).normal(size=positions.shape)
-    counted = np.diff(topology.neighbours.starts) > 0
+    counted = np.diff(topology.neighbors.starts) > 0
     if (counted & ~topology.boundary).any():
         counted &= ~topology.boundary
     normal, tangential = _split(_high_pass(positions, topology)[counted], normals[counted])
@@ -55,7 +55,7 @@ def _split(vectors: Floats, normals: Floats) -> tuple[float, float]:
 def _high_pass(values: Floats, topology: Topology) -> Floats:
     for _ in range(ORDER):
         rest = np.empty_like(values)
-        _kernels.minus_mean(values, *topology.neighbours, rest)
+        _kernels.minus_mean(values, *topology.neighbors, rest)
         values = rest
     return values
 

@@ -16,7 +16,7 @@ from bsm.codec.denoise.surface import Floats, Topology
 
 FAR = 1e3  # extents between an eye and the mesh from which on rays are parallel
 REGULAR, ONE_SIDED = 0.08, 0.98
-"""Middle distance of pixels from the mean of their neighbours, in edges, and share of the faces seen from one side."""
+"""Middle distance of pixels from the mean of their neighbors, in edges, and share of the faces seen from one side."""
 BEND = 0.05  # change of slope up to which bends are rounded, not sharp
 ROUNDS, STEPS, STAND_OUT = 6, 120, 2.0
 
@@ -63,8 +63,8 @@ class View:
 
 
 def pixel(plane: Floats, topology: Topology) -> float:
-    """Mean distance of neighbours in the picture."""
-    starts, members = topology.neighbours
+    """Mean distance of neighbors in the picture."""
+    starts, members = topology.neighbors
     owners = np.repeat(np.arange(topology.n), np.diff(starts))
     return float(np.linalg.norm(plane[owners] - plane[members], axis=1).mean()) or 1.0
 

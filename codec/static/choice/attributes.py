@@ -115,7 +115,7 @@ class Input:
 
 
 def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
-    """The smallest stream that keeps a contract, in colours and under a checker where it has them, too."""
+    """The smallest stream that keeps a contract, in colors and under a checker where it has them, too."""
     if given.options.effort == "best":
         _choose_blocks(given, contract)
     search = given.search(contract, near)
@@ -229,7 +229,7 @@ def _first(holds: Callable[[int], bool], low: int, high: int) -> int:
     return low
 
 
-def kept_whole(colours: Attribute) -> bool:
-    """Whether colours are few, and tell parts apart, or let shine through what no picture shows."""
-    see_through = colours.components in (2, 4) and np.ptp(colours.values[:, -1]) > 0
-    return bool(see_through or row_numbers(colours.values).max(initial=0) < 1 << 8)
+def kept_whole(colors: Attribute) -> bool:
+    """Whether colors are few, and tell parts apart, or let shine through what no picture shows."""
+    see_through = colors.components in (2, 4) and np.ptp(colors.values[:, -1]) > 0
+    return bool(see_through or row_numbers(colors.values).max(initial=0) < 1 << 8)

@@ -19,9 +19,9 @@ from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.look.pictures import CREASE, MOST_AROUND
 from bsm.codec.signal.smooth import in_frames, local_frames, tangent_steps
 
-PULL = 0.8  # a level is expected at so much of the mean of its neighbours'
+PULL = 0.8  # a level is expected at so much of the mean of its neighbors'
 AROUND, SIZES = 10, 16
-"""Classes of the neighbours' mean size, and sizes of what is left of a level, that bits are estimated for."""
+"""Classes of the neighbors' mean size, and sizes of what is left of a level, that bits are estimated for."""
 BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5  # what they are before any is counted
 ASIDE, RATIO = 0.35, 10.0
 """What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
@@ -77,7 +77,7 @@ class Settler:
             return _kernels.settle_levels(
                 np.ascontiguousarray(offsets), normals, losses,
                 np.ascontiguousarray(np.broadcast_to(steps, (count, 3))), reach,
-                self._graph.offsets, self._graph.neighbours, rates, PULL, fixed, creases, self._positions, given, moved,
+                self._graph.offsets, self._graph.neighbors, rates, PULL, fixed, creases, self._positions, given, moved,
                 levels, counts,
             )  # fmt: skip
 
@@ -103,7 +103,7 @@ class Settler:
         """Half of the mean length of the edges of each vertex, shape (n,)."""
         degrees = np.diff(self._graph.offsets)
         rows = np.repeat(np.arange(len(degrees)), degrees)
-        edges = self._positions[rows] - self._positions[self._graph.neighbours]
+        edges = self._positions[rows] - self._positions[self._graph.neighbors]
         sums = np.bincount(rows, np.sqrt(np.square(edges).sum(axis=1)), len(degrees))
         return np.asarray(HALF_EDGE * sums / np.maximum(degrees, 1))
 

@@ -1,6 +1,6 @@
 """Levels and places chosen for the normals instead of rounded: what is coded gets smooth, and cheap. Encoder only.
 
-Rounding errors of neighbours have nothing to do with each other, and so they bend the faces between them. A sweep over
+Rounding errors of neighbors have nothing to do with each other, and so they bend the faces between them. A sweep over
 the vertices that takes, of the levels nearby, the one at which faces are bent least makes the error smooth: at the same
 angle between normals the levels can be twice as coarse. The cost of a level is an estimate of its bits.
 """
@@ -113,7 +113,7 @@ class Shaper:
         self._original = original
         self._graph = graph
         self._wanted = (
-            positions, faces, around.starts, around.members, graph.offsets, graph.neighbours,
+            positions, faces, around.starts, around.members, graph.offsets, graph.neighbors,
             original.normals, original.weights,
         )  # fmt: skip
         self._open = np.empty(len(positions), np.uint8)
@@ -169,9 +169,9 @@ class Shaper:
     @cached_property
     def _flaps(self) -> tuple[Indices, Indices, Indices]:
         faces, graph = self._original.faces, self._graph
-        flaps = np.empty((len(graph.neighbours) // 2, 4), np.int32)
-        pending = np.empty(len(graph.neighbours), np.int32)
-        count = _kernels.collect_flaps(faces, graph.offsets, graph.neighbours, pending, flaps)
+        flaps = np.empty((len(graph.neighbors) // 2, 4), np.int32)
+        pending = np.empty(len(graph.neighbors), np.int32)
+        count = _kernels.collect_flaps(faces, graph.offsets, graph.neighbors, pending, flaps)
         flaps = flaps[:count].copy()
         starts, members = np.empty(graph.size + 1, np.int32), np.empty(4 * count, np.int32)
         _kernels.group_flaps(flaps, starts, members)

@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from bsm.codec.look.measure import Look
 
 
-COLORED = ("ply", "obj", "glb")  # formats that hold colours of vertices
-ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "under a checker", "color": "in colours"}
-SHOWN = 99.0  # percentile of the distances that has the last colour: single vertices shall not make all others blue
+COLORED = ("ply", "obj", "glb")  # formats that hold colors of vertices
+ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "under a checker", "color": "in colors"}
+SHOWN = 99.0  # percentile of the distances that has the last color: single vertices shall not make all others blue
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -345,7 +345,7 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
 
 
 def _write_map(path: str, original: TriangleMesh, positions: Positions, *, overwrite: bool) -> None:
-    """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colours."""
+    """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colors."""
     kind = "png" if Path(path).suffix.lower() == ".png" else format_of_name(path)
     if kind not in ("png", *COLORED):
         raise OptionError(f"{path}: a map of distances is a picture (.png) or a mesh (.{', .'.join(COLORED)})")

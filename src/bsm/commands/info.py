@@ -44,10 +44,10 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
         return {"input": args.input, **open_tiles(args.input).manifest}
     if Path(args.input).suffix[1:].lower() in GLTF:
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
-        streams = {n: summarise(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
+        streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
         return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
     chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
-    summary = summarise(inspect_stream(iter(chunks), limits))
+    summary = summarize(inspect_stream(iter(chunks), limits))
     if args.loops and summary["header"]["sequence"]:
         found, stream = Loops(), SequenceStream(iter(chunks), limits=limits)
         with console.progress("looking for loops") as progress:
@@ -59,7 +59,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     return {"input": args.input, **summary}
 
 
-def summarise(info: StreamInfo) -> dict[str, Any]:
+def summarize(info: StreamInfo) -> dict[str, Any]:
     header = info.header
     return {
         "version": f"{info.version >> 4}.{info.version & 15}",

@@ -158,7 +158,7 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
         raw = read_big(args.input, args.format, work, console)
         if raw.left_out:
             console.note(
-                f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours, normals"
+                f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colors, normals"
             )
         with console.progress("cutting", until=0.3):
             threads = args.jobs or available_threads()

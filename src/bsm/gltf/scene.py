@@ -270,7 +270,7 @@ class Scene:
         return found
 
     def colors(self, time: float) -> Doubles:
-        """The colours of all parts' vertices, white where a part has none; of no rows if no target changes any."""
+        """The colors of all parts' vertices, white where a part has none; of no rows if no target changes any."""
         if not self._painted:
             return np.zeros((0, 4))
         moved = (part.colors[0] + self._added(part, part.colors[1:], time) for part in self.parts)
@@ -428,7 +428,7 @@ class Scene:
         return found
 
     def _shade(self, index: object, count: int, usual: float) -> Doubles:
-        """Colours as red, green, blue and opacity."""
+        """Colors as red, green, blue and opacity."""
         found = np.full((count, 4), usual)
         if index is not None:
             values = self._document.numbers(index)
@@ -539,7 +539,7 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
 
 
 def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:
-    """The mesh at a time, its colours, too."""
+    """The mesh at a time, its colors, too."""
     color = shapes.color_column(scene.colors(time), "vertex")
     now = [
         replace(a, values=color.values) if a.name == "color" and a.domain == "vertex" else a for a in mesh.attributes

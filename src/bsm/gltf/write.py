@@ -185,7 +185,7 @@ def _unit(vectors: Doubles) -> Doubles:
 def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> Iterator[FrameWriter]:
     """Write a GLB in which each frame is a morph target; yields what takes frame after frame.
 
-    Between frames the weights of two targets cross, so that what is shown is the straight line between them, of colours
+    Between frames the weights of two targets cross, so that what is shown is the straight line between them, of colors
     of vertices, too. Where faces change, other meshes take the place of those before, by their scale. Nothing but the
     first frame of a run is kept in memory; the targets wait in a file until their number is known.
     """

@@ -1,4 +1,4 @@
-"""Mesh files of any size, piece by piece: positions, faces, colours and normals as plain arrays on the disk."""
+"""Mesh files of any size, piece by piece: positions, faces, colors and normals as plain arrays on the disk."""
 
 import tempfile
 from collections.abc import Iterator, Mapping
@@ -116,7 +116,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
 
 
 def _checked(what: str, piece: Array, before: int) -> Array:
-    """Rows as they are kept: positions as floats, colours as bytes or words."""
+    """Rows as they are kept: positions as floats, colors as bytes or words."""
     floats = piece.dtype.kind == "f"
     if floats and not np.isfinite(piece).all():
         row = before + int(np.argmin(np.isfinite(piece).all(axis=1)))
@@ -129,7 +129,7 @@ def _checked(what: str, piece: Array, before: int) -> Array:
         if floats and piece.min() >= 0 and piece.max() <= 1:
             return np.asarray(np.rint(piece * 255), "u1")
         if piece.dtype.kind != "u" or piece.dtype.itemsize > 2:
-            raise MeshError(f"colours must be bytes, words, or floats from 0 to 1, not such {piece.dtype}")
+            raise MeshError(f"colors must be bytes, words, or floats from 0 to 1, not such {piece.dtype}")
         return piece
     if piece.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {piece.dtype}")
@@ -140,15 +140,15 @@ def _checked(what: str, piece: Array, before: int) -> Array:
     return piece.astype("<u4")
 
 
-_WORDS = {"positions": "coordinate", "color": "colour", "normal": "normal", "faces": "corner"}
+_WORDS = {"positions": "coordinate", "color": "color", "normal": "normal", "faces": "corner"}
 
 
 def _refuse_textures(names: set[str]) -> None:
     if names:
         message = (
-            f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colours and normals of vertices "
+            f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colors and normals of vertices "
         )
-        raise UnsupportedError(f"{message}alone: write it without, or its texture as colours")
+        raise UnsupportedError(f"{message}alone: write it without, or its texture as colors")
 
 
 def _read_ply(given: Input, left_out: LeftOut) -> Pieces:

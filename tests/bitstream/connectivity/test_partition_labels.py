@@ -38,9 +38,9 @@ def test_any_labels_come_back(labels):
 
 
 def test_compact_parts_cost_little():
-    offsets, neighbours = grid(60, 60)
+    offsets, neighbors = grid(60, 60)
     labels = numbered(np.add.outer(np.arange(60) // 20 * 3, np.arange(60) // 20).ravel())
-    data = encode_labels(offsets, neighbours, labels, 9)
+    data = encode_labels(offsets, neighbors, labels, 9)
     assert 8 * len(data) < 0.2 * len(labels)
 
 

@@ -187,9 +187,9 @@ def test_tables_are_what_the_logistic_function_says() -> None:
     x = np.arange(-2880, 2880)
     exact = np.clip(np.rint(65536 / (1 + np.exp(-x / 256))), 1, 65535)
     np.testing.assert_array_equal(entropy_tables.squash_table(), exact)
-    centres = (np.arange(4096) + 0.5) / 4096
+    centers = (np.arange(4096) + 0.5) / 4096
     stretch = entropy_tables.stretch_table()
-    assert np.abs(stretch - 256 * np.log(centres / (1 - centres))).max() < 20
+    assert np.abs(stretch - 256 * np.log(centers / (1 - centers))).max() < 20
     np.testing.assert_array_equal(stretch, -stretch[::-1])
 
 

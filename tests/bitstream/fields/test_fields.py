@@ -227,7 +227,7 @@ def test_corners_of_two_triangles():
     assert corners.opposite.tolist() == [5, -1, -1, -1, -1, 0]
 
 
-def test_the_order_prefers_complete_neighbourhoods():
+def test_the_order_prefers_complete_neighborhoods():
     order = field_of("grid", TORUS, 108, (9, 9, 9)).order()
     assert sorted(order.tolist()) == list(range(108))
     rank = np.argsort(order)

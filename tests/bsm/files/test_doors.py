@@ -412,11 +412,11 @@ def test_floats_that_are_labels_stay_exact():
     values = {"label": np.arange(rows) * 7 // rows, "id": np.random.default_rng(1).permutation(rows) * 37.0}
     values["height"] = mesh.positions[:, 2]
     attributes = [Attribute(name, column.astype(np.float32)) for name, column in values.items()]
-    labelled = TriangleMesh(mesh.positions, mesh.faces, attributes)
-    decoded = bsm.decode(bsm.encode(labelled, keep_order=True))
+    labeled = TriangleMesh(mesh.positions, mesh.faces, attributes)
+    decoded = bsm.decode(bsm.encode(labeled, keep_order=True))
     for name in ("label", "id"):
-        assert np.array_equal(attribute(decoded, name).values, attribute(labelled, name).values)
-    assert not np.array_equal(attribute(decoded, "height").values, attribute(labelled, "height").values)
+        assert np.array_equal(attribute(decoded, name).values, attribute(labeled, name).values)
+    assert not np.array_equal(attribute(decoded, "height").values, attribute(labeled, "height").values)
 
 
 # ---------------------------------------------------------------------------------------------------------- 3MF and DAE

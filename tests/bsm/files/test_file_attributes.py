@@ -41,7 +41,7 @@ def at_corners(mesh, found):
 
 
 def dressed():
-    """A mesh with everything: a seam, normals, colours, numbers, materials, an image, metadata."""
+    """A mesh with everything: a seam, normals, colors, numbers, materials, an image, metadata."""
     mesh = patch(5, 4)
     n, m = len(mesh.positions), len(mesh.faces)
     random = np.random.default_rng(5)
@@ -282,7 +282,7 @@ def test_an_off(head, behind, of_face, expected):
 
 
 @pytest.mark.parametrize(
-    ("behind", "of_face", "dropped"), [(" 7 8 9", "", "numbers behind the coordinates"), ("", " 5", "colours of faces")]
+    ("behind", "of_face", "dropped"), [(" 7 8 9", "", "numbers behind the coordinates"), ("", " 5", "colors of faces")]
 )
 def test_what_an_off_loses(behind, of_face, dropped):
     rows = "".join(f"{row}{behind}\n" for row in ("0 0 0", "1 0 0", "1 1 0"))
@@ -541,7 +541,7 @@ def test_materials_of_any_kind_are_written_or_left_out(statements, images, kind)
     ("name", "expected"),
     [
         ("spot_uv.obj", {"texcoord": 3225}),
-        ("fuze_colours.ply", {"color": 502, "face_color": 1000, "texcoord": 3000}),
+        ("fuze_colors.ply", {"color": 502, "face_color": 1000, "texcoord": 3000}),
         ("cortex_sulc.ply", {"sulc": 32492}),
         ("robot_hand.obj", {"normal": 10542}),
         ("stirrer.obj", {"normal": 10658, "object": 20736}),
@@ -554,7 +554,7 @@ def test_real_files(meshes, name, expected, tmp_path):
     for kind in ("ply", "obj"):
         write_mesh(tmp_path / f"a.{kind}", source.mesh)
         again = read_mesh(tmp_path / f"a.{kind}").mesh
-        # OBJ has no alpha, no colours of faces and no other values.
+        # OBJ has no alpha, no colors of faces and no other values.
         kept = [n for n in expected if kind == "ply" or n not in ("face_color", "sulc")]
         kept = [n for n in kept if kind == "ply" or attribute(source.mesh, n).components < 4]
         assert_same(source.mesh, again, kept)

@@ -78,7 +78,7 @@ def test_an_animation_is_sampled_at_the_rate_that_is_asked_for():
 
 
 def painted(frames=COUNT):
-    """A bending torus with texture coordinates at corners and colours."""
+    """A bending torus with texture coordinates at corners and colors."""
     positions, faces = bending(frames)
     positions = positions.astype(np.float32).astype(np.float64)
     corners = positions[0][faces][:, :, :2].reshape(-1, 2).astype(np.float32) * 0.3 + 0.5
@@ -757,7 +757,7 @@ def painted_frames(count=5):
 
 
 @pytest.mark.parametrize("kind", ["glb", "usdc"])
-def test_colours_that_change_come_in(tmp_path, kind, capsys):
+def test_colors_that_change_come_in(tmp_path, kind, capsys):
     """As COLOR_0 of the morph targets of a glTF, as primvars of USD."""
     needs(kind)
     positions, faces, shades = painted_frames()
@@ -804,7 +804,7 @@ def test_colours_that_change_come_in(tmp_path, kind, capsys):
         assert np.sqrt(np.square(off).mean()) < 0.02
 
 
-def test_colours_are_of_the_kind_that_they_are_first():
+def test_colors_are_of_the_kind_that_they_are_first():
     mesh = torus(6, 5)
     colors = [np.full((30, 3), value) for value in (np.uint8(255), np.float32(0.5))]
     whole, part = (replace(mesh, attributes=(Attribute("color", color, "vertex", "color"),)) for color in colors)

@@ -31,13 +31,13 @@ def solve(factor, columns):
 
 def unordered(faces, size):
     graph = graph_of_faces(faces, size)
-    return Block(np.arange(size, dtype=np.int32), graph.offsets, graph.neighbours)
+    return Block(np.arange(size, dtype=np.int32), graph.offsets, graph.neighbors)
 
 
 def fill(block, fronts):
     """Entries below the diagonal that elimination in this order fills: by brute force, on sets."""
     rows = fronts.rows.astype(int)
-    later = {int(r): set(block.neighbours[block.offsets[r] : block.offsets[r + 1]].tolist()) for r in rows}
+    later = {int(r): set(block.neighbors[block.offsets[r] : block.offsets[r + 1]].tolist()) for r in rows}
     pattern = {}
     for r in rows.tolist():
         pattern[r] = later.pop(r)
@@ -50,7 +50,7 @@ def fill(block, fronts):
 @given(soups)
 def test_fronts_hold_everything_that_elimination_fills(faces):
     block = unordered(faces, 70)
-    fronts = find_fronts(block.offsets, block.neighbours)
+    fronts = find_fronts(block.offsets, block.neighbors)
     assert sorted(fronts.rows) == list(range(70))
     assert np.array_equal(fronts.rows[fronts.steps], np.arange(70))
     pattern = fill(block, fronts)
@@ -66,7 +66,7 @@ def test_fronts_hold_everything_that_elimination_fills(faces):
 
 def test_bisection_keeps_the_fill_small():
     block = whole(patch(24, 24).faces, 576)
-    fronts = find_fronts(block.offsets, block.neighbours)
+    fronts = find_fronts(block.offsets, block.neighbors)
     sizes, edges = np.diff(fronts.firsts.astype(int)), np.diff(fronts.starts.astype(int))
     assert LEAF < sizes.max() <= 50 and edges.max() <= 60
     assert (sizes * (sizes - 1) // 2 + sizes * edges).sum() < 16_000

@@ -20,14 +20,14 @@ from tests.shapes import patch, torus
 
 def whole(faces, size):
     graph = graph_of_faces(faces, size)
-    return Block(np.arange(size, dtype=np.int32), graph.offsets, graph.neighbours)
+    return Block(np.arange(size, dtype=np.int32), graph.offsets, graph.neighbors)
 
 
 def path(size):
     """A path: its Laplacian's eigenvectors are the cosines, its eigenvalues 2 - 2 cos(pi j / n)."""
     offsets = np.concatenate([[0, 1], np.arange(3, 2 * size - 2, 2), [2 * size - 2]]).astype(np.int32)
-    neighbours = np.stack([np.arange(-1, size - 1), np.arange(1, size + 1)], 1).ravel()[1:-1].astype(np.int32)
-    return Block(np.arange(size, dtype=np.int32), offsets, neighbours)
+    neighbors = np.stack([np.arange(-1, size - 1), np.arange(1, size + 1)], 1).ravel()[1:-1].astype(np.int32)
+    return Block(np.arange(size, dtype=np.int32), offsets, neighbors)
 
 
 def span_distance(a, b):
@@ -82,7 +82,7 @@ def test_a_truncated_start_gives_the_truncated_subspace():
 
 @pytest.mark.parametrize(("shift", "power", "width"), [(0.01, 3, 40), (1e-4, 4, 30), (1e-6, 16, 12), (1e-3, 9, 60)])
 def test_high_powers_lose_no_column(shift, power, width):
-    """However ill conditioned R^z is; the reference orthonormalises after every dense solve."""
+    """However ill conditioned R^z is; the reference orthonormalizes after every dense solve."""
     mesh = patch(17, 23)
     block = whole(mesh.faces, len(mesh.positions))
     start = first_columns(block.size, width, noisy=False)

@@ -18,7 +18,7 @@ def weights_of(positions: np.ndarray, faces: np.ndarray) -> dict[tuple[int, int]
     graph = graph_of_faces(faces, len(positions))
     weights = cotangent_weights(graph, faces, positions)
     tails = np.repeat(np.arange(graph.size), np.diff(graph.offsets))
-    return {(int(a), int(b)): float(w) for a, b, w in zip(tails, graph.neighbours, weights, strict=True)}
+    return {(int(a), int(b)): float(w) for a, b, w in zip(tails, graph.neighbors, weights, strict=True)}
 
 
 def bounded(cotangents: float) -> float:
@@ -73,15 +73,15 @@ def test_weights_make_little_of_little(length: float, flatness: float) -> None:
 def test_a_part_hangs_on_what_is_known_before_it_and_on_nothing_else() -> None:
     faces = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4]], np.int32)  # a fan around vertex 4
     graph = graph_of_faces(faces, 5)
-    weights = np.arange(1.0, len(graph.neighbours) + 1)
+    weights = np.arange(1.0, len(graph.neighbors) + 1)
     rank = np.array([0, 1, 1, 2, 1], np.int32)  # 0 is known before, 3 comes later
-    offsets, neighbours = np.array([0, 2, 4, 6], np.int32), np.array([1, 2, 0, 2, 0, 1], np.int32)
-    part = Block(np.array([4, 1, 2], np.int32), offsets, neighbours)
+    offsets, neighbors = np.array([0, 2, 4, 6], np.int32), np.array([1, 2, 0, 2, 0, 1], np.int32)
+    part = Block(np.array([4, 1, 2], np.int32), offsets, neighbors)
     held = hold(graph, weights, rank, part)
     edge = {
         (a, int(b)): weights[i]
         for a in range(5)
-        for i, b in zip(range(graph.offsets[a], graph.offsets[a + 1]), graph.neighbours[graph.offsets[a] :])
+        for i, b in zip(range(graph.offsets[a], graph.offsets[a + 1]), graph.neighbors[graph.offsets[a] :])
     }
     inner = [(4, 1), (4, 2), (1, 4), (1, 2), (2, 4), (2, 1)]
     assert held.laplacian.weights.tolist() == [edge[pair] for pair in inner]

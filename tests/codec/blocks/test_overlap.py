@@ -21,8 +21,8 @@ def blocks_of(graph, parts, overlap):
     return partition, grow_blocks(graph, partition, block_size(partition, overlap))
 
 
-def neighbours_of(graph, vertices):
-    return {int(w) for v in vertices for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]]}
+def neighbors_of(graph, vertices):
+    return {int(w) for v in vertices for w in graph.neighbors[graph.offsets[v] : graph.offsets[v + 1]]}
 
 
 @pytest.mark.parametrize("overlap", [1.0, 1.15, 1.5])
@@ -36,7 +36,7 @@ def test_blocks_hold_their_part_and_rings_around_it(overlap):
         assert len(members) == len(set(members)) == size
         assert set(blocks.core(index)) == set(np.flatnonzero(partition.labels == blocks.chain[index]))
         outside = np.setdiff1d(members, blocks.core(index))
-        assert set(outside) <= neighbours_of(graph, members)
+        assert set(outside) <= neighbors_of(graph, members)
 
 
 @pytest.mark.parametrize("parts", [1, 2, 13, 60])
@@ -46,7 +46,7 @@ def test_every_block_of_a_connected_mesh_touches_one_before_it(parts):
     seen = set(blocks.core(0))
     steps = 0
     for index in range(1, parts):
-        around = neighbours_of(graph, blocks.core(index))
+        around = neighbors_of(graph, blocks.core(index))
         assert around & seen
         steps += bool(around & set(blocks.core(index - 1)))
         seen |= set(blocks.core(index))
@@ -92,8 +92,8 @@ def test_a_blocks_graph_is_that_of_its_vertices(faces, parts, overlap):
         block = blocks.block(index)
         assert sorted(block.vertices) == sorted(blocks.members_of(index))
         for row, v in enumerate(block.vertices):
-            local = block.neighbours[block.offsets[row] : block.offsets[row + 1]]
-            beyond = graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]]
+            local = block.neighbors[block.offsets[row] : block.offsets[row + 1]]
+            beyond = graph.neighbors[graph.offsets[v] : graph.offsets[v + 1]]
             assert sorted(block.vertices[local]) == [w for w in beyond if w in block.vertices]
 
 

@@ -17,7 +17,7 @@ def graph_of(mesh):
 
 def cut(graph, partition):
     source = np.repeat(np.arange(graph.size), np.diff(graph.offsets))
-    return np.count_nonzero(partition.labels[source] != partition.labels[graph.neighbours]) // 2
+    return np.count_nonzero(partition.labels[source] != partition.labels[graph.neighbors]) // 2
 
 
 @given(soups, st.integers(1, 20))
@@ -74,7 +74,7 @@ def test_bisection_cuts_any_graph_into_equal_parts(faces, parts):
     assert sizes.min() >= 20 // parts and sizes.max() <= -(-20 // parts) + 1
 
 
-def test_a_bisection_keeps_neighbours_together():
+def test_a_bisection_keeps_neighbors_together():
     """In a square grid, halves are cut across: rows that are k apart lie about sqrt(k) apart."""
     rows = 32
     order, bounds = bisect(graph_of_faces(grid_faces(rows, rows), rows * rows), rows * rows)

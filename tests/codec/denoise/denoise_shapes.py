@@ -36,5 +36,5 @@ def cube(size: int) -> tuple[np.ndarray, np.ndarray]:
 def sphere(size: int) -> tuple[np.ndarray, np.ndarray]:
     """The cube blown up to a unit sphere."""
     positions, faces = cube(size)
-    centred = positions - size / 2
-    return centred / np.linalg.norm(centred, axis=1, keepdims=True), faces
+    centerd = positions - size / 2
+    return centerd / np.linalg.norm(centerd, axis=1, keepdims=True), faces

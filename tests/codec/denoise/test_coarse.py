@@ -19,7 +19,7 @@ from tools.noise import gaussian_along_normals
 def dense_laplacian(faces: np.ndarray, n: int) -> np.ndarray:
     graph = graph_of_faces(faces, n)
     laplacian = np.diag(np.diff(graph.offsets).astype(float))
-    laplacian[np.repeat(np.arange(n), np.diff(graph.offsets)), graph.neighbours] = -1
+    laplacian[np.repeat(np.arange(n), np.diff(graph.offsets)), graph.neighbors] = -1
     return laplacian
 
 

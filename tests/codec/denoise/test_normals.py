@@ -115,7 +115,7 @@ def test_the_guide_is_the_mean_of_the_most_consistent_patch() -> None:
         assert guide[f] == pytest.approx(mean / np.linalg.norm(mean))
 
 
-def test_normals_of_lost_faces_and_cancelled_sums_stay() -> None:
+def test_normals_of_lost_faces_and_canceled_sums_stay() -> None:
     positions, faces = grid(2)
     positions[:] = 0.0
     topology, geometry = Topology(faces, len(positions)), face_geometry(positions, faces)

@@ -1,4 +1,4 @@
-"""Neighbourhoods and vertex updates against definitions written out."""
+"""Neighborhoods and vertex updates against definitions written out."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from bsm.codec.denoise.surface import (
     surface_normals,
     without_first,
 )
-from bsm.codec.geometry.graph import Rows, vertex_neighbours
+from bsm.codec.geometry.graph import Rows, vertex_neighbors
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 
 
@@ -33,7 +33,7 @@ def test_patches_hold_the_faces_that_share_a_vertex() -> None:
     assert sorted(map(tuple, topology.pairs.tolist())) == expected
 
 
-def test_the_hub_of_a_wheel_does_not_make_everybody_a_neighbour() -> None:
+def test_the_hub_of_a_wheel_does_not_make_everybody_a_neighbor() -> None:
     spokes = np.arange(200)
     faces = np.stack([spokes, (spokes + 1) % 200, np.full(200, 200)], axis=1).astype(np.int32)
     topology = Topology(faces, 201)
@@ -58,10 +58,10 @@ def test_reach_stays_in_the_ball_and_on_the_surface() -> None:
     flat, faces = grid(6)
     positions = np.concatenate([flat, flat + np.array([0, 0, 0.1])])
     both = np.concatenate([faces, faces + len(flat)])
-    near = reach(positions, vertex_neighbours(both, len(positions)), 2.0)
-    centre = 24
-    expected = np.flatnonzero(np.linalg.norm(flat - flat[centre], axis=1) <= 2.0)
-    assert sorted(row(near, centre)) == expected.tolist()
+    near = reach(positions, vertex_neighbors(both, len(positions)), 2.0)
+    center = 24
+    expected = np.flatnonzero(np.linalg.norm(flat - flat[center], axis=1) <= 2.0)
+    assert sorted(row(near, center)) == expected.tolist()
 
 
 def test_normals_of_a_sphere_and_centroids_of_a_square() -> None:

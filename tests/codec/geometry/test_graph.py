@@ -9,7 +9,7 @@ from bsm.codec.geometry.graph import (
     is_connected,
     mesh_edges,
     vertex_faces,
-    vertex_neighbours,
+    vertex_neighbors,
 )
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
@@ -21,15 +21,15 @@ def test_a_graph_is_connected_where_it_is_one_component(faces, size):
     assert is_connected(graph) == (len(component_sizes(graph)) == 1)
 
 
-def test_a_vertex_of_high_degree_has_sorted_neighbours():
+def test_a_vertex_of_high_degree_has_sorted_neighbors():
     fan = np.array([[0, 60 - i, 59 - i] for i in range(59)], np.int32)
     graph = graph_of_faces(fan, 61)
-    assert graph.neighbours[: graph.offsets[1]].tolist() == list(range(1, 61))
+    assert graph.neighbors[: graph.offsets[1]].tolist() == list(range(1, 61))
 
 
 @given(soups)
 def test_rows_equal_sets_built_the_slow_way(faces):
-    around, near = vertex_faces(faces, 20), vertex_neighbours(faces, 20)
+    around, near = vertex_faces(faces, 20), vertex_neighbors(faces, 20)
     pairs = {(int(a), int(b)) for f in faces for a in f for b in f if a != b}
     for v in range(20):
         holding = [i for i, face in enumerate(faces) if v in face]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bsm import MeshError
-from bsm.codec.geometry.graph import vertex_neighbours
+from bsm.codec.geometry.graph import vertex_neighbors
 from bsm.codec.geometry.metrics import (
     Reference,
     compare,
@@ -52,14 +52,14 @@ def test_a_translation_costs_distance_and_no_detail() -> None:
     assert result.nmsve_db == pytest.approx(10 * math.log10(1.0 / 8 / math.sqrt(2)))
 
 
-def test_the_laplacian_weighs_neighbours_by_inverse_distance() -> None:
+def test_the_laplacian_weighs_neighbors_by_inverse_distance() -> None:
     positions = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0]])
     faces = np.array([[0, 1, 2]], dtype=np.int32)
     expected = -(np.array([1.0, 0, 0]) + 0.5 * np.array([0, 2.0, 0])) / 1.5
-    assert geometric_laplacian(positions, vertex_neighbours(faces, 3))[0] == pytest.approx(expected)
+    assert geometric_laplacian(positions, vertex_neighbors(faces, 3))[0] == pytest.approx(expected)
 
 
-def test_coincident_neighbours_give_the_limit_and_no_nan() -> None:
+def test_coincident_neighbors_give_the_limit_and_no_nan() -> None:
     near, exact = SQUARE.copy(), SQUARE.copy()
     near[1], exact[1] = [1e-9, 0, 0], [0, 0, 0]
     assert compare(SQUARE, near, TWO).nmsve == pytest.approx(compare(SQUARE, exact, TWO).nmsve, rel=1e-6)

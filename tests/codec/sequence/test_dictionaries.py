@@ -63,7 +63,7 @@ def test_the_extension_is_harmonic() -> None:
     weights = cotangent_weights(graph, mesh.faces, mesh.positions)
     for vertex in second.vertices:
         edges = slice(graph.offsets[vertex], graph.offsets[vertex + 1])
-        mean = np.average(known[graph.neighbours[edges]], axis=0, weights=weights[edges])
+        mean = np.average(known[graph.neighbors[edges]], axis=0, weights=weights[edges])
         np.testing.assert_allclose(known[vertex], mean, atol=1e-4)  # but for the tether
 
 

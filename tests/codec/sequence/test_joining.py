@@ -103,12 +103,12 @@ def test_vertices_in_no_face_are_left_out_of_an_order_that_is_kept():
     assert "left out 2 vertices that no face uses" in encoder.notes
 
 
-def test_colours_of_copies_differ():
+def test_colors_of_copies_differ():
     frames = soup(moving(2))
-    colours = np.repeat(np.arange(len(FACES), dtype=np.uint8), 3)[:, None] * np.array([1, 2, 3], np.uint8)
+    colors = np.repeat(np.arange(len(FACES), dtype=np.uint8), 3)[:, None] * np.array([1, 2, 3], np.uint8)
     chosen = SequenceOptions(step=0.003, threads=1, keep_order=True, attributes={"colors": "exact"})
-    carried = [Attribute("colors", colours, semantic="color")]
+    carried = [Attribute("colors", colors, semantic="color")]
     encoder = SequenceEncoder(OWN, chosen, 2, attributes=carried)
     data = b"".join(encoder.chunks(frames))
     (event,) = [event for event in moving_events_of(data) if isinstance(event, AttributeEvent)]
-    assert np.array_equal(event.values, colours)
+    assert np.array_equal(event.values, colors)

@@ -136,20 +136,20 @@ def test_every_run_has_its_attributes():
 
     def painted(mesh, value):
         colors = np.full((len(mesh.positions), 3), value, np.uint8)
-        return replace(mesh, attributes=(Attribute("colour", colors, "vertex", "color"),))
+        return replace(mesh, attributes=(Attribute("color", colors, "vertex", "color"),))
 
     chosen = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
-    coloured = [painted(mesh, value) for mesh, value in zip(frames, (7, 7, 90, 90, 7), strict=True)]
-    encoder = SequenceEncoder(frames[0].faces, chosen, 5, attributes=coloured[0].attributes)
+    colored = [painted(mesh, value) for mesh, value in zip(frames, (7, 7, 90, 90, 7), strict=True)]
+    encoder = SequenceEncoder(frames[0].faces, chosen, 5, attributes=colored[0].attributes)
     decoder = SequenceDecoder(threads=1)
     values = []
-    for chunk in encoder.chunks(coloured):
+    for chunk in encoder.chunks(colored):
         decoder.receive_data(chunk)
         while not isinstance(event := decoder.next_event(), Signal):
             if isinstance(event, FrameEvent):
                 (attribute,) = decoder.attributes
                 values.append((attribute.name, int(attribute.values[0, 0]), len(attribute.values)))
-    assert values == [("colour", 7, 60)] * 2 + [("colour", 90, 42)] * 2 + [("colour", 7, 60)]
+    assert values == [("color", 7, 60)] * 2 + [("color", 90, 42)] * 2 + [("color", 7, 60)]
 
 
 # ---------------------------------------------------------------------------------------------------- loss and joining

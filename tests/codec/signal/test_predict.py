@@ -21,7 +21,7 @@ def piece(graph, vertices):
     """The block of `vertices`, rows in the order given."""
     number = {int(v): row for row, v in enumerate(vertices)}
     rows = [
-        [number[int(w)] for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]] if int(w) in number]
+        [number[int(w)] for w in graph.neighbors[graph.offsets[v] : graph.offsets[v + 1]] if int(w) in number]
         for v in vertices
     ]
     offsets = np.cumsum([0, *map(len, rows)]).astype(np.int32)
@@ -74,7 +74,7 @@ def test_springs_count_edges_that_leave_and_known_rows():
     block = piece(graph, np.arange(28, 60))
     around = known.around(laplacian_of(block), SHIFT)
     for row, v in enumerate(block.vertices):
-        beyond = [w for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]] if w < 28]
+        beyond = [w for w in graph.neighbors[graph.offsets[v] : graph.offsets[v + 1]] if w < 28]
         assert around.springs[row] == len(beyond) + (3.0 if v < 30 else 0.0)
     assert np.allclose(around.pulls, around.springs[:, None])
     assert np.array_equal(known.around(laplacian_of(block), SHIFT).springs, around.springs)

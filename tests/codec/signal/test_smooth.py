@@ -9,7 +9,7 @@ from tests.shapes import torus
 
 
 def random_walk_laplacian(graph):
-    adjacency = sp.csr_matrix((np.ones(len(graph.neighbours)), graph.neighbours, graph.offsets))
+    adjacency = sp.csr_matrix((np.ones(len(graph.neighbors)), graph.neighbors, graph.offsets))
     return sp.eye(graph.size) - sp.diags(1 / np.diff(graph.offsets)) @ adjacency
 
 

@@ -182,7 +182,7 @@ export class TileSet {
                 tile.asked = false;
                 return;
             }
-            if (geometry.colour) geometry.setAttribute("color", geometry.colour);
+            if (geometry.color) geometry.setAttribute("color", geometry.color);
             tile.geometry = geometry;
         } catch (error) {
             this.problem = `Tile ${name} cannot be shown, a coarser one stands in its place: ${error instanceof Error ? error.message : error}`;

@@ -244,7 +244,7 @@ export class View {
         if (DIGITS.includes(key)) pick("layer", String(DIGITS.indexOf(key)));
         else if (key === "w" || key === "s") pick("mode", this.stage.mode === (key === "w" ? "wipe" : "split") ? "one" : key === "w" ? "wipe" : "split");
         else if (key === "f") pick("shading", next(["smooth", "flat", "wire"], this.picked("shading")));
-        else if (key === "e") this.paint(this.scheme.value !== "error" ? "error" : this.dressed.size > 0 || this.geometry.colour ? "own" : "plain");
+        else if (key === "e") this.paint(this.scheme.value !== "error" ? "error" : this.dressed.size > 0 || this.geometry.color ? "own" : "plain");
         else if (key === "t") this.control<HTMLInputElement>("spin").click();
         else if (key === "l") {
             const light = this.control<HTMLInputElement>("light");
@@ -564,11 +564,11 @@ export class View {
             const images = await imagesOf(geometry.metadata);
             if (geometry !== this.geometries[index] || this.closed) return;
             const materials = materialsOf(geometry.metadata, images, 1 + Math.max(0, ...geometry.pieces.map(({ material }) => material)));
-            for (const material of materials) material.vertexColors = geometry.colour !== undefined;
+            for (const material of materials) material.vertexColors = geometry.color !== undefined;
             this.stage.dress(index, materials);
             this.dressed.add(index);
         }
-        if (!named && !geometry.colour) return;
+        if (!named && !geometry.color) return;
         this.allow("own", true);
         if (this.scheme.value === "plain") this.scheme.value = "own";
         this.stale = true;
@@ -629,7 +629,7 @@ export class View {
             if (!geometry || (i === content.main && !this.shown)) return;
             const own = scheme === "own";
             const colors = colorsOf(geometry, scheme, offs[i], top);
-            stage.color(i, own ? geometry.colour : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
+            stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
         });
         this.part("scale").hidden = LEGENDS[scheme] === "";
         this.say("legend", LEGENDS[scheme]);

@@ -413,7 +413,7 @@ def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
 
 
 def shown_at_vertices(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
-    """The normals, colours and texture coordinates of vertices that other programs show."""
+    """The normals, colors and texture coordinates of vertices that other programs show."""
     return (
         first(mesh, "normal", (3,), "vertex"),
         first(mesh, "color", (3, 4), "vertex"),
@@ -422,7 +422,7 @@ def shown_at_vertices(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute |
 
 
 def rgba(color: Attribute) -> npt.NDArray[np.uint8]:
-    """Colours as bytes, with an opaque alpha where there is none."""
+    """Colors as bytes, with an opaque alpha where there is none."""
     values = color.values
     if values.dtype == np.uint16:
         values = values / 65535

@@ -41,7 +41,7 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
         colors = polygons.values[first_behind[:, None] + np.arange(min(int(behind[0]), 4))]
         found.append(color_column(colors, "face", written_whole=_are_whole(colors, lines[vertices : vertices + faces])))
     elif (behind > 0).any():
-        dropped.append("colours of faces")  # numbers of a map of colours, or of some faces only
+        dropped.append("colors of faces")  # numbers of a map of colors, or of some faces only
     metadata = parse_remarks(line.decode(errors="replace") for line in re.findall(rb"^#([^\r\n]*)", data, re.M))
     return Polygons(points.columns(0, 3), sizes, corners, (), tuple(dropped), tuple(found), metadata)
 
@@ -75,7 +75,7 @@ def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
 
 
 def write_off(mesh: TriangleMesh, stem: str) -> Written:
-    """The text OFF of a mesh: with normals, colours and texture coordinates of vertices, and colours of faces."""
+    """The text OFF of a mesh: with normals, colors and texture coordinates of vertices, and colors of faces."""
     normal = first(mesh, "normal", (3,), "vertex")
     color = first(mesh, "color", (3, 4), "vertex")
     texcoord = first(mesh, "texcoord", (2,), "vertex")

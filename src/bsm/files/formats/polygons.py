@@ -17,7 +17,7 @@ from bsm.files.formats.metadata import fitting, named
 from bsm.files.room import Doubles, Ints, require_count, single_suffices
 
 Array = npt.NDArray[Any]
-PLURALS = {"color": "colours", "normal": "normals", "texcoord": "texture coordinates"}
+PLURALS = {"color": "colors", "normal": "normals", "texcoord": "texture coordinates"}
 """Attributes in words, by their names."""
 _COLORS = ("rgb", "rgba", "colors", "colours")
 _TEXCOORDS = ("texture coordinates", "uv", "tcoords")
@@ -135,7 +135,7 @@ def compact(values: Array) -> Array:
 
 
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
-    """Colours as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
+    """Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
     if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
         bytes_ = np.rint(values) if written_whole or values.max() > 1 else np.rint(values * 255)
         exact = values if written_whole or values.max() > 1 else values * 255

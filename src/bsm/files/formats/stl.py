@@ -15,7 +15,7 @@ from bsm.files.room import Doubles, Rows, single_suffices
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 HEAD = 84  # bytes before the first record, the last four of them the number of triangles
 _ATTRIBUTE = "attribute"
-"""The number of 16 bits that a triangle has beside its corners; some programs keep colours in it."""
+"""The number of 16 bits that a triangle has beside its corners; some programs keep colors in it."""
 _UNKNOWN = (0, 0xFFFFFFFF)  # numbers of triangles by programs that did not know it yet
 
 

@@ -292,7 +292,7 @@ def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
 
 
 def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
-    """The VTP of a mesh, its arrays as bytes behind the XML; ParaView colours by the first number of vertices."""
+    """The VTP of a mesh, its arrays as bytes behind the XML; ParaView colors by the first number of vertices."""
     mesh = split_by_attributes(mesh)
     kind = np.float32 if single_suffices(mesh.positions) else np.float64
     blocks: list[bytes] = []

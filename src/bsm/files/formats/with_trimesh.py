@@ -182,7 +182,7 @@ def _rows(values: Any) -> Array:
 
 
 def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
-    """Parts as one: what some have and others do not is zero there (white, for colours)."""
+    """Parts as one: what some have and others do not is zero there (white, for colors)."""
     positions = np.concatenate([np.empty((0, 3)), *(part.positions for part in parts)])
     begin = np.cumsum([0, *(len(part.mesh.vertices) for part in parts)])
     faces = [np.empty((0, 3), np.int64), *(part.faces + first for part, first in zip(parts, begin))]

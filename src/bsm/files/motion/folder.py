@@ -177,7 +177,7 @@ def read_files(
                 if now is None:
                     raise MeshError(
                         f"{attribute.name} is another at {name} (frame {number}), and as before in the last frame; "
-                        "only colours and numbers of vertices may change: --runs keeps others as the first "
+                        "only colors and numbers of vertices may change: --runs keeps others as the first "
                         "frame has them"
                     )
                 own.append(now)

@@ -106,7 +106,7 @@ class Shared:
 
 
 def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
-    """A frame whose colours are of the kind of the first one's: bytes, or floats from 0 to 1."""
+    """A frame whose colors are of the kind of the first one's: bytes, or floats from 0 to 1."""
     kinds = {attribute.name: attribute.values.dtype for attribute in first.attributes if attribute.semantic == "color"}
 
     def same(attribute: Attribute) -> Attribute:

@@ -276,13 +276,13 @@ def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
 
 
 @pytest.mark.parametrize(("kind", "domain"), [("uint8", "vertex"), ("float32", "corner"), ("uint16", "face")])
-def test_colours_and_shapes_keep_the_look_in_colours(kind, domain):
+def test_colors_and_shapes_keep_the_look_in_colors(kind, domain):
     mesh = replace(torus(40, 30), attributes=())
     shades = 0.5 + 0.45 * np.sin(3 * mesh.positions @ np.array([[1, 2, 0], [0, 1, 3], [2, 0, 1]]))
     rows = {"vertex": shades, "corner": shades[mesh.faces].reshape(-1, 3), "face": shades[mesh.faces[:, 0]]}[domain]
     whole = 1 if kind == "float32" else np.iinfo(kind).max
-    colours = Attribute("color", (rows * whole).astype(kind), domain, "color")
-    mesh = replace(mesh, attributes=(colours,))
+    colors = Attribute("color", (rows * whole).astype(kind), domain, "color")
+    mesh = replace(mesh, attributes=(colors,))
     data, requested = encode(mesh), encode(mesh, EncodeOptions(attributes={"color": "exact"}))
     values = look_values(mesh, "color")
     assert values is not None and np.ptp(values) > 0.8
@@ -292,7 +292,7 @@ def test_colours_and_shapes_keep_the_look_in_colours(kind, domain):
 
 
 @pytest.mark.parametrize("how", ["few", "shining through", "beyond"])
-def test_colours_that_are_labels_or_in_no_picture_are_kept(how):
+def test_colors_that_are_labels_or_in_no_picture_are_kept(how):
     mesh = replace(torus(40, 30), attributes=())
     values = np.random.default_rng(0).integers(0, 256, (len(mesh.positions), 4)).astype(np.uint8)
     if how == "few":
