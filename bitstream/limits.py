@@ -116,7 +116,7 @@ class Limits:
 
     @classmethod
     def service(cls) -> Limits:
-        """For whoever decodes what strangers send: 1 GiB and 10 s of a core for a stream, whatever it holds.
+        """Limits for untrusted streams: 1 GiB of memory and 10 s of one core for any stream.
 
         Meshes of up to a million vertices that were encoded with any preset are within them.
         """

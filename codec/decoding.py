@@ -134,7 +134,7 @@ class StreamDecoder:
 
     @_in_turn
     def receive_eof(self) -> None:
-        """Take note that no more bytes will come."""
+        """Signal the end of input."""
         self._finished = True
         self._open.finish()
 

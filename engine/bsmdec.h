@@ -183,7 +183,7 @@ BSMDEC_API void bsmdec_close(bsmdec *decoder);
  * status of the first error of the stream; BSMDEC_MISUSED after bsmdec_finish. */
 BSMDEC_API bsmdec_status bsmdec_push(bsmdec *decoder, const void *bytes, size_t size);
 
-/* Say that no more bytes will come. Without this call a stream that was cut off is only waiting for data. */
+/* Signal the end of input. Without this call a stream that was cut off is only waiting for data. */
 BSMDEC_API bsmdec_status bsmdec_finish(bsmdec *decoder);
 
 typedef enum {

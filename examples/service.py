@@ -1,4 +1,4 @@
-"""A service that takes uploads of strangers: a mesh in, a stream out, and no request that takes the machine with it.
+"""A service for untrusted uploads: it encodes meshes, and no request can exhaust the machine.
 
     python examples/service.py --port 8000
     curl --data-binary @bunny.ply http://127.0.0.1:8000/encode?preset=fine -o bunny.bsm

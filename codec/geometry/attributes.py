@@ -75,11 +75,11 @@ class Attribute:
             raise ArgumentError(f"{what}: name, domain and meaning must be texts")
         encoded = self.name.encode(errors="ignore")
         if encoded.decode() != self.name or b"\0" in encoded:
-            raise MeshError(f"the name of an attribute must have no NUL, and no half of a character: {self.name!r}")
+            raise MeshError(f"the name of an attribute must not contain NUL or lone surrogates: {self.name!r}")
         if not 1 <= len(encoded) <= MOST_NAME_BYTES:
             raise MeshError(f"the name of an attribute must have 1 to {MOST_NAME_BYTES} bytes: {self.name!r}")
         if self.domain not in get_args(Domain) or self.semantic not in get_args(Semantic):
-            raise MeshError(f"{what} is of no domain or meaning that is known: {self.domain!r}, {self.semantic!r}")
+            raise MeshError(f"{what} has an unknown domain or semantic: {self.domain!r}, {self.semantic!r}")
         values = _stored(as_array(self.values, what), what)
         if self.domain == "corner":
             if self.indices is None and len(values) % 3:

@@ -93,7 +93,7 @@ class SequenceOptions:
     attributes : mapping of str to str, or pairs
         Quality of attributes that do not change, as for a mesh.
     limits : str
-        Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
+        Limits of the target decoder: "default", "service" or "wide". A stream that exceeds them is an error.
     threads : int, optional
         None: one per core.
     runs : bool
@@ -134,7 +134,7 @@ class SequenceOptions:
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
         if self.promise is not None and self.target is not None:
-            raise OptionError("a sequence keeps a promise or meets a target")
+            raise OptionError("promise and target are mutually exclusive")
         if self.gop is not None and self.low_delay > self.gop:
             raise OptionError(f"{self.low_delay} frames at a time are more than a GOP of {self.gop}")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))

@@ -85,7 +85,7 @@ class Encoder:
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
         if not (self.options.target or self.options.promise or self.options.is_grid or self.options.sets_coding):
-            raise OptionError("nothing to reach: give a bound or a target, or a preset other than none")
+            raise OptionError("preset none needs a target or a bound")
         packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Input(mesh, self.options)
@@ -103,7 +103,7 @@ class Encoder:
 
     @property
     def losses(self) -> tuple[str, ...]:
-        """The notes that say what does not come back, though nobody asked to leave it out."""
+        """The notes about losses that the options do not ask for."""
         doubt = [f"the preset's bound holds, and no other: {self._doubt}"] if self._doubt else []
         return (*self._input.joined.losses, *doubt)
 

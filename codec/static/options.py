@@ -160,7 +160,7 @@ class EncodeOptions:
     grid_origin : (float, float, float), optional
         A point of this grid; None: the origin.
     limits : str
-        Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
+        Limits of the target decoder: "default", "service" or "wide". A stream that exceeds them is an error.
     threads : int, optional
         None: one per core.
 

@@ -47,8 +47,8 @@ class Original:
     def matched(self, faces: Faces, vertices: int) -> Order:
         """Return the coded vertex of each of the decoder's, -1 for loose ones, whose faces are `faces`."""
         coded = self.prepared.mesh.faces
-        require(faces.shape == coded.shape, f"{len(faces)} faces came back of {len(coded)}")
-        require(vertices == len(self.vertex_order), f"{vertices} vertices came back of {len(self.vertex_order)}")
+        require(faces.shape == coded.shape, f"decoded {len(faces)} of {len(coded)} faces")
+        require(vertices == len(self.vertex_order), f"decoded {vertices} of {len(self.vertex_order)} vertices")
         if self.prepared.order:
             ordered = faces[self.prepared.coding_faces]
             ordered = np.take_along_axis(ordered, (self.prepared.turns[:, None] + np.arange(3)) % 3, axis=1)
@@ -112,13 +112,16 @@ def require_attributes(
     decoded: Sequence[Attribute], carried: Sequence[PreparedAttribute], faces: Faces, original: Original
 ) -> None:
     """Require what the closed loop has for attributes at corners and faces, but for rounding."""
-    require(len(decoded) == len(carried), f"{len(decoded)} attributes came back of {len(carried)}")
+    require(len(decoded) == len(carried), f"decoded {len(decoded)} of {len(carried)} attributes")
     prepared = original.prepared
     for found, wanted in zip(decoded, carried, strict=True):
         declared = wanted.declaration
         name = f"attribute {declared.name!r}"
         same = found.name == declared.name and found.semantic == SEMANTICS[declared.semantic]
-        require(same and found.values.shape[1:] == (declared.components,), f"{name} is another after decoding")
+        require(
+            same and found.values.shape[1:] == (declared.components,),
+            f"{name} was decoded with a different name or type",
+        )
         if declared.coding == RECOMPUTED:
             require(bool(np.isfinite(found.values).all()), f"{name} is not finite after decoding")
             continue

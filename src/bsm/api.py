@@ -557,15 +557,15 @@ def denoise(
     strength : float
         Fraction of every movement, from 0 to 1.
     force : bool
-        Return the result even if it removes more than noise.
+        Return the result even if it loses detail.
     progress : callable, optional
         As in `encode`.
 
     Returns
     -------
     TriangleMesh
-        The same faces, metadata, and attributes but normals, which fit no longer; the mesh itself if there is no noise
-        to remove.
+        Same faces, metadata and attributes, except normals, which are dropped. The given mesh itself if there is no
+        noise to remove.
 
     Warns
     -----

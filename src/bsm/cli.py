@@ -110,7 +110,7 @@ def _no_command(words: list[str]) -> int:
 
 def _common(name: str) -> Parser:
     common = Parser(add_help=False)
-    harm = "; write results that remove more than noise" if name == "denoise" else ""
+    harm = "; also write results that lose detail" if name == "denoise" else ""
     does = argparse.SUPPRESS if name in _WITHOUT_FILES else f"overwrite files{harm}"
     common.add_argument("-f", "--force", action="store_true", help=does)
     common.add_argument("-q", "--quiet", action="store_true", help="print only results and errors")

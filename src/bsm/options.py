@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "size"}
 """Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""
 
-BOUNDS = ("look", "max_error")  # keywords of bounds of a mesh; any of them hold together
+BOUNDS = ("look", "max_error")  # keywords of bounds of a mesh; they apply together
 
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}  # the same for sequences
 

@@ -138,7 +138,7 @@ def test_colors_that_change_are_not_dropped_in_silence(tmp_path, capsys):
             write_mesh(str(tmp_path / name / f"{number}.ply"), TriangleMesh(positions[number], faces, [color]))
     stream = tmp_path / "x.bsm"
     assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01") != 0
-    assert "color is another at" in capsys.readouterr().err and not stream.exists()
+    assert "color differs in" in capsys.readouterr().err and not stream.exists()
     assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01", "--runs") == 0
     assert "color changes at frame 1, but stays as before" in capsys.readouterr().err
     assert bsm("encode", tmp_path / "on", "-o", stream, "--set", "step=0.01", "--force") == 0

@@ -127,7 +127,7 @@ def test_a_manifest_stays_until_the_input_was_read(source, tmp_path, option):
     for text in ('{"complete": false}', '{"name": "my extension"}', "[]", "no JSON"):
         (output / "manifest.json").write_text(text)
         refused = tile(source, output, *option)
-        assert refused.returncode == 3 and "is not a manifest of tiles, and stays" in refused.stderr
+        assert refused.returncode == 3 and "exists and is not a tile manifest" in refused.stderr
         assert tile(tmp_path / "nothere.ply", output, *option).returncode == 9
         assert (output / "manifest.json").read_text() == text
     assert tile(source, tmp_path / "new", "--work", output).returncode == 2

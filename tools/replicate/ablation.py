@@ -84,9 +84,9 @@ def _upright(positions: Any, faces: Any) -> Any:
 
 
 TOOLS: dict[str, Tool] = {
-    "blocks (grids alone)": Tool({}, [(search.Search, "_ways", _ways(lambda way: isinstance(way, Gridded)))]),
-    "refinement (blocks alone)": Tool({}, [(search.Search, "_ways", _ways(lambda _: True, plain=True))]),
-    "grids (blocks with refinement alone)": Tool(
+    "blocks (only grids)": Tool({}, [(search.Search, "_ways", _ways(lambda way: isinstance(way, Gridded)))]),
+    "refinement (only blocks)": Tool({}, [(search.Search, "_ways", _ways(lambda _: True, plain=True))]),
+    "grids (only blocks with refinement)": Tool(
         {},
         [
             (search.Search, "_ways", _ways(lambda way: not isinstance(way, Gridded))),
@@ -162,7 +162,7 @@ MOVING_TOOLS: dict[str, Tool] = {
         {"gop": 16}, [(gop.GopEncoder, "method_with_basis", lambda *_: GopMethod.LEARNT)], against={"gop": 16}
     ),
     "temporal basis of whole groups (8 frames at a time)": Tool({"low_delay": 8}),
-    "frames evened by what is seen": Tool({}, [(step_search, "_evening", np.ones_like)]),
+    "frames evened by visible error": Tool({}, [(step_search, "_evening", np.ones_like)]),
     "groups of 512 (of 16)": Tool({"gop": 16}),
 }
 
@@ -208,7 +208,7 @@ def ablation_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
 
 def in_blocks(row: Row) -> bool:
     """Whether the default codes this mesh in blocks: without them it would take other bytes."""
-    return bool(row["tools"]["blocks (grids alone)"].get("bytes", 1.0) != 1.0)
+    return bool(row["tools"]["blocks (only grids)"].get("bytes", 1.0) != 1.0)
 
 
 def ablation_note(rows: Sequence[Row]) -> str:

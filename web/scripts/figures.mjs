@@ -333,7 +333,7 @@ function playInPage(folder, stream, slow) {
         execFileSync(PYTHON, ["-m", "bsm", "view", join(folder, stream), "-f", "-q", "--save", saved], { cwd: ROOT });
         await page.goto(pathToFileURL(saved).href);
         await page.getByText("Controls", { exact: true }).click();
-        await page.getByLabel("Link, Mbit/s").fill("1");
+        await page.getByLabel("Bandwidth, Mbit/s").fill("1");
         await page.getByLabel("Begin again at the end").uncheck();
         if (slow === "main thread") await session.send("Emulation.setCPUThrottlingRate", { rate: 4 });
         const release = slow === "everything" ? brake(renderers()) : async () => {};

@@ -27,7 +27,7 @@ try {
     const pictures = [];
     for (const share of SHARES.toReversed()) {
         const cut = Math.round(share * size);
-        await page.getByLabel("Cut the stream behind byte").fill(String(cut));
+        await page.getByLabel("Stop after byte").fill(String(cut));
         await page.waitForFunction((cut) => Number(document.body.dataset.taken) === cut, cut);
         await page.waitForTimeout(300);
         const picture = await page.locator("canvas").screenshot();

@@ -85,15 +85,15 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     });
 
     test("cuts the stream at any byte, and goes on", async () => {
-        await page.getByLabel("Cut the stream behind byte").fill("0");
+        await page.getByLabel("Stop after byte").fill("0");
         await page.waitForFunction(() => document.body.dataset.blocks === "0");
-        await page.getByLabel("Cut the stream behind byte").focus();
+        await page.getByLabel("Stop after byte").focus();
         await page.keyboard.press("End");
         await state("complete");
     });
 
     test("streams over a slow link, block by block", async () => {
-        await page.getByLabel("Link, Mbit/s").fill(String((whole.length * 8) / 1e6 / 2));
+        await page.getByLabel("Bandwidth, Mbit/s").fill(String((whole.length * 8) / 1e6 / 2));
         await page.getByRole("button", { name: "Stream again" }).click();
         const seen = new Set<string>();
         for (const start = Date.now(); Date.now() - start < 10_000; ) {
@@ -101,7 +101,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             if ((await page.locator("body").getAttribute("data-state")) === "complete") break;
         }
         assert.ok(seen.size > 2, `blocks seen: ${[...seen]}`);
-        await page.getByLabel("Link, Mbit/s").fill("0");
+        await page.getByLabel("Bandwidth, Mbit/s").fill("0");
     });
 
     test("the keyboard turns the mesh", async () => {
@@ -118,7 +118,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
                 const label = active.getAttribute("aria-label") ?? (active as HTMLInputElement).labels?.[0]?.textContent;
                 return (label ?? active.textContent ?? "").trim().split(/[\n,.(:]/)[0].trim();
             });
-        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Save a turntable", "Dark or light", "Keys", "Settings", "Light from", "Background", "Turn by itself", "Cut the stream", "Link", "Stream again", "Licenses", "Smooth", "Color"];
+        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Save a turntable", "Dark or light", "Keys", "Settings", "Light from", "Background", "Auto-rotate", "Stop after byte", "Bandwidth", "Stream again", "Licenses", "Smooth", "Color"];
         await page.locator("canvas").focus();
         const met = [await name()];
         for (let k = 0; k < expected.length - 1; k++) {

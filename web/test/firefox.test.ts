@@ -89,7 +89,7 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
         await page.goto(savedPage(folder, { sequence: read("good-sequence-learnt") }));
         await page.waitForSelector("body[data-state=complete], body[data-state=failed]", { timeout: PATIENCE });
         if (await page.evaluate(() => document.createElement("canvas").getContext("webgl2") === null)) {
-            assert.match(await page.$eval("[role=alert]", (alert) => alert.textContent ?? ""), /does not draw in three dimensions/);
+            assert.match(await page.$eval("[role=alert]", (alert) => alert.textContent ?? ""), /WebGL is not available/);
             return t.skip("Firefox draws nothing here: no WebGL");
         }
         await until(() => Number(document.body.dataset.frame) > 0);

@@ -125,7 +125,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     kind = args.format if args.output == "-" else STREAM if stream else format_of_name(args.output)
     if kind not in (*WRITTEN_FORMATS, STREAM):
         if args.output == "-":
-            raise OptionError(f"a pipe has no suffix; --format says what is written: {', '.join(WRITTEN_FORMATS)}")
+            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(WRITTEN_FORMATS)}")
         known = ", .".join((*WRITTEN_FORMATS, STREAM))
         raise OptionError(f"{args.output}: the suffix is not that of a mesh format; use one of .{known}")
     refuse_to_overwrite(args.output, args.may_replace(args.output))

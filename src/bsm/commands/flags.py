@@ -137,13 +137,13 @@ SETTINGS = (
 
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none")
 PROMISES = (
-    "The encoder checks the decoded result before it writes a file. All options that you give hold together.\n\n"
-    "preset         look  vertex  (distance in pictures; of the diagonal of its part)\n"
-    "small          3     2 %     a preview: the shape is right, detail is not\n"
-    "balanced       1     1 %     the default: alike at a glance in smooth shading\n"
+    "The encoder checks the decoded result before it writes a file. All constraints apply together.\n\n"
+    "preset         look  vertex  (look distance; largest error, relative to the diagonal of its component)\n"
+    "small          3     2 %     a preview: the shape is right, detail is lost\n"
+    "balanced       1     1 %     the default: the same at a glance in smooth shading\n"
     "fine           0.5   0.5 %   closer; for flat shading\n"
     "near-lossless  0.25  0.05 %  a bound for measuring, of the diagonal of the whole mesh\n"
-    "grid14                       exactly the positions on a grid of 14 bits\n"
+    "grid14                       exact positions on a grid of 14 bits per axis\n"
     "lossless                     exact positions in single precision, exact attributes\n"
     "none                         only the targets that you give"
 )
@@ -172,7 +172,7 @@ BOUNDS = (
         "max_error",
         number_or_length,
         "REL",
-        "error of every vertex, at most REL diagonals (0.001, 0.1%%) or a length (0.05mm)",
+        "maximum vertex error: a fraction of the bounding-box diagonal (0.001, 0.1%%) or a length (0.05mm)",
     ),
 )
 TARGETS = (

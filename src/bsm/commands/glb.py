@@ -35,7 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("-j", "--jobs", type=within(0), default=1, metavar="N", help="processes (0: one per core; default 1)")
     plain = "also write OUT.fallback.bin with plain arrays, for viewers without the extension"
     add("--fallback", action="store_true", help=plain)
-    images = "recompress images with Pillow: webp, jpeg, png; webp:85 sets a quality, webp:85@1024 also a largest side"
+    images = (
+        "recompress images with Pillow: webp, jpeg, png; webp:85 sets the quality, webp:85@1024 also the longest side"
+    )
     add("--images", metavar="RULE", help=images)
 
 
@@ -79,7 +81,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     numbers = range(len(document.items("images")))
     images = sum(len(document.bytes_of_image(number) or b"") for number in numbers)
     if not rule and 2 * images > len(found.data):
-        console.note(f"{args.input}: {images} bytes are images, as they were; --images webp:85 makes them smaller")
+        console.note(f"{args.input}: {images} bytes are unchanged images; --images webp:85 makes them smaller")
     for reason, count in found.left.items():
         console.note(f"{args.input}: {count} stayed as {'it was' if count == 1 else 'they were'}: {reason}")
 

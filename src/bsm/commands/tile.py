@@ -52,11 +52,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.triangles < 64:
-        raise OptionError(f"--triangles {args.triangles}: tiles have 64 triangles or more")
+        raise OptionError(f"--triangles {args.triangles}: must be 64 or more")
     if args.grid_cell is not None and not 0.0 < args.grid_cell < math.inf:
-        raise OptionError(f"--grid-cell {args.grid_cell:g}: the cell of a grid is above 0, and finite")
+        raise OptionError(f"--grid-cell {args.grid_cell:g}: must be positive and finite")
     if not all(map(math.isfinite, args.grid_origin or ())):
-        raise OptionError(f"--grid-origin {args.grid_origin}: a point of the grid is finite")
+        raise OptionError(f"--grid-origin {args.grid_origin}: must be finite")
     if args.content != CONTENTS[0] and not args.tileset:
         raise OptionError("--content needs --tileset")
     packer(args.content, 1.0)

@@ -25,8 +25,8 @@ _NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    shown = "stream, - for a pipe, or folder of tiles. A mesh file is encoded and shown beside its stream. Without "
-    add("inputs", metavar="IN", nargs="*", help=f"{shown}inputs, the page is empty: drop a mesh on it")
+    shown = "stream, - for a pipe, or folder of tiles. A mesh file is encoded and shown next to its stream. Without "
+    add("inputs", metavar="IN", nargs="*", help=f"{shown}inputs, opens an empty page; drop a mesh on it")
     add("--preset", choices=PRESETS, default="balanced", help="preset for mesh files (default: balanced)")
     add("--original", metavar="MESH", help="mesh file to compare the stream with")
     add("--follow", action="store_true", help="keep reading files that are still being written")

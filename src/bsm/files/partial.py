@@ -55,7 +55,7 @@ def decode_what_is_left(
             case LossEvent(_, error):
                 report(f"lost: {error}")
             case EndEvent(losses) if len(losses.missing) or len(losses.degraded):
-                report(f"{len(losses.missing)} vertices are missing, {len(losses.degraded)} less good than they were")
+                report(f"{len(losses.missing)} vertices missing, {len(losses.degraded)} degraded")
         return False
 
     return _decode_until(Decoder(limits, tolerant=True), chunks, reported)

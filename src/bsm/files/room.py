@@ -175,7 +175,7 @@ def require_archive(data: bytes, limits: Limits) -> None:
                         size += TAG * piece.count(b"<")
                         require_inflated(size, len(data), limits)
     except (zipfile.BadZipFile, NotImplementedError, ValueError, RuntimeError, EOFError, zlib.error) as error:
-        raise FormatError(f"this is no archive that can be read: {error}") from error
+        raise FormatError(f"cannot read this archive: {error}") from error
 
 
 def gunzipped(data: bytes, limits: Limits) -> bytes:

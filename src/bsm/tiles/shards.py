@@ -78,7 +78,7 @@ def is_unfinished(folder: str) -> bool | None:
     except FileNotFoundError:
         return None
     except NO_JSON as error:
-        raise FormatError(f"{name} is not a manifest of tiles, and stays: name another folder, or remove it") from error
+        raise FormatError(f"{name} exists and is not a tile manifest; choose another folder or delete it") from error
 
 
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:

@@ -185,7 +185,7 @@ export class TileSet {
             if (geometry.color) geometry.setAttribute("color", geometry.color);
             tile.geometry = geometry;
         } catch (error) {
-            this.problem = `Tile ${name} cannot be shown, a coarser one stands in its place: ${error instanceof Error ? error.message : error}`;
+            this.problem = `Tile ${name} cannot be shown; showing a coarser tile: ${error instanceof Error ? error.message : error}`;
         }
     }
 }

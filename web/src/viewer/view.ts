@@ -85,7 +85,7 @@ export class View {
         try {
             this.stage = new Stage(root.querySelector("canvas")!);
         } catch (error) {
-            this.fail(`This browser does not draw in three dimensions. ${error instanceof Error ? error.message : error}`);
+            this.fail(`WebGL is not available. ${error instanceof Error ? error.message : error}`);
             throw error;
         }
         this.listen();
@@ -378,7 +378,7 @@ export class View {
             const blob = await this.stage.film(...this.captions, (share) => button.setAttribute("aria-label", `Save a turntable, ${percent(share)}`));
             this.save(blob, blob.type.includes("mp4") ? "mp4" : "webm");
         } catch (error) {
-            this.complain(`This browser saves no films. ${error instanceof Error ? error.message : error}`);
+            this.complain(`Recording is not supported. ${error instanceof Error ? error.message : error}`);
         }
         button.setAttribute("aria-label", "Save a turntable");
         button.disabled = false;

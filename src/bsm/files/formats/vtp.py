@@ -129,7 +129,7 @@ class _Numbers:
             try:
                 values = np.fromstring(text, np.float64 if kind.kind == "f" else np.int64, sep=" ")
             except (ValueError, DeprecationWarning) as error:
-                raise MeshError(f"what should be numbers is not: {error}") from error
+                raise MeshError(f"expected numbers: {error}") from error
         with np.errstate(over="ignore", invalid="ignore"):
             return values.astype(kind)
 

@@ -176,7 +176,7 @@ def read_files(
                 )
                 if now is None:
                     raise MeshError(
-                        f"{attribute.name} is another at {name} (frame {number}), and as before in the last frame; "
+                        f"{attribute.name} differs in {name} (frame {number}) but not in the last frame; "
                         "only colors and numbers of vertices may change: --runs keeps others as the first "
                         "frame has them"
                     )
