@@ -11,6 +11,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.attributes.quality import checked_qualities
+from bsm.codec.static.targets import vertex_error
 
 CHOICES = {"limits": tuple(NAMED_LIMITS)}
 SIZES, SPANS = (5_000, 10_000), (512, 256)
@@ -39,7 +40,7 @@ class Promise:
 
     def __post_init__(self) -> None:
         if not (0.0 < self.farthest < math.inf and self.look > 0.0):
-            raise OptionError(f"bounds must be above 0, not {self.farthest:g} and a look of {self.look:g}")
+            raise OptionError(f"bounds must be above 0, not vertex error {self.farthest:g} and look {self.look:g}")
 
     def reach(self, scale: float) -> float:
         """How far a vertex may be off in BSM units, `scale` of the mesh's own each."""
@@ -52,8 +53,7 @@ class Promise:
         return min(0.33 * farthest, 3.3e-3 * min(self.look, 1e3))
 
     def __str__(self) -> str:
-        bound = f"no vertex farther off than {self.farthest:.4g}{'' if self.absolute else ' diagonals'}"
-        return bound if math.isinf(self.look) else f"{bound} and a look of {self.look:g}"
+        return vertex_error(self.farthest, self.absolute) + ("" if math.isinf(self.look) else f", look {self.look:g}")
 
 
 PROMISES = {

@@ -133,7 +133,7 @@ class StepSearch:
             found = encode(step, weights, ROUNDS)
             decoded = found.decoded
             kept = step, self._measure(decoded), decoded, found
-        raise TargetError(f"{self._promise} in every frame cannot be kept, not even with a step of {least:.2g}")
+        raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {least:.2g}")
 
     def _measure(self, decoded: Positions) -> Measured:
         """How the frames look, by small pictures of those all over the GOP, and large ones of what seems the worst."""

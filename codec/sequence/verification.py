@@ -89,7 +89,7 @@ class SequenceVerifier:
             require(self._decoder.metadata == dict(self._metadata), "the decoded metadata differ")
             if self._promise is not None and self._promise.look < math.inf:
                 look, most = self.worst_look or 0.0, self._promise.look
-                require(look <= most * (1.0 + ROUNDING), f"a frame has a look of {look:.4g}, not {most:g} at most")
+                require(look <= most * (1.0 + ROUNDING), f"a frame has look {look:.4g}; the bound is {most:g}")
         return chunk
 
     def _begin(self, faces: Faces, vertices: int) -> None:

@@ -236,10 +236,9 @@ class Encoder:
         else:
             least = self._judged(self._input.dressed(self._input.search(promise, near).smallest(promise)))
             other = none.best(anything, most)
-            advice = "no preset reaches it" if other is None else f"without a preset these may have {none.seen(other)}"
-            error = TargetError(
-                f"{asked} reached with {promise}: that takes {target.worded(target.reached(least))}; {advice}"
-            )
+            advice = "does not reach it either" if other is None else f"reaches it with {none.seen(other)}"
+            had = target.worded(target.reached(least))
+            error = TargetError(f"{asked} reached with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
         raise error
 

@@ -98,32 +98,37 @@ class Contract:
         return text
 
     def worded(self, farther: float, angle: float, look: float, visual: float) -> str:
-        """Describe the bounds that are broken: how many times too far a vertex is, degrees, looks, error."""
+        """Describe the bounds that are broken: how many times too far a vertex is, degrees, look distance, error."""
         broken = []
         if farther > 1.0:
-            broken.append(f"no vertex farther than {self.farthest * farther:.4g}")
+            broken.append(vertex_error(self.farthest * farther, self.absolute))
         if angle > self.angle:
-            broken.append(f"normals {angle:.4g} degrees wrong on average")
-        if self.look < look < math.inf:  # infinite: nobody looked
-            broken.append(f"a look of {look:.3g}")
+            broken.append(f"normal error {angle:.4g} degrees")
+        if self.look < look < math.inf:  # infinite: not measured
+            broken.append(f"look {look:.3g}")
         if visual > self.visual:
-            broken.append(f"a visual error of {decibel(visual):.6g} dB")
-        return " and ".join(broken)
+            broken.append(f"visual error {decibel(visual):.6g} dB")
+        return ", ".join(broken)
 
     def __str__(self) -> str:
-        bound = f"no vertex farther than {self.farthest:.4g}" + ("" if self.absolute else " diagonals")
-        angle = f", normals {self.angle:g} degrees wrong on average" if self.angle < ANY_ANGLE else ""
-        visual = f", a visual error of {decibel(self.visual):.6g} dB" if self.visual < math.inf else ""
-        return bound + angle + visual + (f", a look of {self.look:g}" if self.look < math.inf else "")
+        angle = f", normal error {self.angle:g} degrees" if self.angle < ANY_ANGLE else ""
+        visual = f", visual error {decibel(self.visual):.6g} dB" if self.visual < math.inf else ""
+        look = f", look {self.look:g}" if self.look < math.inf else ""
+        return vertex_error(self.farthest, self.absolute) + angle + visual + look
+
+
+def vertex_error(value: float, absolute: bool) -> str:
+    """A bound on vertices in words: a length, or a fraction of the diagonal."""
+    return f"vertex error {value:.4g}" if absolute else f"vertex error {100.0 * value:.4g} % of the diagonal"
 
 
 SIZES = ("bpv", "bpvf", "size")
 UNITS = {
-    "nmsve_db": "a visual error of {:.6g} dB",
-    "theta_deg": "a mean angle of {:.6g} degrees",
+    "nmsve_db": "visual error {:.6g} dB",
+    "theta_deg": "mean angle {:.6g} degrees",
     "bpv": "{:.6g} bits per vertex",
     "size": "{:.0f} bytes",
-    "kg": "a KG error of {:.6g} %",
+    "kg": "KG error {:.6g} %",
     "bpvf": "{:.6g} bits per vertex and frame",
 }
 """Describe a value of a target of a mesh or a sequence."""

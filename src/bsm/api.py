@@ -17,7 +17,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.console import Console, watched
 from bsm.files.formats.metadata import Written
-from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
+from bsm.files.mesh import format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import in_own_unit
@@ -517,9 +517,7 @@ def save(
     if suffix == ".bsm":
         written = Written(encode(mesh, **keywords))
     elif kind is None:
-        raise OptionError(
-            f"{path}: the suffix is not that of a known format; use one of .bsm, .{', .'.join(WRITTEN_FORMATS)}"
-        )
+        raise unknown_suffix(path, "bsm")
     elif keywords:
         raise OptionError(f"{path}: {next(iter(keywords))} is an option of .bsm files only")
     else:

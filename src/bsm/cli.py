@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import importlib
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NoReturn
 
 from bsm import __version__
 from bsm.console import Console
 from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, report_error
 from bsm.files.output import Terminated, refuse_collisions
+from bsm.options import suggestion
 
 COMMANDS = {
     "encode": "compress meshes",
@@ -127,14 +127,6 @@ def _complete(parser: Parser, name: str) -> Parser:
     module.add_arguments(parser)
     parser.set_defaults(run=module.run)
     return parser
-
-
-def suggestion(word: str, known: Iterable[str]) -> str:
-    """Return a question that suggests a similar name, or ""."""
-    names = list(known)
-    begun = [name for name in names if name.startswith(word)]
-    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
-    return f"; did you mean {found[0]}?" if found else ""
 
 
 class Formatter(argparse.RawDescriptionHelpFormatter):

@@ -1,5 +1,6 @@
 """The exit codes of the command line, and how errors are printed."""
 
+import errno
 import os
 import sys
 from dataclasses import dataclass
@@ -7,6 +8,7 @@ from dataclasses import dataclass
 from bsm.bitstream import errors as failures
 from bsm.console import say
 from bsm.files.output import Terminated
+from bsm.files.pipes import is_url
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,9 @@ def report_error(error: BaseException, *, as_json: bool = False) -> None:
 
 def worded(error: BaseException) -> str:
     if isinstance(error, OSError):
-        reason = error.strerror or str(error)
+        reason, name = error.strerror or str(error), str(error.filename)
+        if reason == os.strerror(errno.ENOENT) and not is_url(name):
+            folder = os.path.dirname(name)
+            reason = f"the folder {folder} does not exist" if folder and not os.path.isdir(folder) else reason
         return f"{error.filename}: {reason}" if error.filename else reason
     return f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)

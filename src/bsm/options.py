@@ -169,7 +169,7 @@ def _as(kind: Any, value: Any) -> Any:
 
 def _named(what: str, choices: Mapping[str, Any], name: str) -> Any:
     if not isinstance(name, str) or name not in choices:
-        raise OptionError(f"{what} must be one of {', '.join(choices)}, not {name!r}")
+        raise OptionError(f"unknown {what} {name!r}{suggestion(str(name), choices)} ({', '.join(choices)})")
     return choices[name]
 
 
@@ -182,6 +182,14 @@ def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
     for others, names in (("single meshes", of_meshes), ("sequences", of_sequences)):
         if name in names and what in ("a mesh", "a sequence"):
             raise ArgumentError(f"{name} is for {others}, not for {what}")
-    close = difflib.get_close_matches(name, known, 1)
-    advice = f"did you mean {close[0]}?" if close else f"there are {', '.join(sorted(known))}"
-    raise ArgumentError(f"unknown option {name} for {what}; {advice}")
+    known = sorted(known)
+    advice = suggestion(name, known) or f"; there are {', '.join(known)}"
+    raise ArgumentError(f"unknown option {name} for {what}{advice}")
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """Return a question that suggests a similar name, or ""."""
+    names = list(known)
+    begun = [name for name in names if name.startswith(word)]
+    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
+    return f"; did you mean {found[0]}?" if found else ""

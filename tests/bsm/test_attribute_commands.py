@@ -174,7 +174,7 @@ def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     errors = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / "b.off")["attributes"]
     assert errors["texcoord"] is None and errors["color"]["max_error"] == 0 and errors["normal"]["max_angle_deg"] == 0
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "b.off")]) == 0
-    assert "texcoord: not there any more\n" in capsys.readouterr().out
+    assert "texcoord: missing\n" in capsys.readouterr().out
 
 
 @pytest.mark.slow

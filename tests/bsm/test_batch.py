@@ -134,7 +134,7 @@ def test_outputs_that_would_replace_something(tmp_path):
         plan([a, a], None, to_bsm)
     apart = [str(tmp_path / "a.ply.bsm"), str(tmp_path / "a.obj.bsm")]
     assert [job.output for job in plan([a, obj], None, to_bsm)] == apart
-    with pytest.raises(OptionError, match="to a folder"):
+    with pytest.raises(OptionError, match="need an output folder"):
         plan([a, b], str(tmp_path / "c.bsm"), to_bsm)
     with pytest.raises(OptionError, match="pipe"):
         plan([a, "-"], None, to_bsm)

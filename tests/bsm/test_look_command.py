@@ -44,8 +44,8 @@ def test_the_command_says_what_python_says(files, capsys):
     assert main(["compare", str(files / "a.ply"), str(files / "b.bsm"), "--look"]) == 0
     assert (found["folded_before"], found["folded_after"]) == (0, 0)
     lines = capsys.readouterr().out.splitlines()[-2:]
-    assert lines[0].startswith(f"look               {seen.distance:.4g} (")
-    assert lines[1].startswith("look in facets     ")
+    assert lines[0].startswith(f"look               {seen.distance:.6g} ") and "look distance" in lines[0]
+    assert lines[1].startswith("look_flat          ")
 
 
 def test_meshes_of_other_faces_are_looked_at(files, capsys):

@@ -67,7 +67,7 @@ def test_a_tree_is_mirrored(tmp_path, capsys):
     (tmp_path / "empty").mkdir()
     assert main(["encode", str(tmp_path / "empty"), "-r"]) == 2
     errors = capsys.readouterr().err
-    assert "no folder" in errors and "no mesh files" in errors
+    assert "not a local folder" in errors and "no mesh files" in errors
 
 
 def test_compare_says_it_in_a_sentence_with_units(tmp_path, capsys):

@@ -1,5 +1,6 @@
 """Errors of usage and their messages; completion."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -79,7 +80,7 @@ def test_a_missing_folder_is_named(tmp_path, capsys):
 def test_targets_go_by_the_name_of_their_flag(tmp_path, capsys):
     write_mesh(tmp_path / "a.ply", torus(5, 5))
     assert main(["encode", str(tmp_path / "a.ply"), "--theta", "0"]) == 2
-    assert "a mean angle of 0 degrees cannot be a target" in capsys.readouterr().err
+    assert "mean angle 0 degrees cannot be a target" in capsys.readouterr().err
 
 
 def test_a_pipe_needs_a_format(capsys):
@@ -127,7 +128,7 @@ def test_compare_says_which_file_is_wrong(tmp_path, capsys):
 
 def test_a_target_out_of_reach_has_its_code(tmp_path, capsys):
     write_mesh(tmp_path / "a.npz", torus(9, 6))
-    theta, size = ("cannot be kept", "the best possible is normals"), ("20 bytes at most cannot be", "takes")
+    theta, size = ("cannot be kept", "the best possible is normal error"), ("20 bytes at most cannot be", "takes")
     for words, parts in ((["--theta", "1e-9"], theta), (["--size", "20"], size)):
         assert main(["encode", str(tmp_path / "a.npz"), "-o", str(tmp_path / "b.bsm"), *words]) == 10
         error = capsys.readouterr().err
@@ -180,6 +181,45 @@ def test_a_bound_alone_reports_what_is_visible(words, tmp_path, capsys):
     write_mesh(tmp_path / "a.npz", torus(40, 24))
     command = ["encode", str(tmp_path / "a.npz"), "-f", "-o", str(tmp_path / "b.bsm"), *words]
     assert main([*command, "--preset", "none"]) == 0
-    assert "no look is promised: a look of " in capsys.readouterr().err
+    assert "no look is promised; measured: look " in capsys.readouterr().err
     assert main(command) == 0
     assert "no look is promised" not in capsys.readouterr().err
+
+
+def test_a_dry_run_reports_and_writes_nothing(tmp_path, capsys):
+    write_mesh(tmp_path / "a.npz", torus(9, 6))
+    assert main(["encode", str(tmp_path / "a.npz"), "-r", str(tmp_path), "--dry-run"]) == 2
+    assert main(["encode", str(tmp_path / "a.npz"), "--dry-run", "-o", str(tmp_path / "new/")]) == 0
+    assert main(["encode", "-r", str(tmp_path), "--dry-run", "--json"]) == 0
+    shown = capsys.readouterr()
+    assert "look 0." in shown.err and "0 of" not in shown.err and "of 1" in shown.err
+    assert json.loads(shown.out)["bytes"] > 100
+    assert main(["encode", str(tmp_path / "a.npz"), "--dry-run", "--report", str(tmp_path / "r.json")]) == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "advice"),
+    [
+        (("--effort", "bst"), 2, "unknown value bst; did you mean best?"),
+        (("--set", "partition=mtis"), 2, "unknown value 'mtis' of partition; did you mean metis?"),
+        (("--preset", "fin"), 2, "did you mean fine?"),
+        (("--size", "300"), 10, "preset none reaches it with look "),
+    ],
+)
+def test_errors_name_the_way_out(tmp_path, capsys, words, code, advice):
+    write_mesh(tmp_path / "a.npz", torus(30, 20))
+    try:
+        found = main(["encode", str(tmp_path / "a.npz"), "--dry-run", *words])
+    except SystemExit as error:
+        found = error.code
+    assert found == code and advice in capsys.readouterr().err
+
+
+def test_missing_folders_are_named(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("none/", "none/a.ply"):
+        assert main(["encode", name]) == 9
+        assert capsys.readouterr().err == f"bsm: {name}: the folder none does not exist\n"
+    assert main(["encode", "-r", "none"]) == 2
+    assert "none: not a local folder" in capsys.readouterr().err

@@ -132,7 +132,7 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
             return kept
         asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
     raise TargetError(
-        f"{contract} cannot be kept on this mesh; with its colors or under a checker, it has a look of {seen:.3g}"
+        f"{contract} cannot be kept on this mesh; with its colors or under a checker, the best look is {seen:.3g}"
     )
 
 

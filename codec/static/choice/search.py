@@ -122,9 +122,9 @@ class Search:
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
         if metric is None:
-            return "nothing that can be seen"
+            return "nothing is visible"
         look = metric.look(self._prepared.units.into(draft.decoded))
-        return f"a look of {look.distance:.3g}"
+        return f"look {look.distance:.3g}"
 
     def _ways(self, bounds: Bounds, look: float) -> Iterator[Way]:
         """Ways that may be smallest; blocks never are where a surface is flat but for sharp edges."""

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 COLORED = ("ply", "obj", "glb")  # formats that hold colors of vertices
-ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "under a checker", "color": "in colors"}
+ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "checker", "color": "colors"}
 SHOWN = 99.0  # percentile of the distances that has the last color: single vertices shall not make all others blue
 
 
@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--permutation", metavar="FILE.npy", help="the file that encode wrote: vertex p[j] of A is vertex j of B")
     surface = "for meshes, also print the mean normal difference, the rms error in mean edges, the Hausdorff distance"
     add("--surface", action="store_true", help=surface)
-    alike = "also compare pictures: up to a distance of 1, both look the same. The faces may differ. "
+    alike = "also measure the look distance; up to 1, both look the same in smooth shading. The faces may differ. "
     add("--look", action="store_true", help=f"{alike}A sequence is compared frame by frame")
     drawn = "draw both and their difference, from the side where it is largest (implies --look); for sequences, "
     add("--picture", metavar="FILE.png", help=f"{drawn}a curve of the error of each frame")
@@ -60,17 +60,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 EXPLAINED = {
     "nmsve": "normalized mean squared visual error; 0 is best",
-    "nmsve_db": "the same in decibels; lower is better",
+    "nmsve_db": "nmsve in decibels; lower is better",
     "theta_deg": "mean angle between normals of faces, degrees",
     "angle_deg": "the same, weighted by area",
     "rms": "root mean square of vertex errors, in the unit of the mesh",
-    "rms_relative": "the same, as a fraction of the diagonal",
+    "rms_relative": "root mean square of vertex errors, as a fraction of the diagonal",
     "max_error": "largest vertex error, in the unit of the mesh",
-    "max_error_relative": "the same, as a fraction of the diagonal",
+    "max_error_relative": "largest vertex error, as a fraction of the diagonal",
     "flattened": "triangles that lost their area",
     "merged": "vertices that rounding put at one place",
     "folded_before": "edges folded by over 90 degrees in the original",
     "folded_after": "the same in the decoded mesh",
+    "mnd": "mean difference of unit normals of faces",
+    "rms_over_edge": "root mean square of vertex errors, in mean edge lengths",
+    "hausdorff": "largest distance between the surfaces",
+    "surface_distance": "mean distance between the surfaces",
+    "hausdorff_relative": "the largest, as a fraction of the diagonal",
+    "look": "look distance; up to 1, both look the same in smooth shading",
+    "look_flat": "the same in flat shading",
+    "look_checker": "the same with the texture coordinates of a checkerboard",
+    "look_colors": "the same in vertex colors",
+    "kg": "error of Karni and Gotsman, percent",
+    "flicker": "error of accelerations, percent of the accelerations of the original",
+    "look_worst": "look distance of the worst frame; up to 1, both look the same in smooth shading",
+    "look_mean": "mean look distance",
+    "unlike_worst": "largest mean difference of shades of a frame",
+    "bpvf_total": "bits per vertex and frame of the whole file",
 }
 
 
@@ -94,7 +109,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
             for semantic, name in ATTRIBUTE_LOOKS.items():
                 values = look_values(original, semantic)
                 under = None if values is None else AttributeLook(original, semantic, values).compare(decoded)
-                more |= {} if under is None else {name.split()[-1]: under}
+                more |= {} if under is None else {name: under}
             if args.picture:
                 write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
         progress.stage("comparing")
@@ -112,22 +127,19 @@ def run(args: argparse.Namespace, console: Console) -> None:
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
     lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
-    for name, value in compared.items():
-        number = "-inf" if value is None else f"{value:.6g}"
-        lines.append(f"{name:<18} {number:<12} {EXPLAINED.get(name, '')}".rstrip() + "\n")
-    if seen:
-        parts = f"mean difference of shades {seen.unlike:.3g}, largest {seen.gone:.3g}"
-        lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
-        lines.append(f"{'look in facets':<19}{more['flat']:.4g}\n")
-        lines += [
-            f"{name:<18} {value:.4g}\n"
-            for name in ATTRIBUTE_LOOKS.values()
-            if (value := more.get(name.split()[-1])) is not None
-        ]
+    looks = {"look": seen.distance, **{f"look_{name}": value for name, value in more.items()}} if seen else {}
+    lines += [f"{line}\n" for line in explained(compared | looks)]
     for name, errors in attributes.items():
         text = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
-        lines.append(f"{printable(name)}: {'not there any more' if text is None else text}\n")
+        lines.append(f"{printable(name)}: {'missing' if text is None else text}\n")
     print("".join(lines), end="")
+
+
+def explained(numbers: dict[str, Any]) -> list[str]:
+    return [
+        f"{name:<18} {'-inf' if value is None else f'{value:.6g}':<12} {EXPLAINED.get(name, '')}".rstrip()
+        for name, value in numbers.items()
+    ]
 
 
 def _compared(
@@ -204,7 +216,7 @@ def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
         said = f"not compared: {row['not_compared']}" if "not_compared" in row else sentence(row, "meters")
         print(f"mesh {row['mesh']}, primitive {row['primitive']}: {said}")
         for name, errors in row.get("attributes", {}).items():
-            values = "not there any more" if errors is None else ", ".join(f"{k} {v:.4g}" for k, v in errors.items())
+            values = "missing" if errors is None else ", ".join(f"{k} {v:.4g}" for k, v in errors.items())
             print(f"  {printable(name)}: {values}")
     return True
 
@@ -313,8 +325,8 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         numbers = {name: finite(value) for name, value in result.items()}
         return as_json({**numbers, "frames": of_frames, "loops": list(repeats)})
     worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
-    lines = [f"{name:<18} {value:.6g}" for name, value in result.items()]
-    lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
+    lines = explained(result)
+    lines.append(f"{'worst_frame':<18} {worst:<12} the frame with the largest vertex error")
     return "\n".join([*lines, *repeats])
 
 

@@ -16,7 +16,7 @@ from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, re
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
-from bsm.files.mesh import GLTF, WRITTEN_FORMATS, by_name, format_of_name, save_written, written_mesh
+from bsm.files.mesh import GLTF, WRITTEN_FORMATS, by_name, format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
@@ -90,9 +90,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         output = output_inside(output, args.input, f".{args.format or 'ply'}")
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
     if kind not in WRITTEN_FORMATS:
-        raise OptionError(
-            f"{output}: the suffix is not that of a mesh format; use --format, one of {', '.join(WRITTEN_FORMATS)}"
-        )
+        raise unknown_suffix(output)
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     limits = limits_of(args.limits)

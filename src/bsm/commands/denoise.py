@@ -18,7 +18,16 @@ from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
-from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, copied, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import (
+    MESH_FORMATS,
+    WRITTEN_FORMATS,
+    copied,
+    format_of_name,
+    read_mesh,
+    save_written,
+    unknown_suffix,
+    written_mesh,
+)
 from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
@@ -126,8 +135,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     if kind not in (*WRITTEN_FORMATS, STREAM):
         if args.output == "-":
             raise OptionError(f"a pipe has no suffix; give --format: {', '.join(WRITTEN_FORMATS)}")
-        known = ", .".join((*WRITTEN_FORMATS, STREAM))
-        raise OptionError(f"{args.output}: the suffix is not that of a mesh format; use one of .{known}")
+        raise unknown_suffix(args.output, STREAM)
     refuse_to_overwrite(args.output, args.may_replace(args.output))
 
     from bsm.api import encode, look

@@ -1,6 +1,8 @@
 """bsm encode: mesh files to streams."""
 
 import argparse
+import os
+from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
@@ -28,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     formats = tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ)))
     known = "format of the input, as a suffix without the dot (default: by its name or content)"
     add("--format", choices=formats, metavar="FORMAT", help=known)
+    add("--dry-run", action="store_true", help="encode, check and report, but write no file")
     add("--permutation", metavar="FILE.npy", help="write the input vertex of each decoded vertex")
     about_meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
     add("--meta", action="append", default=[], metavar="NAME=TEXT", help=about_meta)
@@ -43,18 +46,24 @@ def run(args: argparse.Namespace, console: Console) -> int:
     members: tuple[str, ...] = ()
     one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
     if args.piped_frames and args.format not in (None, "npy"):
-        raise OptionError(f"--frames takes npy arrays, and --format says {args.format}")
+        raise OptionError(f"--frames takes npy arrays; it cannot be combined with --format {args.format}")
     if len(args.inputs) > 1 and one_stream and not args.recursive:
         members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
     elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
         console.note(
-            f"{len(args.inputs)} inputs are numbered like the frames of one animation; to make one stream of them, "
+            f"{len(args.inputs)} inputs are numbered like the frames of one animation; to write one stream, add "
             "-o NAME.bsm"
         )
+    if args.dry_run:
+        if args.permutation or args.report:
+            raise OptionError("--dry-run writes no file; leave out --permutation and --report")
+        args.output = None
     if args.recursive:
         jobs = plan_trees(args.inputs, args.output, ".bsm")
     else:
         jobs = plan(args.inputs, args.output, lambda _: ".bsm")
+    if args.dry_run:
+        jobs = [replace(job, output=os.devnull) for job in jobs]
     if args.permutation:
         if len(jobs) > 1:
             raise OptionError("--permutation is for one input")

@@ -8,9 +8,9 @@ from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
-from bsm.cli import suggestion
 from bsm.files.mesh import READERS
 from bsm.files.output import refuse_terminal
+from bsm.options import suggestion
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,8 @@ class Setting:
     def add(self, group: argparse._ActionsContainer) -> None:
         """Add it as a flag. Without a value the namespace has no such name: defaults are elsewhere."""
         typed = {"type": self.type, "metavar": self.metavar}
+        if "|" in self.metavar:
+            typed["choices"] = self.metavar.split("|")
         how: dict[str, Any] = {"action": argparse.BooleanOptionalAction} if self.type is bool else typed
         how |= {"dest": self.field, "default": argparse.SUPPRESS, "help": self.help}
         group.add_argument(f"--{self.field.replace('_', '-')}", **how)
@@ -66,8 +68,12 @@ def named_setting(text: str) -> tuple[str, Any]:
     name = name.strip().replace("-", "_")
     if (setting := known.get(name)) is None:
         raise argparse.ArgumentTypeError(f"unknown setting {name!r}{suggestion(name, known)}; see --help-all")
+    value, choices = value.strip(), setting.metavar.split("|")
+    if len(choices) > 1 and value not in choices:
+        wrong = f"unknown value {value!r} of {name}{suggestion(value, choices)} ({', '.join(choices)})"
+        raise argparse.ArgumentTypeError(wrong)
     try:
-        return name, setting.type(value.strip())
+        return name, setting.type(value)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{name}={setting.metavar} is expected, not {text!r}") from None
 
@@ -165,9 +171,7 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 BOUNDS = (
-    Setting(
-        "look", number_or_length, "D", "distance from the original in pictures, at most D: 1 is balanced, 3 a preview"
-    ),
+    Setting("look", number_or_length, "D", "largest look distance from the original: 1 is balanced, 3 a preview"),
     Setting(
         "max_error",
         number_or_length,

@@ -135,9 +135,14 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
     """Write a mesh file, as a whole or not at all, in the format of its name, and the files that belong beside it."""
     kind = format_of_name(path)
     if kind not in WRITTEN_FORMATS:
-        raise OptionError(f"{path}: the suffix is not that of a mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
+        raise unknown_suffix(path)
     written = written_mesh(mesh, kind, path)
     return save_written(path, written, overwrite=overwrite)
+
+
+def unknown_suffix(path: str | os.PathLike[str], *more: str) -> OptionError:
+    """Return an error that lists the suffixes that can be written."""
+    return OptionError(f"{path}: unknown format; use one of .{', .'.join((*more, *WRITTEN_FORMATS))}")
 
 
 def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:

@@ -90,8 +90,8 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         *generations,
         *encoder.notes,
         *(["left out: materials, images"] if left_out else []),
-        *([f"{images} of the bytes are images, as they are"] if images else []),
-        *([f"no look is promised: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
+        *([f"{images} bytes are unchanged images"] if images else []),
+        *([f"no look is promised; measured: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
     vertices, faces, size, error = result.header.vertices, len(encoder.mesh.faces), result.size, result.comparison
     taken, bpv = size_of(job.input), 8 * (size - images) / vertices
@@ -140,7 +140,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else loops.descriptions())]
     look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
     if look == math.inf and seen is not None:
-        notes.append(f"no look is promised: the worst frame has a look of {seen:.2g}; the default allows 1")
+        notes.append(f"no look is promised; measured: look {seen:.2g} in the worst frame (the default keeps 1)")
     kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame, "
     vertices, faces, bpvf = len(encoder.vertex_order), len(encoder.face_order), 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)

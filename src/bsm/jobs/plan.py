@@ -25,9 +25,9 @@ def plan(
     folder = output is not None and (output.endswith("/") or (not pipes.is_url(output) and Path(output).is_dir()))
     if len(names) > 1:
         if "-" in names or output == "-":
-            raise OptionError("a pipe holds one mesh: name files, or one input alone")
+            raise OptionError("a pipe holds one mesh; name files, or give only one input")
         if output and not folder:
-            raise OptionError(f"{len(names)} inputs are written to a folder: -o {output}/")
+            raise OptionError(f"{len(names)} inputs need an output folder: -o {output}/")
     if output is None:
         jobs = [Job(name, default_output(name, suffix(name))) for name in names]
     elif folder and not (sole_folder and len(names) == 1):
@@ -46,14 +46,14 @@ def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[
     jobs = []
     for folder in folders:
         if pipes.is_url(folder) or not Path(folder).is_dir():
-            raise OptionError(f"{folder} is no folder, and --recursive takes folders of this machine")
+            raise OptionError(f"{folder}: not a local folder; --recursive searches local folders")
         for path in sorted(Path(folder).rglob("*")):
             if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
                 place = path if output is None else Path(output, path.relative_to(folder))
                 jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix)))))
     jobs = apart(jobs, lambda _: suffix)
     if not jobs:
-        raise OptionError(f"there are no mesh files in {' or '.join(folders)}, or below ({', '.join(MESH_SUFFIXES)})")
+        raise OptionError(f"no mesh files in {', '.join(folders)} or subfolders ({', '.join(MESH_SUFFIXES)})")
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
     for parent in {Path(job.output).parent for job in jobs}:
         parent.mkdir(parents=True, exist_ok=True)

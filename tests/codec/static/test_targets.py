@@ -45,7 +45,7 @@ def test_what_cannot_be_met_is_an_error_that_says_the_best_there_is(finest):
         steps.append(step)
         return Model(step, 1.0)
 
-    with pytest.raises(TargetError, match=f"the best possible is a mean angle of {1e3 * finest:.6g} degrees"):
+    with pytest.raises(TargetError, match=f"the best possible is mean angle {1e3 * finest:.6g} degrees"):
         search_step(attempt, Target("theta_deg", 990.0 * finest), 0.004, finest)
     assert finest <= min(steps) <= 1.0001 * finest, "the finest, and not a hair finer"
 
