@@ -105,23 +105,28 @@ async function withPage(work) {
 }
 
 /**
- * Milliseconds of decodings, alone and in a team, and the least times that both took in turns; the first is that of a page
+ * Milliseconds of decodings, alone and in a pool of threads, and the least times that both took in turns; the first is that of a page
  * which has decoded nothing yet.
  */
 function decodeInPage(address) {
     return withPage(async (page) => {
         await page.goto(`${address}empty`);
         return page.evaluate(async ([rounds]) => {
-            const { decode, Kernels, startTeam } = await import("/main.js");
+            const { decode, Kernels, Pool } = await import("/main.js");
             const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
             const stream = new Uint8Array(await (await fetch("/bunny-balanced.bsm")).arrayBuffer());
-            const team = startTeam();
+            const pool = new Pool();
+            const inPool = () => new Promise((onEnd, onError) => {
+                const decoding = pool.open({ onEnd, onError }, { drawing: "whole" });
+                decoding.receiveData(stream.slice());
+                decoding.receiveEof();
+            });
             const [alone, together] = [[], []];
             for (let k = 0; k < rounds; k++) {
                 const before = performance.now();
                 decode(kernels, stream);
                 const between = performance.now();
-                await team.decode(kernels, stream);
+                await inPool();
                 alone.push(between - before);
                 together.push(performance.now() - between);
             }
@@ -198,7 +203,7 @@ const FINISH = `
     return { cold, fetched, warm };
 `;
 
-/** Ours: what is on a grid is decoded as it comes, blocks in a team of threads, which takes a stream that is complete. */
+/** Ours: what is on a grid is decoded as it comes, blocks by a pool of threads. */
 const ours = { quick: (stream) => `(async () => {
     const begin = performance.now();
     const script = import("/quick.js");
@@ -220,12 +225,16 @@ const ours = { quick: (stream) => `(async () => {
     ${FINISH}
 })()`, smallest: (stream) => `(async () => {
     const begin = performance.now();
-    const wasm = WebAssembly.compileStreaming(fetch("/small.wasm"));
     const bytes = fetch("/${stream}").then((response) => response.arrayBuffer());
-    const { Kernels, Team } = await import("/small.js");
-    const team = new Team(Array.from({ length: Math.min(navigator.hardwareConcurrency, 4) - 1 }, () => new Worker("/small-worker.js", { type: "module" })));
-    const [module, whole] = await Promise.all([wasm, bytes]);
-    const again = () => team.decode(new Kernels(module), new Uint8Array(whole));
+    const { Pool } = await import("/pool.js");
+    const pool = new Pool();
+    void pool.preload("small");
+    const whole = await bytes;
+    const again = () => new Promise((onEnd, onError) => {
+        const decoding = pool.open({ onEnd, onError }, { drawing: "whole" });
+        decoding.receiveData(new Uint8Array(whole.slice()));
+        decoding.receiveEof();
+    });
     await again();
     ${FINISH}
 })()` };
@@ -267,7 +276,7 @@ const draconic = (stream) => `(async () => {
 const WAYS = {
     draco: { decoder: ["draco_wasm_wrapper.js", "draco_decoder.wasm"], script: draconic },
     quick: { decoder: ["quick.js", "quick.wasm"], script: ours.quick },
-    smallest: { decoder: ["small.js", "small.wasm"], script: ours.smallest },
+    smallest: { decoder: ["pool.js", "small.js", "small.wasm"], script: ours.smallest },
 };
 
 /** One run; now and then Chromium does not slow a page down, which bytes that came too early tell: then another. */

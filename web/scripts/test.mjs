@@ -1,12 +1,14 @@
 // `npm test`: types, then the tests of test/, bundled and run by node.
 import { execFileSync } from "node:child_process";
-import { readdirSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "esbuild";
 import { WEB } from "./kernels.mjs";
 
-const folder = join(WEB, "node_modules/.cache/tests");
-rmSync(folder, { recursive: true, force: true });
+const cache = join(WEB, "node_modules/.cache");
+mkdirSync(cache, { recursive: true });
+const folder = mkdtempSync(join(cache, "tests-")); // several may run at a time
+process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 const chosen = process.argv.slice(2);
 const tests = readdirSync(join(WEB, "test"))
     .filter((name) => name.endsWith(".test.ts") && (chosen.length === 0 || chosen.some((part) => name.startsWith(part))))

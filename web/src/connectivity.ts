@@ -1,4 +1,4 @@
-/** Faces, their original order, and parts (specification, C 4 to C 10). */
+/** Faces (specification, C 4 to C 8). */
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
 import type { Header } from "./header";
 import type { Ints, Memory } from "./memory";
@@ -14,7 +14,6 @@ const RARE_COUNTS = 5 * RARE_SPAN;
 const FRONT = { columns: 8, buckets: 8, heads: 18, made: 8, alive: 9 };
 const TALLIES = { size: 8, dummies: 3, turns: 4, steps: 5 };
 const [NONSENSE, NO_ROOM] = [1, 2];
-const ORDER = { unary: 6, inputs: 4, classes: 32 };
 /** Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together. */
 const [FACE, VERTEX, FAN] = [100, 400, 240];
 
@@ -132,74 +131,4 @@ function findBorders(memory: Memory, faces: Ints, after: Ints, before: Ints): vo
     for (let fan = 0; fan < next.length; fan++) {
         if (next[fan] >= 0) last[next[fan]] = fan;
     }
-}
-
-/** What the mesh was: the number that each vertex had, its faces, and the coded corner that each corner of these is. */
-export interface Arrangement {
-    numbers: Int32Array;
-    faces: Int32Array;
-    corners: Int32Array;
-}
-
-/** The order that a mesh had: the original number of each vertex, and the original faces (C 9). */
-export function readArrangement(memory: Memory, coder: Coder, faces: Ints, vertexCount: number): Arrangement {
-    const count = faces.length / 3;
-    const numbers = readPermutation(memory, coder, vertexCount);
-    const places = readPermutation(memory, coder, count);
-    const rotations = readTurns(memory, coder, count);
-    const renumbered = faces.view.map((corner) => numbers[corner]);
-    const original = new Int32Array(renumbered.length);
-    const coded = new Int32Array(renumbered.length);
-    suggestedOrder(renumbered).forEach((face, rank) => {
-        const place = places[rank];
-        const corners = renumbered.subarray(3 * face, 3 * face + 3);
-        let first = 0;
-        for (let k = 1; k < 3; k++) if (corners[k] < corners[first]) first = k;
-        first += rotations[place];
-        for (let k = 0; k < 3; k++) {
-            coded[3 * place + k] = 3 * face + ((first + k) % 3);
-            original[3 * place + k] = corners[(first + k) % 3];
-        }
-    });
-    return { numbers, faces: original, corners: coded };
-}
-
-/** Numbers 0, 1 and 2 (C 9.4). */
-export function readTurns(memory: Memory, coder: Coder, count: number): Int32Array {
-    return memory.scratch(() => {
-        const turns = memory.ints(count);
-        turns.view.fill(0);
-        const bank = makeBank(memory, { slots: 108, selectors: 2, inputs: 2 });
-        checkOrder(coder, memory.call("code_turns", coder.parts, bank, turns), `${count} rotations`);
-        return turns.view.slice();
-    });
-}
-
-function readPermutation(memory: Memory, coder: Coder, size: number): Int32Array {
-    return memory.scratch(() => {
-        const { unary, inputs, classes } = ORDER;
-        const span = unsignedSpan(unary) + 3;
-        const bank = makeBank(memory, { slots: (1 + classes + 2 * classes * classes) * span, selectors: span, inputs });
-        const values = memory.ints(size);
-        values.view.fill(0);
-        checkOrder(coder, memory.call("code_steps", coder.parts, bank, values, memory.ints(size + 1)), `an order of ${size}`);
-        return values.view.slice();
-    });
-}
-
-function checkOrder(coder: Coder, legal: number, what: string): void {
-    if (coder.overran || !legal) throw coder.nonsense(`it is not ${what}`);
-}
-
-/** Faces by their largest corner, then the middle one, then the least (C 9.5). */
-function suggestedOrder(faces: Int32Array): Uint32Array {
-    const keys = faces.slice();
-    for (let i = 0; i < keys.length; i += 3) keys.subarray(i, i + 3).sort();
-    return Uint32Array.from({ length: faces.length / 3 }, (_, face) => face).sort((a, b) => {
-        for (let k = 2; k >= 0; k--) {
-            const difference = keys[3 * a + k] - keys[3 * b + k];
-            if (difference !== 0) return difference;
-        }
-        return a - b;
-    });
 }

@@ -75,17 +75,12 @@ export class Decoder {
         this.engine.release();
     }
 
-    /** Decode the rest of a complete stream; faster than asking for events. Without helpers it is there at once. */
+    /** Decode the rest of a complete stream, without helpers; faster than asking for events. */
     finish(): Mesh {
-        return this.advance() as Mesh;
-    }
-
-    /** The same with helpers: to be called again where it has come to a block that is not there yet. */
-    advance(): Mesh | typeof NEED_BLOCK {
         const { kept } = this;
         this.receiveEof();
         for (let event; (event = this.next(false)) !== END_OF_STREAM; ) {
-            if (event === NEED_BLOCK) return event;
+            if (event === NEED_BLOCK) throw new TypeError("a decoder with helpers gives events; it cannot finish alone");
             if (typeof event === "string" || kept.first) continue;
             if (event.type === "connectivity") kept.faces = event.faces;
             if (event.type === "attribute") kept.attributes.push(withoutType(event));

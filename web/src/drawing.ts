@@ -4,8 +4,7 @@ import type { Attribute } from "./attributes";
 import type { Changes, ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./events";
 import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { inverse } from "./numbering";
-import { upTo } from "./numbers";
+import { inverse, upTo } from "./numbers";
 import { dressed, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };

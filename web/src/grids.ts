@@ -4,18 +4,16 @@ import { crc32 } from "./checksums";
 import { Budget } from "./budget";
 import { decodeConnectivity } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./events";
-import { BsmError, CorruptError } from "./errors";
+import { BsmError, CorruptError, UnsupportedError } from "./errors";
 import { Grid } from "./grid";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
 import { Memory, type Ints } from "./memory";
-import { Numbering } from "./numbering";
-import { decodeOrder } from "./order";
 import type { Packet } from "./packets";
 import { Reader } from "./reader";
 import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
-import { LIGHT_COST, meshCost, orderCost } from "./work";
+import { LIGHT_COST, meshCost } from "./work";
 
 export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
@@ -29,7 +27,6 @@ export class Decoder {
     private error?: BsmError;
     private header?: Header;
     private faces?: Ints;
-    private numbering?: Numbering;
     private grid?: Grid;
     private chunks = 0;
 
@@ -81,8 +78,7 @@ export class Decoder {
     finish(): Mesh {
         this.receiveEof();
         while (this.nextEvent() !== END_OF_STREAM);
-        const [numbering, grid] = [required(this.numbering), required(this.grid)];
-        return { positions: numbering.arranged(grid.positions), faces: numbering.faces, attributes: [] };
+        return { positions: required(this.grid).positions, faces: required(this.faces).view.slice(), attributes: [] };
     }
 
     private accept(packet: Packet): void {
@@ -90,7 +86,7 @@ export class Decoder {
             case "header": return this.acceptHeader(packet.header);
             case "metadata": return void this.queue.push(packet);
             case "connectivity": return this.acceptConnectivity(packet.data);
-            case "order": return this.acceptOrder(packet.data);
+            case "order": throw new UnsupportedError("this build decodes no original order; bsm.js does");
             case "grid": return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
                 this.check(packet.positions);
@@ -117,24 +113,17 @@ export class Decoder {
         this.budget.charge(meshCost(header.vertices, header.faces, data.length), data.length);
     }
 
-    private acceptOrder(data: Uint8Array): void {
-        const { vertices, faces } = required(this.header);
-        this.budget.charge(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = decodeOrder(this.memory, data, required(this.faces), required(this.header));
-    }
-
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         const grid = (this.grid ??= this.begunGrid());
         this.budget.charge(LIGHT_COST.frame(data.length), data.length);
         const changes = grid.decode(first, count, data);
-        this.queue.push({ type: "block", index: this.chunks++, ...required(this.numbering).spread(changes) });
+        this.queue.push({ type: "block", index: this.chunks++, ...changes });
     }
 
     private begunGrid(): Grid {
         const { vertices, faces } = required(this.header);
-        this.numbering ??= new Numbering(required(this.faces).view.slice(), vertices);
-        const { size, loose } = this.numbering;
-        this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose });
+        const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
+        this.queue.push({ type: "connectivity", faces: required(this.faces).view.slice(), vertices, loose });
         this.budget.charge(LIGHT_COST.whole(vertices, faces));
         return new Grid(this.memory, required(this.faces), required(this.header));
     }

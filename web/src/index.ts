@@ -9,7 +9,6 @@ export * from "./decoder";
 export type * from "./drawing";
 export { Helper } from "./helper";
 export type { Share, SharedBlock } from "./share";
-export { Team, type Member } from "./team";
 export type { DrawnEvent } from "./worker";
 export { openDesk, serve } from "./workerFull";
 

@@ -5,7 +5,7 @@ import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
 import { needOf, type Build, type Need } from "./peek";
 import { here, isPage, PAGE, type Source } from "./source";
-import { processors } from "./threads";
+import { processors, WORTHWHILE } from "./threads";
 
 export { here, placeOf, type Source } from "./source";
 export type { Build } from "./peek";
@@ -34,7 +34,6 @@ export interface StreamDecoding {
 }
 
 const LIMIT = 4;
-const WORTHWHILE = 8192;
 
 /** A thread, and the streams that it works on, as their decoder or as a helper. */
 interface Hand {

@@ -4,5 +4,4 @@ export { DEFAULT_LIMITS, type Limits } from "./limits";
 export { Kernels } from "./kernels";
 export { hasVectors } from "./threads";
 export * from "./decoder";
-export { Team, type Member } from "./team";
 export { openDesk, serve } from "./workerFull";

@@ -1,15 +1,10 @@
 /** Threads that help a decoder: each decodes some of the chains of the stream. */
-import { decode, Decoder, NEED_BLOCK, type Mesh } from "./decoder";
 import type { Header } from "./header";
 import { chainOf, type SharedBlock } from "./share";
-import type { Kernels } from "./kernels";
-import type { Limits } from "./limits";
 import type { Answer, Endpoint, Order, Start } from "./worker";
-import { processors } from "./threads";
+import { processors, WORTHWHILE } from "./threads";
 
 const MOST = 3;
-/** Vertices from which on more is won than threads cost. */
-export const WORTHWHILE = 8192;
 
 export interface TeamListener {
     onBlock: (shared: SharedBlock) => void;
@@ -35,9 +30,8 @@ export class Team {
     private listener?: TeamListener;
     private task = 0;
     private busy = 0;
-    private last: Promise<unknown> = Promise.resolve();
 
-    constructor(members: Member[], private readonly worthwhile = WORTHWHILE) {
+    constructor(members: Member[]) {
         this.members = [...members];
         for (const member of members) {
             member.onmessage = ({ data }: MessageEvent<Answer>) => this.hear(data);
@@ -66,13 +60,6 @@ export class Team {
         for (const member of this.members) this.say(member, { task: this.task, data: null });
     }
 
-    /** Decode a complete stream in this thread and its helpers; in this one alone where there are none. Streams wait for each other. */
-    decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Promise<Mesh> {
-        const mesh = this.last.then(() => this.decodeNow(kernels, data, limits));
-        this.last = mesh.catch(() => {});
-        return mesh;
-    }
-
     close(): void {
         for (const member of this.members) {
             this.say(member, { task: this.task, stop: true });
@@ -80,34 +67,6 @@ export class Team {
             member.close?.();
         }
         this.members.length = 0;
-    }
-
-    private async decodeNow(kernels: Kernels, data: Uint8Array, limits: Partial<Limits>): Promise<Mesh> {
-        const arrived: SharedBlock[] = [];
-        let over = false;
-        let wake = (): void => {};
-        const onBlock = (shared: SharedBlock): void => {
-            arrived.push(shared);
-            wake();
-        };
-        const onOver = (): void => {
-            over = true;
-            wake();
-        };
-        const helpers = (header: Header): number => {
-            const count = this.begin({ kernels: kernels.module, limits }, helpersFor(header, this.worthwhile), { onBlock, onOver });
-            if (count > 0) this.receiveData(data);
-            return count;
-        };
-        const decoder = new Decoder(kernels, limits, { helpers });
-        decoder.receiveData(data);
-        for (;;) {
-            const mesh = decoder.advance();
-            if (mesh !== NEED_BLOCK) return mesh;
-            while (arrived.length === 0 && !over) await new Promise<void>((go) => (wake = go));
-            if (arrived.length === 0) return decode(kernels, data, limits); // a page may learn only now that it may have no threads
-            for (const shared of arrived.splice(0)) decoder.receiveBlock(shared);
-        }
     }
 
     private say(member: Member, order: Order): void {

@@ -1,5 +1,8 @@
 /** What this machine has. */
 
+/** Vertices from which on helpers win more than they cost. */
+export const WORTHWHILE = 8192;
+
 /** Threads that this machine runs at the same time. */
 export function processors(): number {
     return globalThis.navigator?.hardwareConcurrency ?? 1;

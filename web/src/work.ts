@@ -5,10 +5,6 @@ export function meshCost(vertices: number, faces: number, received: number): num
     return 140 * vertices + 85 * faces + 700 * Math.max(0, faces / 2 - vertices) + 400 * received;
 }
 
-export function orderCost(vertices: number, faces: number, received: number): number {
-    return 500 * vertices + 750 * faces + 100 * received;
-}
-
 /** Of a grid before its bytes are counted, and of each of its frames. */
 export const LIGHT_COST = {
     whole: (vertices: number, faces: number): number => 200 * vertices + 40 * faces,

@@ -2,7 +2,8 @@
 import { Pool } from "../pool";
 import { bytesOf, fetched, inlined, served } from "./inlined";
 import type { Content } from "./facts";
-import { View, type Encode } from "./view";
+import type { Encode } from "./upload";
+import { View } from "./view";
 
 declare const LICENSES: string;
 

@@ -1,0 +1,191 @@
+/** The original, the stream and Draco's file: which of them are shown, side by side or alone, and in what colors. */
+import { BufferAttribute } from "three";
+import type { BSMGeometry } from "../geometry";
+import { imagesOf, materialsOf, turnOf } from "../materials";
+import type { Pool } from "../pool";
+import { colorsOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
+import { element, percent, sized, type Content } from "./facts";
+import type { Form } from "./form";
+import { bytesOf } from "./inlined";
+import type { Mode, Shading, Stage } from "./stage";
+import { wholeOf } from "./tiles";
+
+export class Comparison {
+    /** Whether colors are to be computed again. */
+    stale = false;
+    /** Whether the stream's mesh is on the stage. */
+    shown = true;
+    /** Whether the other meshes are there, or on their way. */
+    accompanied = false;
+    private content: Content = { name: "", main: 0, layers: [], facts: {} };
+    private geometries: (BSMGeometry | undefined)[] = [];
+    private offs: (Float32Array | undefined)[] = [];
+    private readonly dressed = new Set<number>();
+    private readonly scheme: HTMLSelectElement;
+
+    constructor(private readonly form: Form, private readonly stage: Stage) {
+        this.scheme = form.control("color");
+        form.part("scale").querySelector("div")!.style.background = RAMP;
+        form.on("mode", "change", () => this.compare());
+        form.on("wipe", "input", () => this.compare());
+        form.on("shading", "change", ({ value }) => stage.shade(value as Shading));
+        form.on("color", "change", () => (this.stale = true));
+    }
+
+    /** Begin with other meshes; those that are not there yet cannot be chosen. */
+    open(content: Content): void {
+        const { form } = this;
+        const { layers, main } = (this.content = content);
+        [this.geometries, this.offs, this.accompanied] = [[], [], false];
+        this.dressed.clear();
+        this.stage.clear();
+        const part = form.part("layers");
+        part.hidden = form.part("modes").hidden = layers.length < 2;
+        part.replaceChildren(part.querySelector("legend")!);
+        layers.forEach(({ title, detail, size }, i) => {
+            const own = { type: "radio", name: "layer", value: String(i), disabled: i !== main, checked: i === main };
+            const input = Object.assign(document.createElement("input"), own);
+            input.addEventListener("change", () => this.compare());
+            const small = element("small", `${sized(size)}${detail ? `, ${detail}` : ""}`);
+            part.append(element("label", "", input, new Text(title), small));
+        });
+        form.root.querySelector<HTMLInputElement>("[name=mode][value=one]")!.checked = true;
+        this.allow("error", false);
+        this.compare();
+    }
+
+    /** Begin with the stream's mesh anew; the one before stays on the stage until there is something of it. */
+    begin(geometry: BSMGeometry): void {
+        const { main } = this.content;
+        this.geometries[main] = geometry;
+        this.dressed.delete(main);
+        if (this.dressed.size === 0) this.allow("own", false);
+        this.shown = false;
+    }
+
+    show(geometry: BSMGeometry, center: number[], diagonal: number): void {
+        if (this.shown) return;
+        this.shown = this.stale = true;
+        this.stage.show(this.content.main, geometry);
+        this.stage.place(center, diagonal, turnOf(geometry.metadata));
+    }
+
+    /** Fetch and decode the other meshes, then wipe between the first and the stream's; `mine` says whether they are still wanted. */
+    async accompany(pool: Pool, mine: () => boolean): Promise<void> {
+        const { layers, main } = this.content;
+        const { form, geometries, offs, stage } = this;
+        await this.dress(main);
+        for (const [i, layer] of layers.entries()) {
+            const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
+            const geometry = i === main ? undefined : await wholeOf(pool, await bytesOf(layer));
+            if (!mine()) return;
+            offs[i] = off;
+            if (off) this.allow("error", true);
+            this.stale = true;
+            if (!geometry) continue;
+            geometries[i] = geometry;
+            stage.show(i, geometry);
+            await this.dress(i);
+            this.recolor(); // it is seen only as it is to look
+            form.root.querySelector<HTMLInputElement>(`[name=layer][value="${i}"]`)!.disabled = false;
+            if (i === 0) form.pick("mode", "wipe");
+        }
+        form.root.dataset.layers = String(layers.length);
+    }
+
+    /** Make materials of what the metadata say, once images are there; offer them and colors. */
+    async dress(index = this.content.main): Promise<void> {
+        const { geometries, scheme } = this;
+        const { metadata, color, pieces } = geometries[index]!;
+        const named = [...metadata.keys()].some((key) => key.startsWith("material."));
+        if (named) {
+            const images = await imagesOf(metadata);
+            if (metadata !== this.geometries[index]?.metadata) return; // another mesh has taken its place
+            const materials = materialsOf(metadata, images, 1 + Math.max(0, ...pieces.map(({ material }) => material)));
+            for (const material of materials) material.vertexColors = color !== undefined;
+            this.stage.dress(index, materials);
+            this.dressed.add(index);
+        }
+        if (!named && !color) return;
+        this.allow("own", true);
+        if (scheme.value === "plain") scheme.value = "own";
+        this.stale = true;
+    }
+
+    /** Show errors in colors, or no longer. */
+    toggleErrors(): void {
+        const own = this.dressed.size > 0 || this.geometries[this.content.main]?.color;
+        const scheme = this.scheme.value !== "error" ? "error" : own ? "own" : "plain";
+        if (!this.option(scheme).disabled) this.scheme.value = scheme;
+        this.stale = true;
+    }
+
+    /** Fit all to the size of the page, and put captions below their sides. */
+    place(): void {
+        const { stage, form } = this;
+        stage.fit();
+        const [split, seam, { clientWidth }] = [stage.mode === "split", stage.seam, form.root];
+        const places = split ? [seam / 2, (seam + clientWidth) / 2] : [seam - 14, seam + 14];
+        ["left", "right"].forEach((part, side) => {
+            form.say(part, stage.mode === "one" ? "" : this.captions[side]);
+            form.part(part).style.left = `${places[side]}px`;
+            form.part(part).style.setProperty("--shift", split ? "-50%" : side === 0 ? "-100%" : "0%");
+        });
+    }
+
+    /** What stands below each side. */
+    get captions(): string[] {
+        const { layers } = this.content;
+        return this.stage.sides.map((i) => (layers[i] ? `${layers[i].title}, ${sized(layers[i].size)}` : ""));
+    }
+
+    recolor(): void {
+        const { content, form, geometries, offs, stage } = this;
+        const scheme = content.tiles === undefined ? (this.scheme.value as Scheme) : "plain";
+        const own = scheme === "own";
+        const { diagonal = 1 } = content.facts;
+        const top = diagonal * topOf(offs[content.main] ?? [0], diagonal);
+        this.stale = false;
+        geometries.forEach((geometry, i) => {
+            if (!geometry || (i === content.main && !this.shown)) return;
+            const colors = colorsOf(geometry, scheme, offs[i], top);
+            stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
+        });
+        form.part("scale").hidden = LEGENDS[scheme] === "";
+        form.say("legend", LEGENDS[scheme]);
+        const unit = geometries[content.main]?.metadata.get("unit");
+        const tick = (share: number): HTMLElement => {
+            const far = `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`;
+            return element("li", percent((share * top) / diagonal), element("small", far));
+        };
+        const ends = scheme === "blocks" ? ["first", "last"] : ["not", "refined"];
+        const ticks = scheme === "error" ? [0, 0.5, 1].map(tick) : ends.map((text) => element("li", text));
+        form.part("scale").querySelector("ol")!.replaceChildren(...ticks);
+    }
+
+    /** Show what is chosen: one mesh, or the original on the left and another one on the right. */
+    private compare(): void {
+        const { content, form, stage } = this;
+        const wipe = form.control("wipe");
+        const chosen = Number(form.picked("layer") || content.main);
+        // The original beside itself says nothing.
+        form.part("modes").toggleAttribute("disabled", chosen === 0 && content.main > 0);
+        stage.mode = chosen === 0 ? "one" : ((form.picked("mode") || "one") as Mode);
+        stage.sides = [0, chosen];
+        stage.wipe = Number(wipe.value) / Number(wipe.max);
+        wipe.hidden = stage.mode !== "wipe";
+        if (stage.mode === "split") form.part("more").removeAttribute("open");
+        this.place();
+        this.stale = true;
+    }
+
+    private option(scheme: Scheme): HTMLOptionElement {
+        return this.scheme.querySelector<HTMLOptionElement>(`[value=${scheme}]`)!;
+    }
+
+    private allow(scheme: Scheme, allowed: boolean): void {
+        const option = this.option(scheme);
+        option.hidden = option.disabled = !allowed;
+        if (option.selected && !allowed) this.scheme.value = "plain";
+    }
+}

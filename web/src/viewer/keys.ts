@@ -1,0 +1,31 @@
+/** What keys do. */
+import type { Comparison } from "./comparison";
+import type { Form } from "./form";
+import type { Stage } from "./stage";
+
+const DIGITS = ["1", "2", "3"];
+const SHADINGS = ["smooth", "flat", "wire"];
+
+export function listenToKeys(form: Form, stage: Stage, meshes: Comparison): void {
+    const mode = (name: string): void => form.pick("mode", stage.mode === name ? "one" : name);
+    const acts: Record<string, () => void> = {
+        w: () => mode("wipe"),
+        s: () => mode("split"),
+        f: () => form.pick("shading", SHADINGS[(SHADINGS.indexOf(form.picked("shading")) + 1) % SHADINGS.length]),
+        e: () => meshes.toggleErrors(),
+        t: () => form.control("spin").click(),
+        l: () => {
+            const light = form.control("light");
+            light.value = String(((Number(light.value) + 210) % 360) - 180);
+            stage.light = Number(light.value);
+        },
+        h: () => form.root.toggleAttribute("data-bare"),
+        "?": () => form.unfold("keys"),
+        escape: () => form.unfold(""),
+    };
+    DIGITS.forEach((digit, i) => (acts[digit] = () => form.pick("layer", String(i))));
+    form.root.addEventListener("keydown", ({ key, target, ctrlKey, metaKey, altKey }) => {
+        if (ctrlKey || metaKey || altKey || (target as HTMLElement).matches("select, [type=number]")) return;
+        acts[key.toLowerCase()]?.();
+    });
+}

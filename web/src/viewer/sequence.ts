@@ -1,0 +1,62 @@
+/** The controls of a sequence: they play it, hold it and seek in it. */
+import type { BSMGeometry } from "../geometry";
+import { BSMSequence } from "../sequences";
+import { sized } from "./facts";
+import type { Form } from "./form";
+
+const SECOND = 1000;
+
+export class SequenceBar {
+    private sequence?: BSMSequence;
+    private readonly frame: HTMLInputElement;
+    private before = 0;
+    private shown = -1;
+
+    constructor(private readonly form: Form) {
+        this.frame = form.control("frame");
+        form.on("play", "click", () => this.sequence && (this.sequence.playing ? this.sequence.pause() : this.sequence.play()));
+        form.on("frame", "input", ({ value }) => this.sequence?.seek(Number(value)));
+        form.on("loop", "change", ({ checked }) => this.sequence && (this.sequence.loop = checked));
+    }
+
+    clear(): void {
+        [this.sequence, this.shown] = [undefined, -1];
+    }
+
+    /** Frames are there: begin to play them, unless the page's reader wants less motion. */
+    begin(geometry: BSMGeometry): void {
+        this.sequence ??= new BSMSequence(geometry, !matchMedia("(prefers-reduced-motion: reduce)").matches);
+        this.sequence.loop = this.form.control("loop").checked;
+    }
+
+    /** Show the frame that is due, of those that there are; return whether it is another one. */
+    step(now: number, over: boolean, missed: number, size: number): boolean {
+        const { sequence, form } = this;
+        form.part("sequence").hidden = !sequence;
+        if (!sequence) return false;
+        sequence.complete = over;
+        sequence.speed = Number(form.control<HTMLSelectElement>("speed").value);
+        sequence.update((now - this.before) / SECOND);
+        this.before = now;
+        this.report(sequence, missed, size);
+        const isAnother = sequence.frame !== this.shown;
+        this.shown = sequence.frame;
+        return isAnother;
+    }
+
+    private report({ complete, frame: shown, geometry, playing, rate }: BSMSequence, missed: number, size: number): void {
+        const { form, frame } = this;
+        const there = geometry.frames.length;
+        const total = Math.max(geometry.header!.frames - missed, there);
+        form.root.dataset.frame = String(shown);
+        form.root.dataset.there = String(there);
+        frame.max = String(total - 1);
+        frame.value = String(shown);
+        form.control("play").textContent = playing ? "Pause" : "Play";
+        const ahead = there < total ? `, ${there} are there` : "";
+        const place = `${missed + shown + 1} of ${missed + total}`;
+        const each = complete && total > 0 ? `; ${sized(Math.round(size / total))} a frame` : "";
+        form.say("time", `${place}${ahead}; ${((missed + shown) / rate).toFixed(2)} s${each}`);
+        frame.setAttribute("aria-valuetext", `frame ${place}`);
+    }
+}
