@@ -197,7 +197,7 @@ def decode(
     stream : bytes, any buffer, path or binary file
         The function reads a file to its end; it need not be seekable.
     limits : Limits
-        What the stream may ask for.
+        Limits on the memory and work of the stream.
     threads : int, optional
         None: one per core.
     progress : callable, optional

@@ -129,7 +129,7 @@ def triangles_of(data: Any) -> tuple[Faces, Array]:
 
 
 def attributes_of(data: Any, corners: Array) -> tuple[Attribute, ...]:
-    """What a mesh of Blender's carries: texture coordinates, colors, numbers, and which material a face has."""
+    """Return the attributes of a Blender mesh: texture coordinates, colors, numbers, and the materials of faces."""
     found: dict[str, Attribute] = {}
     owner = np.empty(len(corners), np.int32)
     data.loop_triangles.foreach_get("polygon_index", owner)

@@ -1,4 +1,4 @@
-"""Lengths as people give them: `0.05mm`, `0.1%`, `0.001`."""
+"""Lengths with units: `0.05mm`, `0.1%`, `0.001`."""
 
 import re
 from collections.abc import Mapping
@@ -8,7 +8,7 @@ from typing import Any
 from bsm.bitstream.errors import ArgumentError, OptionError
 
 LENGTH = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(%|[a-zA-Zµ]*)")
-"""A number, and what it is in: % of the diagonal, or whatever the mesh's unit is called; neither: diagonals."""
+"""A number and its unit: % of the diagonal, or the mesh's unit; without a unit, a fraction of the diagonal."""
 LENGTHS = ("max_error",)  # options that are lengths
 IN_METRES = {
     **dict.fromkeys(("m", "meter", "metre"), 1.0),
@@ -20,7 +20,7 @@ IN_METRES = {
     **dict.fromkeys(("in", "inch", "inche"), 0.0254),
     **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
 }
-"""Units that are known, plurals aside."""
+"""Known units, in the singular."""
 
 
 def parse_length(name: str, value: Any) -> tuple[float, bool]:
@@ -63,8 +63,8 @@ def in_own_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> dict
             continue
         if not own:
             raise OptionError(
-                f"{name} is in {unit}, but the mesh does not say what its unit is: add unit={unit} to its metadata "
-                f"(--meta unit={unit}) if it is that, or give {name} in percent of the diagonal, such as 0.1%"
+                f"{name} is in {unit}, but the mesh has no unit: add unit={unit} to its metadata "
+                f"(--meta unit={unit}) if that is right, or give {name} in percent of the diagonal, such as 0.1%"
             )
         other = metres(unit)
         if size is not None and other is not None and other != size:

@@ -39,9 +39,9 @@ _WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
 
 def warn(notes: Iterable[str]) -> None:
-    """Warn of what was changed or left out, in the line of the user's that called us; commands print notes instead.
+    """Warn of changes and losses, in the line of the user's code that called `bsm`; commands print notes instead.
 
-    Decorators and context managers of the standard library may stand between that line and ours.
+    Decorators and context managers of the standard library may be between that line and `bsm`.
     """
     modules = [str(frame.f_globals.get("__name__", "")) for frame, _ in walk_stack(sys._getframe(1))]
     if any(name.startswith(_WITH_NOTES) for name in modules):
@@ -63,7 +63,7 @@ def as_mesh(mesh: Any) -> TriangleMesh:
 
 
 def told(found: MeshFile) -> TriangleMesh:
-    """The mesh, after warnings about what was changed or left out."""
+    """Return the mesh, after warnings about changes and losses."""
     warn(found.notes)
     return found.mesh
 
@@ -177,7 +177,7 @@ def _of_polygons(
 
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:
-    """Sizes and corners of polygons that follow each other, each behind the number of its corners."""
+    """Return the sizes and corners of polygons in a flat list, where the number of corners precedes each polygon."""
     # Where the next polygon would begin if one began at each place; twice as many steps in each round.
     jump = np.append(np.minimum(np.arange(1, len(flat) + 1) + np.maximum(flat, 0), len(flat)), len(flat))
     starts = np.zeros(1, np.int64)

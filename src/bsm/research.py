@@ -11,8 +11,8 @@
 >>> encoded.mesh.faces.shape == mesh.faces.shape
 True
 
-All else stays as it is: connectivity, quantization, entropy coding, smoothing. `curves` measures ideas beside what the
-codec does, `blocks` gives what the codec itself works on. Names here may change with any release.
+The rest is that of the codec: connectivity, quantization, entropy coding, smoothing. `curves` compares ideas with the
+codec, `blocks` returns the arrays that the codec works on. Names in this module may change with any release.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -129,9 +129,9 @@ class Encoded(NamedTuple):
 def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> Encoded:
     """Encode the shape of a mesh, as `bsm.encode` takes it, in blocks; `keywords` are fields of `EncodeOptions`.
 
-    With a dictionary or a predictor of your own, no decoder can decode the stream: it begins with `MARK`, and the mesh
-    is what a decoder that knew the idea would give. ArgumentError: a function gives another shape, or what is not
-    finite; OptionError: it does not give the same for the same site.
+    With your own dictionary or predictor, no decoder can decode the stream: it begins with `MARK`. The returned mesh is
+    the result of a decoder that knows the idea. ArgumentError: a function returns a wrong shape or values that are not
+    finite; OptionError: it returns different values for the same site.
     """
     idea, options = idea or Idea(), changed(EncodeOptions(), **{"step": step, **keywords})
     prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, idea, options)
@@ -139,7 +139,7 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
     stream = b"".join(draft.frames)
     if idea.needed_to_decode:
         if b"".join(_draft(prepared, idea, options).frames) != stream:
-            raise OptionError("the dictionary or predictor does not give the same for the same site")
+            raise OptionError("the dictionary or predictor returns different values for the same site")
         stream = MARK + stream
     return Encoded(stream, _decoded(prepared, draft, options))
 
@@ -170,7 +170,7 @@ def curves(
     from bsm.evaluation.curve import Curve, compare_curves, run_curve
 
     if "ours" in ideas:
-        raise OptionError('the name "ours" stands for the codec; choose another one')
+        raise OptionError('the name "ours" is reserved for the codec; choose another one')
     given, found = join(as_mesh(mesh).bare, keep=False).mesh, {}
     for name, idea in {"ours": Idea(), **ideas}.items():
         codecs = [_tried(idea, changed(EncodeOptions(), **{"threads": 1, **keywords, "step": step})) for step in steps]
@@ -219,7 +219,7 @@ def _decoded(prepared: Prepared, draft: Draft, options: EncodeOptions) -> Triang
 
 
 def _overrides(idea: Idea) -> Overrides:
-    """An idea as the codec takes it; what its functions give is looked at before it is used."""
+    """Return an idea as overrides of the codec, which check the results of its functions."""
 
     def site_of(around: Surroundings, columns: Columns | None = None) -> Site:
         block = around.laplacian.block
@@ -242,7 +242,7 @@ def _overrides(idea: Idea) -> Overrides:
 def _checked(what: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> Floats:
     array = np.asarray(values, np.float64)
     if array.shape != shape or not np.isfinite(array).all():
-        raise ArgumentError(f"the {what} must give finite numbers of shape {shape}, not {array.shape}")
+        raise ArgumentError(f"the {what} must return finite numbers of shape {shape}, not {array.shape}")
     return array
 
 
@@ -253,5 +253,5 @@ class _OwnParts(Parts):
     def cut(self, graph: Graph) -> Partition:
         labels = np.asarray(self.labeled(graph.offsets, graph.neighbors, self.count(graph.size)))
         if labels.shape != (graph.size,) or labels.dtype.kind not in "iu":
-            raise ArgumentError(f"the partition must give {graph.size} whole numbers, not {labels.dtype}{labels.shape}")
+            raise ArgumentError(f"the partition must return {graph.size} integers, not {labels.dtype}{labels.shape}")
         return partition_of_labels(labels.astype(np.int32))

@@ -1,7 +1,7 @@
 """trimesh opens and writes .bsm: ``import bsm.trimesh``, then ``trimesh.load("a.bsm")`` and ``mesh.export("b.bsm")``.
 
-What a mesh shows goes along: texture coordinates, materials and their images as `TextureVisuals`, colors as
-`ColorVisuals`, normals, and other values as `vertex_attributes` and `face_attributes`.
+Attributes are kept: texture coordinates, materials and their images as `TextureVisuals`, colors as `ColorVisuals`,
+normals, and other values as `vertex_attributes` and `face_attributes`.
 
 >>> import bsm.trimesh, trimesh
 >>> bsm.trimesh.to_trimesh("bunny.bsm").is_watertight
@@ -31,17 +31,17 @@ _library = import_trimesh(".bsm files are opened by trimesh only")
 
 
 def to_trimesh(mesh: Any) -> Any:
-    """A mesh as a `trimesh.Trimesh`.
+    """Convert a mesh to a `trimesh.Trimesh`.
 
-    Vertices are split where corners differ, in texture coordinates for instance; nothing is merged.
+    Vertices are split where corners differ, for example in texture coordinates; no vertices are merged.
     """
     return _library.Trimesh(**arguments_of(as_mesh(mesh)))
 
 
 def to_scene(mesh: Any) -> Any:
-    """A mesh as a `trimesh.Scene`, with a geometry for each part that it was made of, under its name.
+    """Convert a mesh to a `trimesh.Scene`, with a named geometry for each part.
 
-    Parts are what the whole numbers of the face attribute ``part`` say; without it all is one part.
+    The integer face attribute ``part`` numbers the parts; without it, the mesh is one part.
     """
     whole = as_mesh(mesh)
     scene = _library.Scene()
@@ -53,13 +53,13 @@ def to_scene(mesh: Any) -> Any:
 
 
 def from_trimesh(mesh: Any) -> TriangleMesh:
-    """A mesh of trimesh, or the parts of a scene where it shows them, with what they show."""
+    """Convert a mesh of trimesh, or a scene with all its parts at their places, with attributes and materials."""
     found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
     return told(found.checked(DEFAULT_LIMITS))
 
 
 def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
-    """The arguments of `trimesh.Trimesh` that make it of a mesh; vertices are split where corners differ."""
+    """Return the arguments of `trimesh.Trimesh` for a mesh; split vertices where corners differ."""
     mesh = split_by_attributes(mesh)
     normal, color, texcoord = formats.shown_at_vertices(mesh)
     of_faces = formats.first(mesh, "color", (3, 4), "face")
@@ -71,7 +71,7 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         numbers = formats.face_numbers(mesh, "material")
         place = {number: place for place, number in enumerate(known)}
         if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
-            # For faces without a material: trimesh would give them a gray one, and an image.
+            # For faces without a material; trimesh would give them a gray material with an image.
             materials.append(_library.visual.material.PBRMaterial())
         several = numbers is not None and len(materials) > 1
         material = _library.visual.material.MultiMaterial(materials) if several else materials[0]
@@ -104,7 +104,7 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
 
 
 def parts_of(mesh: TriangleMesh) -> Iterator[tuple[str, TriangleMesh]]:
-    """The parts that a mesh was made of, and their names; each has the materials of its faces, and no other metadata"""
+    """Yield the name and the mesh of each part, with the materials of its faces and no other metadata."""
     part, material = formats.face_numbers(mesh, "part"), formats.face_numbers(mesh, "material")
     numbers = np.zeros(len(mesh.faces), np.int64) if part is None else part.values[:, 0]
     attributes = [attribute for attribute in mesh.attributes if attribute is not part]
@@ -152,7 +152,7 @@ def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) ->
 
 
 def register() -> None:
-    """Tell trimesh of .bsm; importing this module does it."""
+    """Register .bsm with trimesh; importing this module does it."""
     from trimesh.exchange import export, load
 
     load.mesh_loaders["bsm"] = _load

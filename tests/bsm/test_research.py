@@ -84,7 +84,7 @@ def test_blocks_are_what_the_codec_works_on():
             "finite",
         ),
         (research.Idea(predictor=lambda site: site.ours(3)), bsm.OptionError, "not known"),
-        (research.Idea(partition=lambda offsets, neighbors, parts: [0.5]), bsm.ArgumentError, "whole numbers"),
+        (research.Idea(partition=lambda offsets, neighbors, parts: [0.5]), bsm.ArgumentError, "integers"),
     ],
 )
 def test_what_cannot_be_is_reported(idea, error, words):
@@ -95,7 +95,7 @@ def test_what_cannot_be_is_reported(idea, error, words):
 def test_an_idea_that_gives_another_thing_each_time_is_refused():
     random = np.random.default_rng(0)
     idea = research.Idea(predictor=lambda site: site.prediction + random.normal(size=(site.size, 3)))
-    with pytest.raises(bsm.OptionError, match="does not give the same"):
+    with pytest.raises(bsm.OptionError, match="returns different values"):
         research.encode(MESH, idea, step=0.01)
 
 

@@ -221,7 +221,7 @@ def _result(
 
 
 def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "") -> list[str]:
-    """Lines on the noise, and on what was done about it; none where nothing was chosen."""
+    """Return lines about the noise and the chosen method; none if the options chose the method."""
     if choice is None:
         return []
     lines = []

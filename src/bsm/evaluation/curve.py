@@ -82,7 +82,7 @@ def _draco() -> Any:
 
 Result = dict[str, Any]
 Align = Callable[[TriangleMesh], Positions]
-"""What a codec made of each vertex of the mesh that it was given, of the mesh that it decoded."""
+"""Maps a decoded mesh to positions in the vertex order of the original."""
 
 SCHEMA = 1
 PARTS = ("connectivity", "partition", "order", "coefficients", "framing")

@@ -1,1 +1,1 @@
-"""The same work on one input or on many: what is written where, who does it, and the record of what came of it."""
+"""Jobs of the commands: one job for each input, with its output, the processes that run it, and the report."""

@@ -1,4 +1,4 @@
-"""Meshes and sequences to streams: the work of `bsm encode` and of `bsm.encode_many`."""
+"""Encode meshes and sequences for `bsm encode` and `bsm.encode_many`."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ if TYPE_CHECKING:
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
-"""Options that only a sequence has: a GLB is then one."""
+"""Options that only sequences have; with them a GLB is read as a sequence."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class EncodeJob(Task):
-    """What `bsm encode` is asked for; `options` are keywords of `bsm.options`."""
+    """The task of `bsm encode`; `options` are keywords of `bsm.options`."""
 
     format: str | None = None
     reader: str | None = None
@@ -66,7 +66,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
 
     for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
         if given is not None:
-            raise OptionError(f"--{name} is for sequences, and this is one mesh")
+            raise OptionError(f"--{name} is for sequences; this is a single mesh")
     chosen = encode_options(**job.options, threads=job.threads)
     with console.progress("reading", until=READ):
         source = read_mesh(job.input, job.format, reader=job.reader)
@@ -115,14 +115,14 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
 
 
 def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
-    """Encode one sequence; every GOP is written as soon as its frames are there."""
+    """Encode one sequence; write each GOP as soon as its frames have arrived."""
     from bsm.codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
     chosen = sequence_options(**{"keep_order": source.rigged > 0, **job.options}, threads=job.threads)
     source = source.on_sorted_faces() if source.rigged and chosen.keep_order else source
     if job.permutation and chosen.runs:
-        raise OptionError("--permutation is the order of one mesh, and --runs lets the faces change")
+        raise OptionError("--permutation is the order of one mesh; with --runs the faces change")
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
     entries = {**source.metadata, **rate, **job.metadata}
     metadata, generations = with_provenance(entries, job.provenance, job.input, job.options, chosen)
@@ -169,7 +169,7 @@ def _finish(job: EncodeJob, console: Console, notes: list[str], order: Order, su
 def _staged(
     frames: Iterator[Positions | TriangleMesh], count: int, chosen: SequenceOptions, loops: Loops, progress: Progress
 ) -> Iterator[Positions | TriangleMesh]:
-    """The frames, which begin a stage with each GOP."""
+    """Yield the frames; begin a stage of the progress with each GOP."""
     for number, frame in enumerate(frames):
         positions = frame.positions if isinstance(frame, TriangleMesh) else frame
         loops.take(positions)

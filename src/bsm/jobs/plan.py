@@ -13,13 +13,13 @@ from bsm.files.output import default_output, no_link, output_inside, own_name, r
 from bsm.jobs.task import Job
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
-"""Of files that are taken for meshes where a folder is searched."""
+"""Suffixes of the mesh files that a search of folders finds."""
 
 
 def plan(
     inputs: Sequence[str], output: str | None, suffix: Callable[[str], str], *, sole_folder: bool = False
 ) -> list[Job]:
-    """What is written where."""
+    """Return a job for each input, with its output."""
     names = input_names(inputs)
     output = own_name(output) if output else None
     folder = output is not None and (output.endswith("/") or (not pipes.is_url(output) and Path(output).is_dir()))
@@ -42,7 +42,7 @@ def plan(
 
 
 def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[Job]:
-    """What is written where, for all mesh files in folders and below: the same folders again in `output`."""
+    """Return a job for each mesh file in folders and subfolders; `output` gets the same subfolders."""
     jobs = []
     for folder in folders:
         if pipes.is_url(folder) or not Path(folder).is_dir():
@@ -61,7 +61,7 @@ def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[
 
 
 def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:
-    """Keep the suffixes of inputs that differ in them alone: part.obj.bsm beside part.stl.bsm."""
+    """Keep the suffixes of inputs that differ only in the suffix: part.obj.bsm, part.stl.bsm."""
     often = Counter(job.output for job in jobs)
 
     def output(job: Job) -> str:
@@ -73,7 +73,7 @@ def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:
 
 
 def input_names(inputs: Sequence[str]) -> list[str]:
-    """Inputs under the names that we use; URLs with ``*`` name as many as there are."""
+    """Return the names of the inputs; expand URLs with ``*``."""
     return [name for given in inputs for name in _behind(given, own_name(given))]
 
 

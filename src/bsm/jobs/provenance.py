@@ -1,4 +1,4 @@
-"""How a stream was made, as an entry of its metadata: by which version, with which promise, from which file."""
+"""The metadata entry that records how a stream was made: version, promise, and hash of the input."""
 
 import re
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ _BOUNDS = ("farthest", "angle", "visual", "look")
 def with_provenance(
     metadata: Metadata, asked: bool | None, path: str, given: Mapping[str, Any], options: Any
 ) -> tuple[Metadata, list[str]]:
-    """The metadata of a stream, with how it is made where that is asked for or known of its input; and notes."""
+    """Return metadata with a provenance entry, if it is requested or the input has one, and notes."""
     if not has_provenance(metadata):
         return {**metadata, **({PROVENANCE: _words(path, given, options, 1)} if asked else {})}, []
     found = _GENERATION.search(str(metadata[PROVENANCE]))
@@ -27,7 +27,7 @@ def with_provenance(
     exact = getattr(options, "is_grid", False)
     notes = [
         f"the mesh was decoded from a stream, so this is generation {generation}"
-        + ("" if exact else ": errors add up, so encode the original where you have it")
+        + ("" if exact else ": errors add up, so encode the original if you have it")
     ]
     kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
     return kept if asked is False else {**kept, PROVENANCE: _words(path, given, options, generation)}, notes

@@ -1,4 +1,4 @@
-"""The record of a run, and how a run goes on from it."""
+"""The report of a run, and how --resume reads it."""
 
 import errno
 import json
@@ -26,7 +26,7 @@ _SHARE = 0.02  # of all time that goes into writing them, at most
 
 
 def options_of(task: Task) -> Facts:
-    """What outputs depend on beside their inputs."""
+    """Return the options on which outputs depend."""
     given = {name: value for name, value in asdict(task).items() if name not in _OF_ONE_RUN}
     text = json.dumps({"version": __version__, **given}, default=str, sort_keys=True)
     options: Facts = json.loads(text, parse_constant=str)  # JSON has no infinity
@@ -34,7 +34,7 @@ def options_of(task: Task) -> Facts:
 
 
 class Report:
-    """The record of a run, rewritten as a whole while it goes on."""
+    """The report of a run, rewritten as a whole during the run."""
 
     def __init__(
         self, path: str, command: str, options: Facts, jobs: Sequence[Job], earlier: Mapping[str, Facts]
@@ -72,7 +72,7 @@ NOTHING = Earlier({}, {})
 
 
 def read_report(path: str, command: str, options: Facts) -> Earlier:
-    """Read a report to go on from; nothing is known where there is none."""
+    """Read an earlier report; return `NOTHING` if there is none."""
     try:
         report = json.loads(pipes.read_bytes(path))
         files = {entry["output"]: entry for entry in map(_entry, report["files"])}
@@ -98,7 +98,7 @@ _FIELDS: Mapping[str, Callable[[Any], bool]] = {
 
 
 def _entry(given: Any) -> Facts:
-    """What a report says of a file; raises as `read_report` catches."""
+    """Check the entry of a file; raise an error that `read_report` catches."""
     entry = dict(given)
     needed = ("input", "output", *(("error", "exit") if "error" in entry else ()))
     for name, fits in _FIELDS.items():
@@ -109,7 +109,7 @@ def _entry(given: Any) -> Facts:
 
 
 def recorded(work: Work, task: Task, console: Console) -> Facts:
-    """Work that says what it read and wrote; it is not done again where both are still as `task.before` says."""
+    """Do a task and record the state of input and output; skip it if both are as in `task.before`."""
     state, before = pipes.state_of(task.input), task.before
     as_before = before is not None and state is not None and before.get("input_state") == state
     if before and as_before and before.get("output_sha256") == digest_of(before["output"]):

@@ -1,4 +1,4 @@
-"""Many jobs: who does them, and what is reported."""
+"""Run many jobs, here, in processes or on a cluster, and report their results."""
 
 import os
 import time
@@ -19,7 +19,7 @@ from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anyw
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """How many jobs are done at a time, where, and what is written of them."""
+    """Number of jobs at a time, cluster, and report of a run."""
 
     jobs: int = 1
     dask: str | None = None
@@ -35,7 +35,7 @@ class Run:
 def run_jobs(
     run: Run, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Callable[[Facts], str] | None = None
 ) -> int:
-    """Do all jobs of a command and say what came of them; returns the exit code."""
+    """Do all jobs of a command and print their results; return the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
         with pipes.about(jobs[0].input), console.progress(seconds=Costs(asked, jobs, NOTHING).left()):
             facts = work(task_of(asked, jobs[0]), console)
@@ -74,10 +74,10 @@ def run_many(
     jobs: Sequence[Job],
     ended: Callable[[Job, Outcome], None] = lambda job, outcome: None,
 ) -> list[Facts]:
-    """Do all jobs, and report them in order. A failed job stops only those that need it."""
+    """Do all jobs, and report them in order. A failed job stops only the jobs that need it."""
     if run.dask is not None:
         if any("-" in (job.input, job.output) for job in jobs):
-            raise OptionError("a cluster cannot read a pipe: name files")
+            raise OptionError("a cluster cannot read a pipe; name files")
         jobs = [replace(job, input=anywhere(job.input), output=anywhere(job.output)) for job in jobs]
     earlier, report = NOTHING, None
     if run.report is not None:
@@ -103,7 +103,7 @@ def run_many(
         while True:
             while ready:
                 task = task_of(asked, jobs[number := heappop(ready)], earlier)
-                # A cluster may do a job once more whose worker died, and does not say so.
+                # A cluster repeats jobs of workers that died, without a notice.
                 yield number, task if run.dask is None else task.repeated()
             yield None
 
@@ -136,7 +136,7 @@ def run_many(
         if report:
             report.write()
     if run.resume:
-        console.note(f"{sum('resumed' in facts for facts in done)} of {len(jobs)} were there")
+        console.note(f"{sum('resumed' in facts for facts in done)} of {len(jobs)} were up to date")
     return done
 
 
@@ -160,7 +160,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
 
 
 class Costs:
-    """What jobs cost, in seconds: by their bytes and kinds, and by what others of a kind took."""
+    """Estimated seconds of jobs, by their bytes and kinds, and by the time of finished jobs of a kind."""
 
     def __init__(self, asked: Task, jobs: Sequence[Job], earlier: Earlier) -> None:
         whole = {name for name, facts in earlier.files.items() if "error" not in facts}
@@ -176,7 +176,7 @@ class Costs:
         self.done = 0.0
 
     def end(self, number: int, seconds: float | None) -> None:
-        """Take note of what a job took, if that is known."""
+        """Record the time of a finished job, if it is known."""
         reliable, kind = self._open.pop(number), self._kinds[number]
         before = self._ended.get(kind, (0.0, 0.0))
         spent = self.took.pop(number, reliable if seconds is None else seconds)
@@ -184,7 +184,7 @@ class Costs:
         self.done += spent
 
     def left(self, numbers: Collection[int] = ()) -> float:
-        """What is left, of some jobs or of all."""
+        """Return the estimated time of the open jobs, or of some of them."""
         reliable, spent = map(sum, zip((1e-3, 1e-3), *self._ended.values()))
         rates = {kind: (true + spent / reliable) / (expected + 1.0) for kind, (expected, true) in self._ended.items()}
         usual = spent / reliable
@@ -193,7 +193,7 @@ class Costs:
 
 def _processes(run: Run, count: int) -> int:
     if run.jobs < 0:
-        raise OptionError(f"-j {run.jobs}: it must be 0 or more")
+        raise OptionError(f"-j {run.jobs}: must be 0 or more")
     from bsm.codec.threads import available_threads
 
     return min(run.jobs or available_threads(), count) or 1

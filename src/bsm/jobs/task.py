@@ -1,4 +1,4 @@
-"""What a job is asked for, what becomes of it, and how one is done."""
+"""A job: its task, its outcome, and how it is done."""
 
 import os
 import traceback
@@ -13,7 +13,7 @@ from bsm.files import pipes
 _Same = TypeVar("_Same", bound="Task")
 
 
-Facts = dict[str, Any]  # what came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
+Facts = dict[str, Any]  # the result for an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Job:
 
 @dataclass(frozen=True, kw_only=True)
 class Task:
-    """What is asked for an input; each command adds fields of its own."""
+    """The options of a job; each command adds its own fields."""
 
     input: str = ""
     output: str = ""
@@ -41,7 +41,7 @@ class Task:
     of_kinds: ClassVar[Mapping[str, float]] = {".obj": 0.5, ".stl": 0.5, ".glb": 0.5, ".npz": 1.6}  # times that
 
     def seconds_of(self, name: str) -> float:
-        """How long the task takes, as far as its input tells."""
+        """Estimate the time of the task by the size of its input."""
         size = None if name == "-" or pipes.is_url(name) else pipes.size_of(name)
         kind = self.of_kinds.get(os.path.splitext(name)[1].lower(), 1.0)
         return self.seconds_of_megabyte * kind * (1.0 if size is None else size / 1e6)
@@ -54,7 +54,7 @@ class Task:
 
 
 Work: TypeAlias = Callable[[Any, Console], Facts]
-"""What a command does with a `Task` of its own; a function of a module, so that processes find it."""
+"""The function of a command that does a task; at the top level of a module, so that processes find it."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of j
 
 
 def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
-    """Do one job; whatever fails is an outcome too, but for signals and for pipes that nobody reads."""
+    """Do one job; failures are outcomes, except signals and broken pipes."""
     try:
         with pipes.about(task.input):
             return Outcome(work(task, console), notes=tuple(console.kept or ()))
@@ -97,12 +97,12 @@ def far_outcome(work: Work, task: Task) -> Outcome:
 
 
 def anywhere(name: str) -> str:
-    """A name that means the same in every folder of a machine, and on every machine that has the same folders."""
+    """Return an absolute path, which is valid in every process and on machines that share the folders."""
     return name if not name or pipes.is_url(name) else os.path.abspath(name)
 
 
 def came_to(taken: int | None, given: int) -> str:
-    """The bytes of an output, beside those of the input where they are known."""
+    """Return the bytes of an output, after those of the input if they are known."""
     if not taken or not given:
         return f"{given} bytes"
     ratio = f"{taken / given:.1f} : 1" if taken >= given else f"1 : {given / taken:.1f}"

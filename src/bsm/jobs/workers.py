@@ -1,4 +1,4 @@
-"""Jobs in processes of this machine, or on a Dask cluster; both may die."""
+"""Run jobs in processes of this machine or on a Dask cluster, and survive their death."""
 
 import errno
 import logging
@@ -37,7 +37,7 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
 
 
 def _until_one_dies(work: Work, tasks: Tasks, processes: int) -> Generator[tuple[int, Outcome], None, Handed]:
-    """Do jobs until there are none, or a process dies; returns what was handed out and has not ended."""
+    """Do jobs until all are done or a process dies; return the submitted jobs that have not ended."""
     # Not forked: threads of this process may hold locks.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
     handed: Handed = {}
@@ -74,7 +74,7 @@ def _until_one_dies(work: Work, tasks: Tasks, processes: int) -> Generator[tuple
 
 
 def _end_with_parent() -> None:
-    """Let this process not outlive the one that began it, however that ends, nor print warnings."""
+    """End this process with its parent, however that ends; print no warnings."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")
     parent = multiprocessing.parent_process()
@@ -84,7 +84,7 @@ def _end_with_parent() -> None:
 
     def watch() -> None:
         multiprocessing.connection.wait([sentinel])
-        # It may have asked this process to end, which is then clearing away what it has begun.
+        # The parent may have asked this process to end; it is then removing its unfinished files.
         time.sleep(GRACE)
         os.kill(os.getpid(), signal.SIGTERM)
         time.sleep(GRACE)
@@ -95,7 +95,7 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _interrupts_ignored() -> Iterator[None]:
-    """Let processes that begin here leave Ctrl-C to this one from their first moment on."""
+    """Make processes that are started here ignore Ctrl-C from their first moment on."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -107,7 +107,7 @@ def _interrupts_ignored() -> Iterator[None]:
 
 
 def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
-    """Do jobs on the workers of a cluster; those of a worker that dies are taken up by others."""
+    """Do jobs on the workers of a cluster; other workers repeat the jobs of a worker that dies."""
     distributed = imported("distributed", "a cluster needs Dask", "dask")
     try:
         client: Any = distributed.Client(address, set_as_default=False)
@@ -145,14 +145,14 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
             except distributed.CancelledError as error:
                 raise OSError(errno.ECONNRESET, "the connection to the Dask scheduler was lost", address) from error
             finally:
-                # Whoever stops listening wants no more work done.
+                # If the caller stops listening, cancel the rest.
                 client.cancel(list(running.futures))
     finally:
         logger.setLevel(level)
 
 
 def _of_cluster(future: Any) -> Outcome | None:
-    """What came of a job; None: several workers died that had it, or another one."""
+    """Return the outcome of a job; None if several workers died that had it, or another job."""
     from distributed import KilledWorker
 
     try:
@@ -160,7 +160,7 @@ def _of_cluster(future: Any) -> Outcome | None:
     except KilledWorker:
         return None
     except Exception as error:
-        # From a worker, or as the cause of what the scheduler says.
+        # From a worker, or as the cause of the scheduler's error.
         missing = next((it for it in (error, error.__cause__) if isinstance(it, ImportError)), None)
         if missing is None:
             raise
@@ -171,5 +171,5 @@ def _of_cluster(future: Any) -> Outcome | None:
 def _task(work: Work, task: Task) -> Outcome:
     try:
         return far_outcome(work, task)
-    except Terminated:  # what was begun is cleared away; nothing else is to be taken up
+    except Terminated:  # unfinished files are removed; do not start another job
         os._exit(exit_of(Terminated()).code)

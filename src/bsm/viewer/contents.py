@@ -1,4 +1,4 @@
-"""What the page shows: a stream, and beside it the original and Draco's file; made here, or in a process of its own."""
+"""The meshes that the page shows: a stream, the original and Draco's file; encoded here or in another process."""
 
 import math
 import multiprocessing
@@ -47,7 +47,7 @@ class Layer:
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """Layers, of which `main` is the stream that is looked at, and what was promised and measured of it."""
+    """The layers of a mesh; `main` is the number of the stream, `facts` its promise and measurements."""
 
     name: str
     layers: tuple[Layer, ...]
@@ -68,7 +68,7 @@ def compared(
     preset: str | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Content:
-    """A stream of a mesh beside its original, a file of `size` bytes, and beside Draco if DracoPy is installed."""
+    """Return a stream with its original, a file of `size` bytes, and with Draco's file if DracoPy is installed."""
     header, _ = peek_header(Input(stream).chunks())
     if header is not None and header.gop_frames:
         raise UnsupportedError(f"{name} is a sequence; only single meshes are compared with an original")
@@ -90,7 +90,7 @@ def compared(
     facts: dict[str, Any] = {"preset": preset, "diagonal": diagonal, "theta": theta}
     facts["farthest"] = float(np.nanmax(off, initial=0.0)) / diagonal
     rival: tuple[Layer, ...] = ()
-    with suppress(DependencyError, MeshError):  # nothing is seen of faces without area, and Draco takes not all
+    with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
         if not original.attributes:
             rival, facts["draco"] = _rival(source, len(stream), facts["look"])
@@ -102,7 +102,7 @@ def compared(
 
 
 def _off(decoded: TriangleMesh, source: TriangleMesh) -> npt.NDArray[np.float32]:
-    """The distance of each vertex of a decoded mesh from its place; not a number where no face uses it."""
+    """Return the error of each vertex of a decoded mesh; NaN for vertices in no face."""
     used, kept = decoded.without_isolated_vertices()
     off = np.full(len(decoded.positions), np.nan, np.float32)
     off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
@@ -110,7 +110,7 @@ def _off(decoded: TriangleMesh, source: TriangleMesh) -> npt.NDArray[np.float32]
 
 
 def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Layer], dict[str, int] | None]:
-    """Draco's finest file of at most `size` bytes, and the size of its smallest that looks as good."""
+    """Return Draco's finest file of at most `size` bytes, and the size of its smallest file of at most this look."""
     from bsm.codec.look.measure import look
     from bsm.codec.static.encoder import Encoder
     from bsm.codec.static.options import PRESETS as ALL
@@ -126,7 +126,7 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
 
     small = DRACO_BITS[max(bisect_left(DRACO_BITS, True, key=lambda bits: len(file(bits)) > size) - 1, 0)]
     good = bisect_left(DRACO_BITS, True, key=lambda bits: look(source, mesh(bits)).distance <= distance)
-    carrier = Encoder(mesh(small), ALL["lossless"])  # which joins vertices that Draco put at one place
+    carrier = Encoder(mesh(small), ALL["lossless"])  # joins vertices that Draco merged
     stream = b"".join(carrier.chunks())
     off = np.linalg.norm(mesh(small).positions - source.positions, axis=1)[carrier.vertex_order]
     layer = Layer("Draco", f"{small} bits", len(file(small)), stream, off.astype(np.float32))
@@ -136,7 +136,7 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
 
 
 def made(name: str, data: bytes, mesh: TriangleMesh, preset: str, report: Callable[[str, float], None]) -> Content:
-    """A mesh file encoded, and beside its original; `report` hears what begins, and what share is done."""
+    """Encode a mesh file and compare it; call `report` with each stage and the fraction done."""
     report("encoding", 0.0)
     begin = time.perf_counter()
     stream = encode(mesh, preset=preset)
@@ -147,7 +147,7 @@ def made(name: str, data: bytes, mesh: TriangleMesh, preset: str, report: Callab
 
 
 def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:
-    """What the process of an upload does: it sends pairs of a stage and a share, then its result or a sentence."""
+    """Encode an upload in a process; send pairs of a stage and a fraction, then the result or an error message."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         pipe.send(("reading", 0.0))
@@ -158,7 +158,7 @@ def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:
 
 
 def uploaded(name: str, data: bytes, preset: str) -> Generator[tuple[str, float] | Content | str]:
-    """Encode what was dropped on the page, in a process that ends when nobody listens: what it says, as it comes."""
+    """Encode a file dropped on the page, in a process that ends with this generator; yield its reports."""
     here, there = multiprocessing.get_context("spawn").Pipe()
     process = multiprocessing.get_context("spawn").Process(
         target=_work, args=(there, PurePath(name).name, data, preset), daemon=True

@@ -1,4 +1,4 @@
-"""The built page with streams in it, or beside it on a server of the loopback interface."""
+"""The built page, with embedded streams or on a local server."""
 
 import base64
 import gzip
@@ -35,7 +35,7 @@ _PATIENCE = 1.0  # seconds between looks whether a page is still there
 
 
 class Growing:
-    """A stream that one thread receives and others send on."""
+    """A stream that one thread receives and other threads send."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -48,7 +48,7 @@ class Growing:
         self._entry: int | None = None
 
     def receive(self, chunks: Iterable[bytes]) -> None:
-        """Take all bytes that come, until there are no more, or the stream says that it ends."""
+        """Take all chunks, up to the end of input or of the stream."""
         try:
             for chunk in chunks:
                 self.take(chunk)
@@ -69,14 +69,14 @@ class Growing:
             self._change.notify_all()
 
     def begins(self) -> bool:
-        """Whether this is a stream, or the beginning of one, once that is clear."""
+        """Wait for the first bytes; return whether a stream begins with them."""
         with self._change:
             self._change.wait_for(lambda: self._over or len(self._data) >= len(MAGIC))
             return self._data.startswith(MAGIC[: len(self._data)])
 
     def chunks(self) -> Iterator[bytes]:
-        """What a page is sent: of what has come as much as it needs, then what comes, to the end; nothing now and
-        then while nothing comes, so that whoever sends it on can look whether the page is still there."""
+        """Yield the received bytes that a page needs, then new bytes up to the end; while none arrive, yield empty
+        bytes from time to time, so that the sender can check the connection."""
         with self._change:
             at = 0
             if self._entry is not None and not self._over:
@@ -118,7 +118,7 @@ class Growing:
 
 
 def written_to(file: BinaryIO) -> Iterator[bytes]:
-    """The bytes of a file that is still being written, until it is deleted or begun again; it is closed then."""
+    """Yield the bytes of a file that is still being written, until it is deleted or truncated; close it then."""
     size = 0
     with file:
         while (now := os.fstat(file.fileno())).st_nlink > 0 and now.st_size >= size:
@@ -136,7 +136,7 @@ _LENGTH = re.compile(r"\d{1,15}")
 
 @dataclass(frozen=True)
 class Ranged:
-    """A file of a folder, here or behind a URL, that is sent by ranges."""
+    """A file of a local folder or below a URL, which is sent in ranges."""
 
     folder: str
     name: str
@@ -178,7 +178,7 @@ def _built(name: str) -> bytes:
 
 
 def embedded(_: str, data: bytes) -> dict[str, str]:
-    """The place of bytes that are in the page."""
+    """Return bytes as a data URL of the page."""
     return {"data": base64.b64encode(data).decode()}
 
 
@@ -189,12 +189,12 @@ def script(place: Place, *more: str) -> str:
 
 
 def page_with(contents: Sequence[Content]) -> str:
-    """One page that needs nothing beside it: all streams are inside."""
+    """Return a page of one file, with all streams inside."""
     return _page([listed(content, "", embedded) for content in contents], script(embedded))
 
 
 def listed(content: Content, path: str, place: Place) -> dict[str, Any]:
-    """What the page knows of a mesh, with what `place` says of where the bytes are that have a path."""
+    """Return the description of a mesh for the page; `place` gives the address of the bytes of a path."""
     layers = []
     for number, layer in enumerate(content.layers):
         entry: dict[str, Any] = {"title": layer.title, "detail": layer.detail, "size": layer.size}
@@ -206,13 +206,13 @@ def listed(content: Content, path: str, place: Place) -> dict[str, Any]:
 
 
 def _page(entries: list[dict[str, Any]], script: str) -> str:
-    # Inside a script nothing may look like the end of it.
+    # No text inside a script may look like its end tag.
     inside = json.dumps(entries).replace("<", "\\u003c")
     return _built("page.html").decode().replace(f"{_SLOT}[]", _SLOT + inside, 1).replace(_SCRIPT, script, 1)
 
 
 class PageServer(ThreadingHTTPServer):
-    """Serves the page and its streams to this machine alone, and encodes meshes that are dropped on it."""
+    """Serves the page and its streams to this machine only, and encodes meshes that are dropped on it."""
 
     daemon_threads = True
 
