@@ -75,8 +75,8 @@ GROUPS = {"fused": (FUSED, FUSED), "axis": (AXIAL, AXIAL[:5])}
 UNEVEN_FUSED, UNEVEN_RATIO, UNEVEN_MOST = Recipe("positions", 0.1, "own", 0.4), 3.0, 150
 """For fused views of a real camera. Their noise is broader than any that is drawn here, so nothing is rehearsed: the
 filter goes on until vertices have moved this many times the fine noise."""
-CELL_KEEP, CELL_CUT, CELL_ITERATIONS = 0.2, 0.18, 16
-"""For binary volumes: what the coarse step keeps, of slices less, while few vertices would leave their cells."""
+CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
+"""For binary volumes; of thick slices, whose stairs are steeper, the width grows with thickness to the power of 2/3."""
 STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
 LEFT_UNEVEN = 0.55  # share of the angle that stays then
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
@@ -182,7 +182,7 @@ def choose(
     if finding.kind == "uneven fused":
         return _persist(positions, finding, patient)
     if finding.kind in ("cells", "steps"):
-        return _bounded(positions, finding, patient)
+        return _bounded(finding)
     members, part = sample(patient.topology.faces, finding.levels)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     if len(members) < patient.topology.n:
@@ -228,19 +228,14 @@ def _persist(positions: Positions, finding: Finding, patient: Patient) -> Automa
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, untreated, LEFT_UNEVEN * untreated, 0)
 
 
-def _bounded(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:
-    """Filter as coarsely as the cause asks: nothing is rehearsed, as vertices stay within its bound."""
+def _bounded(finding: Finding) -> AutomaticChoice:
+    """Choose the filter that suits the cause, without a rehearsal: its bound limits every vertex."""
     if finding.kind == "steps":
         step = Step(Recipe(RAYS, STEP_STRENGTH, "own", 0.25), STEP_ITERATIONS)
     else:
         assert isinstance(finding.bound, Grid)
-        keep = CELL_KEEP
-        while keep * finding.bound.flatness > 1.01 * CELL_KEEP:
-            smooth = patient.smooth(positions, 0.5 * keep)
-            if (finding.bound.within(positions, smooth) != smooth).any(axis=1).mean() > CELL_CUT:
-                break
-            keep *= 0.5
-        step = Step(Recipe("positions", keep, "own", 0.25), CELL_ITERATIONS)
+        width = min(CELL_WIDTH * finding.bound.flatness ** (2.0 / 3.0), 1.0)
+        step = Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS)
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
     unknown = Forecast(0.0, 0.0, sure=False, known=False)
     return AutomaticChoice((step,), finding.kind, finding.reason, noise, 0.0, 0.0, 0, forecast=unknown)

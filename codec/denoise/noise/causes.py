@@ -42,6 +42,7 @@ class Grid:
     """Cells within which positions are indistinguishable."""
 
     steps: Floats
+    thin: float = 0.0  # of a binary volume: share of the stairs along an axis that bound walls of one cell
 
     @property
     def flatness(self) -> float:
@@ -116,11 +117,19 @@ def find_cells(positions: Positions) -> Grid | None:
     halves = np.array([_step(column, FEW_VALUES) or 0.0 for column in positions.T])
     if not halves.all():
         return None
-    odd = np.round((positions - positions.min(axis=0)) / halves).astype(np.int64) & 1
-    counts = np.bincount(odd @ [1, 2, 4], minlength=8)
+    numbers = np.round((positions - positions.min(axis=0)) / halves).astype(np.int64)
     axes = np.array([1, 2, 4])
-    share = max(counts[axes ^ offset].sum() for offset in range(8)) / len(positions)
-    return Grid(2.0 * halves) if share > HALFWAY else None
+    counts = np.bincount((numbers & 1) @ axes, minlength=8)
+    offset = max(range(8), key=lambda offset: int(counts[axes ^ offset].sum()))
+    if counts[axes ^ offset].sum() < HALFWAY * len(positions):
+        return None
+    size = int(numbers.max()) + 3
+    scales = np.array([1, size, size * size])
+    thin = 0.0
+    for axis, scale in enumerate(scales):
+        stairs = numbers[(numbers[:, axis] ^ (offset >> axis)) & 1 == 1] @ scales
+        thin = max(thin, 2.0 * float(np.isin(stairs + 2 * scale, stairs).mean())) if len(stairs) else thin
+    return Grid(2.0 * halves, thin)
 
 
 @dataclass(frozen=True, eq=False)

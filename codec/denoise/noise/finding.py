@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid
+from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid, Steps
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.surface import Floats
@@ -68,7 +68,7 @@ class Finding:
     @property
     def exact(self) -> bool:
         """Whether the coordinates tell the cause, so that nothing has to be guessed."""
-        return self.kind in ("grid", "cells", "steps")
+        return isinstance(self.bound, (Grid, Steps))
 
     @property
     def noisy(self) -> bool:

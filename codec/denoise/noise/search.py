@@ -61,6 +61,7 @@ ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
 ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
 """Rounding that is worth a treatment, in mean edges; how much of what is expected has to be there, creases included;
 and the largest share of vertices with nothing of it: shapes that were drawn on a grid have many."""
+ONE_CELL = 0.9  # share of the stairs of a binary volume, from which on all its walls are one cell thick
 HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # from here on normals are taken from a smoother version
 
 
@@ -87,6 +88,9 @@ def _cells(positions: Positions, evidence: Evidence) -> Finding | None:
     cells = find_cells(positions)
     if cells is None:
         return None
+    if cells.thin > ONE_CELL:
+        reason = "its walls are one cell of a binary volume thick, too thin to tell their shape"
+        return Finding("none", 0.0, np.zeros(len(positions)), evidence.edge, reason, bound=cells)
     levels = cells.levels(evidence.normals)
     sizes = " x ".join(f"{step:.3g}" for step in cells.steps)
     reason = f"stairs along x, y and z of a binary volume of cells of {sizes}; no vertex leaves its half-cell"

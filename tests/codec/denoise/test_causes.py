@@ -9,11 +9,12 @@ from bsm.codec.denoise.noise.causes import find_cells
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.surface import Topology
+from bsm.codec.denoise.surface import Floats, Topology
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tools.noise import gaussian_along_axis
 from tools.sampled import THICK, ball, box, in_steps, torus, voxelized
+from tools.scans import turning
 
 
 def find(positions: Positions, faces: Faces) -> Finding:
@@ -38,6 +39,23 @@ def test_stairs_of_a_binary_volume_go_and_no_vertex_leaves_its_half_cell(field, 
         assert (np.abs(result - made.positions) <= 0.5 * step * np.array([1.0, 1.0, thick]) * (1.0 + 1e-9)).all()
         assert made.angle(made.positions) > 19.0 and made.angle(result) < most
         assert made.rms(result) < 0.6 * made.rms(made.positions)
+
+
+def rods(places: Floats) -> Floats:
+    """Crossing rods, five of them a side, whose gaps are narrower than a thick slice."""
+    off = np.square(np.sin(7.0 * places @ turning(5)))
+    inner = np.sqrt(np.stack([off[..., 0] + off[..., 1], off[..., 1] + off[..., 2]], axis=-1)).min(axis=-1) - 0.5
+    return np.asarray(np.maximum(0.1 * inner, np.linalg.norm(places, axis=-1) - 1.0))
+
+
+@pytest.mark.parametrize("thick", [1.0, 2.0, THICK, 10.0])
+@pytest.mark.parametrize("field", [torus, rods, box(0.5, 0.4, 0.3), box(0.8, 0.5, 0.05)])
+def test_slices_of_any_thickness_never_end_farther_from_the_truth(field, thick: float) -> None:  # type: ignore[no-untyped-def]
+    pytest.importorskip("skimage")
+    made = voxelized(field, 70, thick)
+    result, choice = denoise_automatically(made.positions, made.faces)
+    assert choice.steps or (result == made.positions).all()
+    assert made.angle(result) <= made.angle(made.positions) and made.rms(result) <= made.rms(made.positions)
 
 
 @pytest.mark.parametrize("turned", [False, True])
