@@ -37,7 +37,7 @@ def test_inputs_that_differ_in_their_suffix_alone_keep_it(corpus, tmp_path):
     assert "broken.off" in lines[head + 1] and lines[head + 1].count("broken.off") == 1
     assert "failed: the file is cut short" in lines[head + 1]
     again = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", tmp_path / "r.json", "--resume", text=True)
-    assert "3 of 4 were there" in again.stderr and "as it was" not in again.stderr.splitlines()[0]
+    assert "3 of 4 were up to date" in again.stderr and "as it was" not in again.stderr.splitlines()[0]
 
 
 def test_the_table_has_all_rows_and_failures_first():

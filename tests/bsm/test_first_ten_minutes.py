@@ -87,7 +87,7 @@ def test_a_batch_has_no_stumble(folder):
     assert len(failed) == 2 and "cut.ply" in failed[0] and "letter.ply" in failed[1]
     assert {path.suffix for path in (folder / "streams").iterdir()} == {".bsm"}
     _, errors = bsm_command(folder, *words, "--resume", code=12)
-    assert "3 of 5 were there" in errors
+    assert "3 of 5 were up to date" in errors
     _, errors = bsm_command(folder, *words, "-f", "--json", code=12)
     lines = [json.loads(line) for line in errors.splitlines()]
     assert sum("error" in line for line in lines) == 2

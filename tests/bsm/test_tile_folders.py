@@ -74,7 +74,7 @@ def test_of_two_runs_at_a_time_the_first_is_whole(source, tmp_path):
 
 
 def test_earlier_tiles_are_not_counted_without_resume(source, tmp_path):
-    assert "were there" not in tile(source, tmp_path / "out").stderr
+    assert "were up to date" not in tile(source, tmp_path / "out").stderr
 
 
 def test_a_run_that_died_is_taken_over_when_asked(source, tmp_path):

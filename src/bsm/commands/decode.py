@@ -107,21 +107,15 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
+    counts = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
     with console.progress("writing"):
         file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
-        left_out = save_written(output, file, overwrite=args.may_replace(output), overwrite_beside=args.force)
-    if left_out:
-        console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
-    written, taken, vertices, faces = len(file.data), size_of(args.input), len(mesh.positions), len(mesh.faces)
-    counts = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {seconds:.2f} s"
-    console.note(f"{args.input} -> {output}: {counts}")
-    facts = {"input": args.input, "output": output, "vertices": vertices, "faces": faces}
-    return facts | {"input_bytes": taken, "output_bytes": written, "seconds": seconds, "left_out": list(left_out)}
+        return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
 
 
 def _restore(args: DecodeJob, console: Console) -> Facts:
-    """Write a scene of glTF without compressed geometry, or the mesh that it is at rest."""
-    kind = args.format or format_of_name(args.output)
+    """Write a glTF scene without compressed geometry, or its rest pose as a mesh."""
+    kind, begin = args.format or format_of_name(args.output) or "ply", time.perf_counter()
     refuse_to_overwrite(args.output, args.may_replace(args.output))
     document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
     if kind == "glb":
@@ -130,13 +124,21 @@ def _restore(args: DecodeJob, console: Console) -> Facts:
         source = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         for note in source.notes:
             console.note(f"{args.input}: {note}")
-        file = written_mesh(source.mesh, kind or "ply", args.output)
-    left_out = save_written(args.output, file, overwrite=args.may_replace(args.output), overwrite_beside=args.force)
+        file = written_mesh(source.mesh, kind, args.output)
+    return _saved(args, console, args.output, kind, file, "", time.perf_counter() - begin)
+
+
+def _saved(
+    args: DecodeJob, console: Console, output: str, kind: str, file: Written, counts: str, seconds: float
+) -> Facts:
+    """Write a file, and note its size and losses."""
+    left_out = save_written(output, file, overwrite=args.may_replace(output), overwrite_beside=args.force)
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
     taken, written = size_of(args.input), len(file.data)
-    console.note(f"{args.input} -> {args.output}: {came_to(taken, written)}")
-    return {"input": args.input, "output": args.output, "input_bytes": taken, "output_bytes": written}
+    console.note(f"{args.input} -> {output}: {counts}{came_to(taken, written)}, {seconds:.2f} s")
+    sizes = {"input_bytes": taken, "output_bytes": written}
+    return {"input": args.input, "output": output, **sizes, "seconds": seconds, "left_out": list(left_out)}
 
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:

@@ -1,4 +1,4 @@
-"""bsm demo: the whole road of a mesh, on a sample made by formula."""
+"""bsm demo: encode, decode, compare and draw a generated sample."""
 
 import argparse
 import time
@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_preset_flags, options_of, within
 from bsm.console import Console, print_json
 from bsm.files.output import refuse_to_overwrite, write_output
@@ -31,7 +30,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
     Path(args.output).mkdir(parents=True, exist_ok=True)
 
     from bsm.codec.decoding import decode
-    from bsm.codec.geometry.metrics import compare
     from bsm.codec.static.encoder import Encoder
     from bsm.evaluation.sample import knot
 
@@ -39,44 +37,39 @@ def run(args: argparse.Namespace, console: Console) -> None:
     vertices, faces = len(sample.positions), len(sample.faces)
     plain = 12 * (vertices + faces)  # as float32 and int32
     console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
-
-    begin = time.perf_counter()
-    encoder = Encoder(sample, encode_options(**options_of(args)))
+    encoder, begin = Encoder(sample, encode_options(**options_of(args))), time.perf_counter()
     with console.progress("encoding") as progress:
-        stream = b"".join(encoder.chunks(progress))
-    encoding = time.perf_counter() - begin
+        result = encoder.result(progress)
+    stream, error, encoding = b"".join(result.frames), result.comparison, time.perf_counter() - begin
     console.note(
         f"encoded    {len(stream)} bytes, {plain / len(stream):.1f} times smaller, "
         f"{8 * len(stream) / vertices:.2f} bits per vertex, {encoding:.2f} s"
     )
-
     begin = time.perf_counter()
     with console.progress("decoding"):
         received = decode(stream)
     decoding = time.perf_counter() - begin
     positions = np.empty_like(received.positions)
     positions[encoder.vertex_order] = received.positions
-    decoded = TriangleMesh(positions, sample.faces)
-    error = compare(sample.positions, decoded.positions, sample.faces)
+    seen = "" if encoder.look is None else f"look {encoder.look:.2f}, "
     console.note(
-        f"decoded    in {decoding:.2f} s: largest error {100 * error.max_error_relative:.3f} % of the size, "
-        f"{error.nmsve_db:.2f} dB, normals {error.theta_deg:.2f} degrees off on average"
+        f"decoded    {seen}largest vertex error {100 * error.max_error_relative:.3g} % of the diagonal, mean normal "
+        f"error {error.angle_deg:.2f} degrees, {decoding:.2f} s"
     )
-
     write_output(stream_path, stream, overwrite=args.force, follow=False)
     with console.progress("drawing"):
-        bounds, far = bounds_of(sample.positions), np.linalg.norm(decoded.positions - sample.positions, axis=1)
+        bounds, far = bounds_of(sample.positions), np.linalg.norm(positions - sample.positions, axis=1)
         top = float(np.percentile(far, 99)) or 1.0
         heat = colors_of(far / top)[sample.faces].mean(axis=1) / 255.0
-        looks = ((sample, None), (decoded, None), (sample, heat))
-        pictures = [render(mesh.positions, mesh.faces, bounds=bounds, colors=colors) for mesh, colors in looks]
+        drawn = ((sample.positions, None), (positions, None), (sample.positions, heat))
+        pictures = [render(placed, sample.faces, bounds=bounds, colors=colors) for placed, colors in drawn]
         titles = (f"original, {plain / 1000:,.0f} kB", f"decoded, {len(stream) / 1000:,.1f} kB", "error")
         try:
-            drawn = with_titles(pictures, titles, 100.0 * top * error.max_error_relative / (error.max_error or 1.0))
+            picture = with_titles(pictures, titles, 100.0 * top * error.max_error_relative / (error.max_error or 1.0))
         except DependencyError as problem:
             console.note(f"no titles: {problem}")
-            drawn = png(np.hstack(pictures))
-        write_output(picture_path, drawn, overwrite=args.force, follow=False)
+            picture = png(np.hstack(pictures))
+        write_output(picture_path, picture, overwrite=args.force, follow=False)
     written = [str(stream_path), str(picture_path)]
     console.note(f"written    {', '.join(written)}")
     if args.json:

@@ -470,6 +470,7 @@ def table_of(result: dict[str, Any]) -> tuple[Sequence[str], Sequence[Sequence[s
 
 
 FORMATS = ("png", "svg")
+PAPER_RATE = "bits per vertex of coefficients, 3 q c k / n"
 MEASURES = {"nmsve_db": "NMSVE, dB", "theta_deg": "θ, degrees"}
 TICKS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
 STYLES = {
@@ -523,33 +524,6 @@ class Picture(NamedTuple):
                 with open_output(path, overwrite=True, follow=False) as file:
                     figure.savefig(file, dpi=300, format=path.suffix[1:])
         return paths
-
-
-def draw_paper_figure(results: Sequence[Result], name: str) -> Picture:
-    """Bits per vertex of the coefficients against NMSVE, time beside every line: the paper's figure for one mesh."""
-
-    def draw(figure: Any) -> None:
-        axes = figure.subplots()
-        ends = []
-        for result in results:
-            points = sorted(result["points"], key=lambda point: point["bpv_paper"])
-            x, y = [p["bpv_paper"] for p in points], [p["nmsve_db"] for p in points]
-            color, marker = STYLES[result["codec"]]
-            axes.plot(x, y, marker=marker, color=color, label=result["label"])
-            ends.append((x[-1], y[-1], f"{points[-1]['decode_seconds']:.2g} s", color))
-        # Times stand in a column beside the lines, pushed apart where lines run together.
-        gap, lowest = 0.04 * abs(np.diff(axes.get_ylim())[0]), -np.inf
-        right = 1.015 * max(end[0] for end in ends)
-        for _, y_end, text, color in sorted(ends, key=lambda end: end[1]):
-            lowest = max(y_end, lowest + gap)
-            axes.text(right, lowest, text, fontsize=6, color=color, va="center")
-        axes.margins(x=0.08)
-        axes.grid(alpha=0.3)
-        axes.set(xlabel="bits per vertex, 3 q c k / n", ylabel=MEASURES["nmsve_db"])
-        axes.set_title(f"{title_of(results[0])}; seconds to decode")
-        axes.legend(ncols=2)
-
-    return Picture(name, draw, 4.6, 3.6)
 
 
 def draw_rates(panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str, name: str) -> Picture:
@@ -606,8 +580,9 @@ def draw_all(results: Iterable[Result]) -> Iterator[Picture]:
         paper = [r for r in group if r["points"] and "bits" in r["points"][0]["settings"]]
         rest = [r for r in group if r not in paper]
         if paper:
-            slowest_first = sorted(paper, key=lambda r: -max(float(p["decode_seconds"]) for p in r["points"]))
-            yield draw_paper_figure(slowest_first, f"{mesh}.paper")
+            points = {r["codec"]: [(p["bpv_paper"], p["nmsve_db"]) for p in r["points"]] for r in paper}
+            lines = {r["codec"]: Line(r["label"], points[r["codec"]]) for r in paper}
+            yield draw_rates({title_of(group[0]): lines}, PAPER_RATE, MEASURES["nmsve_db"], f"{mesh}.paper")
         if rest:  # SVD in the paper's mode represents the paper among whole files.
             shown[mesh] = [*rest, *(r for r in paper if r["codec"] in ("svd", "oi-r2"))]
     stem = next(iter(shown)) if len(shown) == 1 else "meshes"

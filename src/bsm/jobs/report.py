@@ -17,12 +17,8 @@ from bsm.files.output import write_output
 from bsm.jobs.task import Facts, Job, Task, Work
 
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
-
-
 _EVERY = 1.0  # seconds between two versions of a report, at least
-
-
-_SHARE = 0.02  # of all time that goes into writing them, at most
+_SHARE = 0.02  # largest share of the time for writing reports
 
 
 def options_of(task: Task) -> Facts:
@@ -86,8 +82,6 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
 
 
 _MOST_BYTES = 1 << 63
-
-
 _FIELDS: Mapping[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
     **dict.fromkeys(("seconds", "max_error_relative", "kg"), lambda value: type(value) in (int, float)),

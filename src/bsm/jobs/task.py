@@ -11,8 +11,6 @@ from bsm.exits import behind, is_expected
 from bsm.files import pipes
 
 _Same = TypeVar("_Same", bound="Task")
-
-
 Facts = dict[str, Any]  # the result for an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
 
 
@@ -69,12 +67,8 @@ class UnexpectedError(Exception):
 
 
 Numbered: TypeAlias = tuple[int, Task]
-
-
-Tasks: TypeAlias = Iterator[Numbered | None]  # made as they are needed; None: none is ready before others end
-
-
-Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of jobs and what came of them, as they end
+Tasks: TypeAlias = Iterator[Numbered | None]  # made when needed; None: the next ones wait for others
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of jobs and their outcomes, as they end
 
 
 def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
