@@ -478,6 +478,30 @@ def test_no_page_is_saved_of_a_stream_that_ends_early(end, tmp_path):
     assert not (tmp_path / "page.html").exists()
 
 
+def test_sequences_are_encoded_and_compared_frame_by_frame(tmp_path, capsys):
+    frames, faces = moving(7)
+    np.savez(tmp_path / "sway.npz", positions=frames, faces=faces)
+    for number, frame in enumerate(frames):
+        bsm.save(bsm.TriangleMesh(frame, faces), tmp_path / f"sway_{number}.ply")
+    page = tmp_path / "page.html"
+    stream = tmp_path / "sway.bsm"
+    assert main(["view", str(tmp_path / "sway.npz"), "--save", str(page)]) == 0
+    (entry,) = listed(page.read_text("utf-8"))
+    stream.write_bytes(base64.b64decode(entry["layers"][0]["data"]))
+    capsys.readouterr()
+    assert main(["compare", str(tmp_path / "sway.npz"), str(stream), "--json"]) == 0
+    expected = [frame["max_error_relative"] for frame in json.loads(capsys.readouterr().out)["frames"]]
+    facts = entry["facts"]
+    assert facts["errors"] == pytest.approx(expected) and facts["farthest"] == max(facts["errors"]) > 0
+    original = str(tmp_path / "sway_%d.ply")
+    assert main(["view", str(stream), "--original", original, "--save", str(page), "-f"]) == 0
+    assert listed(page.read_text("utf-8"))[0]["facts"]["errors"] == pytest.approx(expected)
+    np.savez(tmp_path / "short.npz", positions=frames[:5], faces=faces)
+    unused = str(tmp_path / "unused.html")
+    assert main(["view", str(stream), "--original", str(tmp_path / "short.npz"), "--save", unused]) != 0
+    assert "7 frames, and its original has 5" in capsys.readouterr().err
+
+
 def test_original_of_a_sequence_is_refused(tmp_path, capsys):
     stream, mesh = str(VECTORS / "good-sequence-one.bsm"), str(tmp_path / "ball.ply")
     bsm.save(torus(), mesh)

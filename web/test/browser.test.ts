@@ -162,6 +162,21 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         });
     }
 
+    test("plots the largest error of each frame", async () => {
+        const frames = Number(await page.evaluate(() => document.querySelector<HTMLInputElement>("[name=frame]")!.max)) + 1;
+        const errors = Array.from({ length: frames }, (_, i) => (i === 1 ? 0.004 : 0.001));
+        assert.ok(await page.locator("[data-part=errors]").isHidden(), "nothing is known of the errors");
+        await page.goto(savedPage(folder, { sequence: readFileSync(SEQUENCES.at(-1)!) }, { facts: { errors, farthest: 0.004 } }));
+        await state("complete");
+        const path = (await page.locator("[data-part=errors] path").getAttribute("d"))!.split("L");
+        assert.equal(path.length, frames + 2);
+        assert.deepEqual(path.slice(1, 4).map((point) => Number(point.split(",")[1])), [0.75, 0, 0.75]);
+        await page.getByRole("button", { name: "Pause" }).click();
+        await page.getByRole("slider", { name: "Frame" }).fill("1");
+        await page.waitForFunction(() => document.querySelector("[data-part=time]")!.textContent!.endsWith("error 0.4\u00a0%"));
+        assert.deepEqual(complaints, []);
+    });
+
     test("wears the textures of a stream, and has its axis up", async () => {
         const fresh = await context.newPage();
         // Half of the image is red, half is green: a page without the texture has neither.

@@ -9,12 +9,15 @@ from threading import Thread
 
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of, within
 from bsm.console import Console, Progress
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh
+from bsm.files.motion.frames import Frames
 from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks, size_of
+from bsm.files.sequence import open_sequence
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.shards import is_tiles, open_tiles
 from bsm.viewer.contents import PRESETS, Content, alone, compared, made
@@ -25,10 +28,10 @@ _NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    shown = "stream, - for a pipe, or folder of tiles. A mesh file is encoded and shown next to its stream. Without "
+    shown = "stream, - for a pipe, or folder of tiles. Meshes and sequences are encoded and compared. Without "
     add("inputs", metavar="IN", nargs="*", help=f"{shown}inputs, opens an empty page; drop a mesh on it")
-    add("--preset", choices=PRESETS, default="balanced", help="preset for mesh files (default: balanced)")
-    add("--original", metavar="MESH", help="mesh file to compare the stream with")
+    add("--preset", choices=PRESETS, default="balanced", help="preset for meshes and sequences (default: balanced)")
+    add("--original", metavar="MESH", help="mesh or sequence to compare the stream with")
     add("--follow", action="store_true", help="keep reading files that are still being written")
     add_reader_flag(parser)
     add_limits_flag(parser)
@@ -73,20 +76,23 @@ def _opened(
         return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
     if args.follow or (path == "-" and not args.save and not args.original):
         return _growing(name, path)
-    data = b"".join(read_chunks(path))
     with about(path):
-        if data.startswith(MAGIC[: len(data)]):
-            if args.save:
-                inspect_stream(iter([data]), limits_of(args.limits))
-            if args.original is None:
-                return alone(name, data)
-            with about(args.original):
-                mesh = read_mesh(args.original, reader=args.reader).mesh
-            return compared(name, data, mesh, size=size_of(args.original), limits=limits_of(args.limits))
-        if path == "-":
-            raise FormatError(_NO_STREAM)
-        mesh = read_mesh(path, reader=args.reader).mesh
-        content = made(name, data, mesh, args.preset, progress.stage)
+        source: TriangleMesh | Frames | None = open_sequence(path, reader=args.reader)
+        if source is None:
+            data = b"".join(read_chunks(path))
+            if data.startswith(MAGIC[: len(data)]):
+                if args.save:
+                    inspect_stream(iter([data]), limits_of(args.limits))
+                if args.original is None:
+                    return alone(name, data)
+                with about(args.original):
+                    frames = open_sequence(args.original, reader=args.reader)
+                    original = frames or read_mesh(args.original, reader=args.reader).mesh
+                return compared(name, data, original, size=size_of(args.original), limits=limits_of(args.limits))
+            if path == "-":
+                raise FormatError(_NO_STREAM)
+            source = read_mesh(path, reader=args.reader).mesh
+        content = made(name, size_of(path), source, args.preset, progress.stage)
     size = content.layers[content.main].size
     console.note(f"{path}: {size} bytes as a stream of the preset {args.preset}")
     return content

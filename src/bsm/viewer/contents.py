@@ -16,16 +16,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.api import encode
-from bsm.bitstream.errors import BsmError, DependencyError, MeshError, UnsupportedError
+from bsm.api import encode, encode_sequence
+from bsm.bitstream.errors import BsmError, DependencyError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import Reference
 from bsm.comparison import in_order_of
 from bsm.exits import worded
 from bsm.files.mesh import read_mesh
+from bsm.files.motion.frames import Frames
 from bsm.files.pipes import Input
-from bsm.files.stream import decode_whole, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, numbered, numbers_of, peek_header
 
 DRACO_LEVEL = 10
 DRACO_BITS = range(4, 25)
@@ -62,16 +63,19 @@ def alone(name: str, stream: bytes) -> Content:
 def compared(
     name: str,
     stream: bytes,
-    original: TriangleMesh,
+    original: TriangleMesh | Frames,
     *,
     size: int | None = None,
     preset: str | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Content:
-    """Return a stream with its original, a file of `size` bytes, and with Draco's file if DracoPy is installed."""
+    """Return a stream with its original, a file of `size` bytes; for meshes also Draco's file if DracoPy is there."""
     header, _ = peek_header(Input(stream).chunks())
-    if header is not None and header.gop_frames:
-        raise UnsupportedError(f"{name} is a sequence; only single meshes are compared with an original")
+    if bool(header and header.gop_frames) != isinstance(original, Frames):
+        raise MeshError(f"{name} and its original must both be sequences, or both meshes")
+    if isinstance(original, Frames):
+        facts = {"preset": preset, **_over_time(name, SequenceStream(Input(stream).chunks(), limits=limits), original)}
+        return Content(name, (Layer("BSM", preset or "", len(stream), stream),), 0, facts)
     from bsm.codec.look.measure import look
     from bsm.codec.static.options import PRESETS as ALL
 
@@ -87,7 +91,7 @@ def compared(
     off = _off(decoded, source)
     diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
     theta = Reference(source.positions, source.faces).theta(in_order_of(source, used))
-    facts: dict[str, Any] = {"preset": preset, "diagonal": diagonal, "theta": theta}
+    facts = {"preset": preset, "diagonal": diagonal, "theta": theta}
     facts["farthest"] = float(np.nanmax(off, initial=0.0)) / diagonal
     rival: tuple[Layer, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
@@ -99,6 +103,21 @@ def compared(
         bounds = {"look": contract.look, "farthest": min(contract.farthest, contract.by_part)}
         facts["promised"] = {bound: value for bound, value in bounds.items() if math.isfinite(value)}
     return Content(name, (first, Layer("BSM", preset or "", len(stream), stream, off), *rival), 1, facts)
+
+
+def _over_time(name: str, decoder: SequenceStream, original: Frames) -> dict[str, Any]:
+    """Return the largest error of each frame, as a fraction of the first one's diagonal."""
+    decoded = [frame for _, frame in decoder.frames()]
+    if len(decoded) != original.count:
+        raise MeshError(f"{name} has {len(decoded)} frames, and its original has {original.count}")
+    frames = np.array(list(original.frames))
+    mesh, kept = TriangleMesh(frames[0], original.faces).without_isolated_vertices()
+    other, others = TriangleMesh(decoded[0], decoder.faces).without_isolated_vertices()
+    rows = others[numbers_of(in_order_of(mesh, numbered(other.faces, len(others))))]
+    diagonal = float(np.linalg.norm(extent_of(mesh.positions))) or 1.0
+    pairs = zip(frames, decoded, strict=True)
+    errors = [float(np.linalg.norm(frame[kept] - other[rows], axis=1).max()) / diagonal for frame, other in pairs]
+    return {"diagonal": diagonal, "farthest": max(errors), "errors": errors}
 
 
 def _off(decoded: TriangleMesh, source: TriangleMesh) -> npt.NDArray[np.float32]:
@@ -135,14 +154,23 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
     return (layer,), {"bytes": len(file(DRACO_BITS[good])), "bits": DRACO_BITS[good]}
 
 
-def made(name: str, data: bytes, mesh: TriangleMesh, preset: str, report: Callable[[str, float], None]) -> Content:
-    """Encode a mesh file and compare it; call `report` with each stage and the fraction done."""
+def made(
+    name: str, size: int | None, source: TriangleMesh | Frames, preset: str, report: Callable[[str, float], None]
+) -> Content:
+    """Encode a file and compare it; call `report` with each stage and the fraction done."""
     report("encoding", 0.0)
     begin = time.perf_counter()
-    stream = encode(mesh, preset=preset)
+    if isinstance(source, TriangleMesh):
+        stream = encode(source, preset=preset)
+    else:
+        frames = np.array(list(source.frames))
+        source = replace(source, frames=iter(frames))
+        kept = {**source.metadata, **({"frame_rate": source.frame_rate} if source.frame_rate else {})}
+        carried = source.attributes
+        stream = encode_sequence(frames, source.faces, metadata=kept, mesh_attributes=carried, preset=preset)
     seconds = time.perf_counter() - begin
     report("comparing", _ENCODING)
-    content = compared(name, stream, mesh, size=len(data), preset=preset)
+    content = compared(name, stream, source, size=size, preset=preset)
     return replace(content, facts={**content.facts, "seconds": seconds})
 
 
@@ -152,7 +180,7 @@ def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:
     try:
         pipe.send(("reading", 0.0))
         mesh = read_mesh(data, limits=Limits.service()).mesh
-        pipe.send(made(name, data, mesh, preset, lambda stage, share: pipe.send((stage, share))))
+        pipe.send(made(name, len(data), mesh, preset, lambda stage, share: pipe.send((stage, share))))
     except (BsmError, MemoryError) as error:
         pipe.send(worded(error))
 

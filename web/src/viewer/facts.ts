@@ -22,6 +22,8 @@ export interface Content {
         promised?: { look?: number; farthest?: number };
         look?: number;
         farthest?: number;
+        /** The largest error of each frame of a sequence. */
+        errors?: number[];
         theta?: number;
         seconds?: number;
         diagonal?: number;

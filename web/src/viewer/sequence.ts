@@ -1,7 +1,7 @@
 /** The controls of a sequence: they play it, hold it and seek in it. */
 import type { BSMGeometry } from "../geometry";
 import { BSMSequence } from "../sequences";
-import { sized } from "./facts";
+import { percent, type Content } from "./facts";
 import type { Form } from "./form";
 
 const SECOND = 1000;
@@ -11,6 +11,7 @@ export class SequenceBar {
     private readonly frame: HTMLInputElement;
     private before = 0;
     private shown = -1;
+    private errors: number[] = [];
 
     constructor(private readonly form: Form) {
         this.frame = form.control("frame");
@@ -19,8 +20,12 @@ export class SequenceBar {
         form.on("loop", "change", ({ checked }) => this.sequence && (this.sequence.loop = checked));
     }
 
-    clear(): void {
-        [this.sequence, this.shown] = [undefined, -1];
+    /** Begin with another one, whose largest error in each frame is a small plot if it is known. */
+    open({ errors = [], farthest }: Content["facts"]): void {
+        [this.sequence, this.shown, this.errors] = [undefined, -1, errors];
+        const points = errors.map((error, i) => `L${i / (errors.length - 1)},${1 - error / (farthest || 1)}`);
+        this.form.part("errors").toggleAttribute("hidden", points.length < 2);
+        this.form.part("errors").querySelector("path")!.setAttribute("d", `M0,1${points.join("")}L1,1z`);
     }
 
     /** Frames are there: begin to play them, unless the page's reader wants less motion. */
@@ -30,7 +35,7 @@ export class SequenceBar {
     }
 
     /** Show the frame that is due, of those that there are; return whether it is another one. */
-    step(now: number, over: boolean, missed: number, size: number): boolean {
+    step(now: number, over: boolean, missed: number): boolean {
         const { sequence, form } = this;
         form.part("sequence").hidden = !sequence;
         if (!sequence) return false;
@@ -38,13 +43,13 @@ export class SequenceBar {
         sequence.speed = Number(form.control<HTMLSelectElement>("speed").value);
         sequence.update((now - this.before) / SECOND);
         this.before = now;
-        this.report(sequence, missed, size);
+        this.report(sequence, missed);
         const isAnother = sequence.frame !== this.shown;
         this.shown = sequence.frame;
         return isAnother;
     }
 
-    private report({ complete, frame: shown, geometry, playing, rate }: BSMSequence, missed: number, size: number): void {
+    private report({ frame: shown, geometry, playing, rate }: BSMSequence, missed: number): void {
         const { form, frame } = this;
         const there = geometry.frames.length;
         const total = Math.max(geometry.header!.frames - missed, there);
@@ -55,8 +60,9 @@ export class SequenceBar {
         form.control("play").textContent = playing ? "Pause" : "Play";
         const ahead = there < total ? `, ${there} are there` : "";
         const place = `${missed + shown + 1} of ${missed + total}`;
-        const each = complete && total > 0 ? `; ${sized(Math.round(size / total))} a frame` : "";
-        form.say("time", `${place}${ahead}; ${((missed + shown) / rate).toFixed(2)} s${each}`);
+        const error = this.errors[shown];
+        const off = error === undefined ? "" : `; error ${percent(error)}`;
+        form.say("time", `${place}${ahead}; ${((missed + shown) / rate).toFixed(2)} s${off}`);
         frame.setAttribute("aria-valuetext", `frame ${place}`);
     }
 }

@@ -234,7 +234,7 @@ export class View {
         });
         this.geometry = geometry;
         meshes.begin(geometry);
-        this.sequence.clear();
+        this.sequence.open(this.content.facts);
         this.arrival.restart();
         this.losses = [];
         this.missed = 0;
@@ -261,7 +261,7 @@ export class View {
     private step(now: number): void {
         const { arrival, geometry, meshes, over, stage } = this;
         stage.step();
-        if (this.sequence.step(now, over, this.missed, arrival.length)) {
+        if (this.sequence.step(now, over, this.missed)) {
             if (over) stage.shadow(geometry);
             meshes.stale = true;
         }
