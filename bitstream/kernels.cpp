@@ -11,12 +11,6 @@ extern "C" {
 
 BSM_STRUCT(Coder, Longs, Bytes)
 BSM_STRUCT(Bank, Words, Ints2, Longs)
-BSM_STRUCT(Models, Bank, Bank, Bank, int64_t)
-BSM_STRUCT(Front, Ints2, Ints)
-BSM_STRUCT(Surface, ConstInts, ConstInts, ConstInts, ConstInts)
-BSM_STRUCT(Guide, Surface, Bytes, Ints, Ints, Ints, Ints)
-BSM_STRUCT(Conquest, Front, Longs2, Ints2, Longs)
-BSM_STRUCT(Seams, Ints, Ints, Ints, Ints, Ints)
 BSM_STRUCT(Past, Ints2, Ints2, Ints2, Longs)
 BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 
@@ -25,19 +19,10 @@ using namespace nb::literals;
 NB_MODULE(_kernels, m) {
     m.def("code_uniform", checked<code_one_uniform>, "coder"_a, "value"_a, "count"_a);
     m.def("code_unsigned", checked<code_one_unsigned>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
-        "value"_a, "node"_a);
+        "value"_a, "node"_a = 0);
 
     m.def("priors", [] { return nb::bytes(PRIORS, PRIORS_BYTES); });
 
-    m.def("match_halfedges", checked<match_halfedges>, "origin"_a, "starts"_a, "by_high"_a, "order"_a, "twin"_a,
-        Unlocked());
-    m.def("find_fans", checked<find_fans>, "origin"_a, "twin"_a, "corner"_a, "vertex"_a, Unlocked());
-    m.def("fill_loops", checked<fill_loops>, "twin"_a, "corner"_a, "leaving"_a, "full_twin"_a, "full_corner"_a,
-        Unlocked());
-    m.def("number_by_appearance", checked<number_by_appearance>, "sequence"_a, "order"_a, "number"_a, Unlocked());
-    m.def("conquer", checked<conquer>, "coder"_a, "models"_a, "guide"_a, "conquest"_a, Unlocked());
-    m.def("code_fans", checked<code_fans>, "coder"_a, "bank"_a, "known"_a, "seams"_a, Unlocked());
-    m.def("code_degenerate", checked<code_degenerate>, "coder"_a, "corners"_a, "count"_a, Unlocked());
     m.def("code_steps", checked<code_steps>, "coder"_a, "bank"_a, "values"_a, "tree"_a, Unlocked());
     m.def("code_turns", checked<code_turns>, "coder"_a, "bank"_a, "values"_a, Unlocked());
     m.def("code_labels", checked<code_labels>, "coder"_a, "bank"_a, "offsets"_a, "neighbors"_a, "labels"_a, "parts"_a,

@@ -1,5 +1,7 @@
 #include "engine/coding.h"
 
+#include <stdlib.h>
+
 enum { AHEAD = 4 };
 
 #ifdef BSMDEC_WRITES
@@ -25,6 +27,18 @@ static bool finish_writing(const Reading *writing) {
     for (int64_t k = 0; k < kept; k++) data[size + k] = (uint8_t)(value >> (24 - 8 * k));
     to->size += size + kept;
     to->ends[to->count++] = to->size;
+    return true;
+}
+
+bool room_to_write(Reading *writing, int64_t bytes) {
+    Writing *to = writing->context->writing;
+    int64_t room = to != NULL ? to->size + writing->state[CODER_POSITION] + bytes + AHEAD : 0;
+    if (to == NULL || room < to->room) return true;
+    uint8_t *data = realloc(to->data, (size_t)(2 * room));
+    if (data == NULL) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
+    to->data = data;
+    to->room = 2 * room;
+    writing->coder.data = (Bytes){to->data + to->size, to->room - to->size};
     return true;
 }
 #endif

@@ -15,6 +15,12 @@ typedef struct {
 } Reading;
 
 bool begin_reading(Context *context, Span payload, Reading *reading);
+/* Let a writer write so many bytes more; a reader has all bytes that it will have. */
+#ifdef BSMDEC_WRITES
+bool room_to_write(Reading *reading, int64_t bytes);
+#else
+INLINE bool room_to_write(Reading *reading, int64_t bytes) { return (void)reading, (void)bytes, true; }
+#endif
 /* Whether more was read than any payload of this length can hold (C 1.6). */
 bool ran_over(const Reading *reading);
 /* The error that nonsense is: truncated if the payload is over. */

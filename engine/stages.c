@@ -26,7 +26,8 @@ static bool accept_connectivity(bsmdec *decoder, Span data) {
     Mesh *mesh = &decoder->mesh;
     const Header *header = &mesh->header;
     double n = (double)header->vertices, m = (double)header->faces, bytes = (double)data.size;
-    if (!decode_connectivity(context, data, header, &mesh->arena, &decoder->scratch, &mesh->faces)) return false;
+    if (!code_connectivity(context, data, header, &(Surface){0}, &mesh->arena, &decoder->scratch, &mesh->faces))
+        return false;
     context->spent.vertices += header->vertices;
     mesh->has_faces = true;
     mesh->numbering = (Numbering){.size = header->vertices, .faces = const_ints2(mesh->faces)};

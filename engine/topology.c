@@ -4,51 +4,54 @@
 #include "bitstream/connectivity/connectivity.h"
 #include "engine/coding.h"
 
-enum { FIRST_NODES_ROOM = 16, TALLIES = 8, TALLY_DUMMIES = 3, TALLY_TURNS, TALLY_STEPS, FAN_SLOTS = 32,
-    EVENT_TRUST = 30 };
+enum { FIRST_NODES_ROOM = 16, FAN_SLOTS = 32, EVENT_TRUST = 30,
+    FAN_BYTES = 32 /* more than the vertex of a fan, or a corner of a face that repeats one, can take */ };
 /* Bytes that decoding and the graph take at most for each; only fans that are sewn together count (M 14.8). */
 static const double FACE_MEMORY = 100, VERTEX_MEMORY = 400, FAN_MEMORY = 240;
 
-static bool make_models(Arena *arena, int64_t vertices, Models *models) {
+static bool make_models(Arena *arena, int64_t vertices, ValenceModel *models, Bank *rare) {
     int bits = (int)largest(LEAST_HASH_BITS, least(64 - __builtin_clzll((uint64_t)vertices) - 2, MOST_HASH_BITS));
+    int64_t valences = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES;
+    Bank valence, event;
     models->bits = bits;
-    return make_bank(arena, (BankPlan){.slots = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES,
-        .selectors = VALENCE_NODES, .inputs = VALENCE_CONTEXTS, .limit = 1023, .rate = 16}, &models->valence)
+    return make_bank(arena, (BankPlan){.slots = valences, .selectors = VALENCE_NODES, .inputs = VALENCE_CONTEXTS,
+        .limit = 1023, .rate = 16}, &valence)
         && make_bank(arena, (BankPlan){.slots = EVENT_CONTEXTS * EVENT_SIZE, .selectors = 1, .inputs = EVENT_CONTEXTS,
-            .limit = 1023, .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &models->event)
-        && make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}, &models->rare);
+            .limit = 1023, .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &event)
+        && make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}, rare)
+        && open_bank(&models->valence, valence, valences, VALENCE_NODES, VALENCE_CONTEXTS)
+        && open_bank(&models->event, event, EVENT_CONTEXTS * EVENT_SIZE, 1, EVENT_CONTEXTS)
+        && open_bank(&models->rare, *rare, RARE_NODES, RARE_NODES, 1);
 }
 
-static int64_t read_count(Reading *reading, const Models *models) {
+static int64_t code_count(Reading *reading, Bank rare, int64_t count) {
     int64_t context = 0;
-    return code_one_unsigned(reading->coder, models->rare, (ConstLongs){&context, 1}, 0, RARE_UNARY, 0, RARE_HEADER);
+    return code_one_unsigned(reading->coder, rare, (ConstLongs){&context, 1}, 0, RARE_UNARY, count, RARE_HEADER);
 }
 
 /* The conquest (C 6) of faces that do not repeat a corner, with more memory for its front each time it asks. */
-static bool read_surface(Reading *reading, const Models *models, Arena *scratch, int64_t fans, int64_t dummies,
-    Ints2 faces) {
-    Longs tallies;
-    Ints heads;
-    Longs2 vertices;
-    Ints2 nodes;
-    if (!zero_longs(scratch, TALLIES, &tallies) || !take_ints(scratch, HEADS, &heads)
-        || !take_longs2(scratch, fans + dummies, VERTEX_COLUMNS, &vertices)
-        || !take_ints2(scratch, fans + FIRST_NODES_ROOM, NODE_COLUMNS, &nodes))
+static bool code_surface(Reading *reading, Conquest *walk, Arena *scratch, Ints2 faces) {
+    walk->faces = faces.data;
+    walk->face_room = faces.rows;
+    walk->turns = 4 * faces.rows; /* each real face has at most three dummy neighbors */
+    walk->steps = 65536 + 16 * faces.rows;
+    for (int i = 0; i < HEADS; i++) walk->front.heads[i] = i == MADE || i == ALIVE ? 0 : -1;
+    walk->front.capacity = walk->vertex_room + FIRST_NODES_ROOM;
+    if (!TAKE(scratch, walk->vertex_room, walk->vertices) || !TAKE(scratch, walk->front.capacity, walk->front.nodes))
         return false;
-    for (int i = 0; i < HEADS; i++) heads.data[i] = -1;
-    heads.data[MADE] = heads.data[ALIVE] = 0;
-    tallies.data[TALLY_DUMMIES] = dummies;
-    tallies.data[TALLY_TURNS] = 4 * faces.rows;
-    tallies.data[TALLY_STEPS] = 65536 + 16 * faces.rows;
     for (;;) {
-        int64_t end =
-            conquer(reading->coder, *models, (Guide){0}, (Conquest){{nodes, heads}, vertices, faces, tallies});
+        ConquestEnd end = conquer(reading->coder, walk);
         if (end == CONQUEST_DONE) return true;
-        if (end != CONQUEST_NO_ROOM) return nonsense(reading, "a connectivity payload does not make its triangles");
-        Ints2 wider;
-        if (!take_ints2(scratch, 2 * nodes.rows, NODE_COLUMNS, &wider)) return false;
-        memcpy(wider.data, nodes.data, (size_t)(nodes.rows * NODE_COLUMNS) * sizeof *nodes.data);
-        nodes = wider;
+        Node *nodes = walk->front.nodes, *wider;
+        int64_t made = walk->front.capacity;
+        if (end == CONQUEST_NONSENSE || made > INT32_MAX / 2)
+            return nonsense(reading, "a connectivity payload does not make its triangles");
+        if (!room_to_write(reading, TURN_BYTES)) return false;
+        if (walk->front.heads[MADE] + 3 <= made) continue;
+        if (!TAKE(scratch, 2 * made, wider)) return false;
+        memcpy(wider, nodes, (size_t)made * sizeof *nodes);
+        walk->front.nodes = wider;
+        walk->front.capacity = 2 * made;
     }
 }
 
@@ -70,29 +73,49 @@ static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
 }
 
 /* Which fans are the same vertex (C 7): corners become vertices. Returns their number, -1 for nonsense. */
-static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, int64_t fans) {
-    Ints after, before, known, vertex, sibling, latest;
+static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, Ints known) {
+    Ints after, before, vertex, sibling, latest;
+    int64_t fans = known.size;
     Bank bank;
-    if (!take_ints(scratch, fans, &after) || !take_ints(scratch, fans, &before) || !take_ints(scratch, fans, &known)
+    if (!take_ints(scratch, fans, &after) || !take_ints(scratch, fans, &before)
         || !take_ints(scratch, fans, &vertex) || !take_ints(scratch, fans, &sibling)
         || !take_ints(scratch, fans, &latest)
         || !make_bank(scratch, (BankPlan){.slots = FAN_SLOTS, .selectors = 1, .inputs = 1}, &bank)
         || !find_borders(scratch, faces, after, before))
         return -1;
-    for (int64_t i = 0; i < fans; i++) known.data[i] = -1;
+    if (known.data == NULL) {
+        if (!take_ints(scratch, fans, &known)) return -1;
+        for (int64_t i = 0; i < fans; i++) known.data[i] = -1;
+    }
     int64_t count = code_fans(reading->coder, bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
     for (int64_t i = 0; count >= 0 && i < 3 * faces.rows; i++) faces.data[i] = vertex.data[faces.data[i]];
     return count;
 }
 
-static bool read_faces(Reading *reading, const Header *header, Arena *arena, Arena *scratch, Ints2 *faces) {
+#ifdef BSMDEC_WRITES
+/* The numbers that a decoder gives the vertices of fans and of faces that repeat a corner. */
+static void number_vertices(const Surface *surface, int64_t fans, Ints corners) {
+    Ints used = surface->used;
+    for (int64_t i = 0; i < fans; i++) used.data[i] = surface->vertex[surface->guide.fans[i]];
+    number_by_appearance(const_ints(used), surface->order, surface->number);
+    for (int64_t i = 0; i < used.size; i++) used.data[i] = surface->number.data[used.data[i]];
+    for (int64_t i = 0; i < corners.size; i++) corners.data[i] = used.data[fans + i];
+}
+#endif
+
+static bool code_faces_of(Reading *reading, const Header *header, const Surface *surface, Arena *arena, Arena *scratch,
+    Ints2 *faces) {
     Context *context = reading->context;
-    Models models;
-    if (!make_models(scratch, header->vertices, &models)) return false;
-    int64_t repeated = read_count(reading, &models), lonely = read_count(reading, &models);
-    int64_t surplus = read_count(reading, &models), dummies = read_count(reading, &models);
+    Conquest walk = {.map = surface->guide};
+    Bank rare;
+    if (!make_models(scratch, header->vertices, &walk.model, &rare)) return false;
+    int64_t repeated = code_count(reading, rare, surface->repeated);
+    int64_t lonely = code_count(reading, rare, surface->lonely);
+    int64_t surplus = code_count(reading, rare, surface->surplus);
+    int64_t dummies = walk.dummies = code_count(reading, rare, surface->dummies);
     int64_t proper = header->faces - repeated, regular = header->vertices - lonely, fans = regular + surplus;
-    if (proper < 0 || regular < 0 || lonely > 3 * repeated || fans > 3 * proper || dummies > 3 * proper)
+    if (proper < 0 || regular < 0 || lonely > 3 * repeated || fans > 3 * proper || dummies > 3 * proper
+        || header->faces > INT32_MAX / 3 || fans + dummies > INT32_MAX)
         return nonsense(reading, "the counts at the start of a connectivity payload contradict each other");
     double memory = FACE_MEMORY * (double)header->faces + VERTEX_MEMORY * (double)header->vertices
         + FAN_MEMORY * (double)(surplus + dummies);
@@ -100,21 +123,27 @@ static bool read_faces(Reading *reading, const Header *header, Arena *arena, Are
         || !within_memory(context, memory, header->vertices, (double)reading->coder.data.size))
         return false;
     if (!take_ints2(arena, header->faces, 3, faces)) return false;
-    Ints2 surface = {faces->data, proper, 3};
-    if (!read_surface(reading, &models, scratch, fans, dummies, surface)) return false;
-    int64_t known = surplus > 0 ? join_fans(reading, scratch, surface, fans) : fans;
+    Ints2 usual = {faces->data, proper, 3};
+    Ints corners = {faces->data + 3 * proper, 3 * repeated}, known = {surface->used.data, fans};
+    walk.vertex_room = fans + dummies;
+    if (!code_surface(reading, &walk, scratch, usual) || !room_to_write(reading, FAN_BYTES * (fans + corners.size)))
+        return false;
+#ifdef BSMDEC_WRITES
+    if (context->writing != NULL) number_vertices(surface, fans, corners);
+#endif
+    int64_t count = surplus > 0 ? join_fans(reading, scratch, usual, known) : fans;
     if (failed(context)) return false;
-    Ints corners = {faces->data + 3 * proper, 3 * repeated};
-    if (known != regular || code_degenerate(reading->coder, corners, known) != header->vertices)
+    if (count != regular || code_degenerate(reading->coder, corners, count) != header->vertices)
         return nonsense(reading, "a connectivity payload does not make its vertices");
     return finish_reading(reading);
 }
 
-bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch,
-    Ints2 *faces) {
+bool code_connectivity(Context *context, Span payload, const Header *header, const Surface *surface, Arena *arena,
+    Arena *scratch, Ints2 *faces) {
     Reading reading;
     Mark mark = mark_of(scratch);
-    bool done = begin_reading(context, payload, &reading) && read_faces(&reading, header, arena, scratch, faces);
+    bool done = begin_reading(context, payload, &reading)
+        && code_faces_of(&reading, header, surface, arena, scratch, faces);
     release_to(scratch, mark);
     return done;
 }

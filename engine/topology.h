@@ -2,10 +2,20 @@
 #ifndef BSMDEC_TOPOLOGY_H
 #define BSMDEC_TOPOLOGY_H
 
+#include "bitstream/connectivity/connectivity.h"
 #include "engine/structure.h"
 
-bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch,
-    Ints2 *faces);
+/* Known to a writer only; all 0 for a reader. */
+typedef struct {
+    int64_t repeated, lonely, surplus, dummies; /* the counts of C 4.3 */
+    Guide guide;
+    int32_t *vertex;       /* of each fan */
+    Ints used;             /* room for the vertices of fans, then those of faces that repeat a corner */
+    Ints order, number;    /* of each vertex: room for those in the order of coding, and the place of each there */
+} Surface;
+
+bool code_connectivity(Context *context, Span payload, const Header *header, const Surface *surface, Arena *arena,
+    Arena *scratch, Ints2 *faces);
 bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t parts, Arena *scratch, Ints labels);
 
 #endif

@@ -17,7 +17,8 @@ KNOW_BYTES = tuple(f"bsm.codec.{name}" for name in ("decoding", "events", "stati
 KNOWN_TO_ALL = tuple(f"bsm.bitstream.{name}" for name in ("errors", "limits", "once", "kernel", "trellis"))
 FLOORS = {
     "bsm": (
-        ("bitstream", "__version__", "_engine", "_kernels"),
+        ("__version__", "_engine", "_kernels"),
+        ("bitstream",),
         ("codec",),
         ("console", "lengths", "pictures"),
         ("files",),
@@ -255,7 +256,7 @@ def allowed(importer: str, imported: str) -> bool:
     if room in FLOORS and library == room:
         return True
     if room == "bsm.bitstream":
-        return library in BITSTREAM_LIBRARIES
+        return library in BITSTREAM_LIBRARIES or imported.startswith("bsm._engine.write_")
     if room == "bsm.codec":
         if imported.startswith("bsm._engine."):
             return importer == "bsm.codec.decoding" or imported == "bsm._engine.Field"

@@ -12,6 +12,7 @@ import pytest
 
 from bsm import SequenceEncoder, SequenceOptions, TriangleMesh, decode, decode_sequence, encode
 from bsm.bitstream import _kernels as of_bytes
+from bsm.bitstream.entropy.range_coder import make_bank, start_writing
 from bsm.codec import _kernels as of_arrays
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.look.measure import AttributeLook
@@ -113,6 +114,8 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     corners = bare.positions[bare.faces].reshape(-1, 9)
     assert AttributeLook(bare, "color", corners).distance(bare.positions, corners) == 0.0
     AttributeLook(bare, "texcoord", np.ascontiguousarray(corners[:, :6]))
+    count = defended(of_bytes.code_unsigned, "code_unsigned", refusals)
+    count(start_writing(9), make_bank(28, 28, 1), np.zeros(1, np.int64), 0, 2, 1, 0)
     names = {*KERNELS} - NOTHING_SHORT
     assert not names - set(refusals), "kernels that this test does not reach"
     assert not {name for name in names if not refusals[name]}, "kernels that refuse nothing"

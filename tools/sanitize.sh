@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Build the kernels with AddressSanitizer and UndefinedBehaviorSanitizer (GCC), and run them over all vectors, mutations
 # of them and bad meshes; then bsmdec, over mutations, and over every 40th vector (STARVE=1: all of them) while its memory
-# ends in each place (tools/attack/starve.c). Whatever they find ends the run with a report and exit code 1.
+# ends in each place (tools/attack/starve.c). The tests of the binding run with these sanitizers and with ThreadSanitizer.
+# Any finding ends the run with a report and exit code 1. ONLY=binding skips everything but the binding.
 #     [STARVE=N] tools/sanitize.sh [PYTHON] [OPTIONS of python -m tools.attack sweep ...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -12,10 +13,20 @@ python=$(command -v "$python")
 python=$(cd "$(dirname "$python")" && pwd)/$(basename "$python")
 . tools/checking_copy.sh
 root=$PWD
-checking_copy sanitized -DBSM_SANITIZE=ON
+
+# Tests that enter the binding, by the copy in which we are.
+test_binding() { (cd "$root" && "$python" -m pytest -p no:cacheprovider -x "$@"); }
+
+# ThreadSanitizer knows the interpreter lock, which is a mutex, but sees nothing that numpy and the interpreter do.
+checking_copy races -DBSM_SANITIZE=thread
+LD_PRELOAD=$(gcc -print-file-name=libtsan.so) test_binding tests/codec/test_threads.py -k share
+cd "$root"
+checking_copy sanitized -DBSM_SANITIZE=address,undefined
 # libstdc++ as well: the sanitizer looks for its throw before Python has loaded it.
 export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so)"
 export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 PYTHONMALLOC=malloc
+test_binding tests/codec/test_threads.py tests/codec/static/test_{layers,work}.py tests/bitstream/{connectivity,fields}
+[ "${ONLY:-}" != binding ] || exit 0
 "$python" -m tools.attack.sweep "$@"
 cd "$root"
 unset PYTHONPATH PYTHONMALLOC

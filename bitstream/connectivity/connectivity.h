@@ -6,13 +6,6 @@
 
 /* The front of the conquest: closed polygons of nodes, and buckets by free degree (specification, C 5.2 to C 5.4).
  * A node that was closed has the free degree DEAD. */
-/* As Python keeps it: a row per node, of eight columns; first node of each bucket or -1, how many nodes were made, how
- * many of these are not closed, last node of each bucket. */
-typedef struct {
-    Ints2 nodes;
-    Ints heads;
-} Front;
-
 typedef struct {
     int32_t vertex, free;    /* free degree */
     int32_t next, previous;  /* in the polygon */
@@ -21,20 +14,15 @@ typedef struct {
     int32_t up, down;        /* within the bucket */
 } Node;
 
-enum { DEAD = -1, BUCKETS = 8, MADE = BUCKETS, ALIVE, TAILS, HEADS = TAILS + BUCKETS, NODE_COLUMNS = 8 };
+/* Heads: first node of each bucket or -1, the number of nodes made, the number of these that are not closed, last node
+ * of each bucket. */
+enum { DEAD = -1, BUCKETS = 8, MADE = BUCKETS, ALIVE, TAILS, HEADS = TAILS + BUCKETS };
 
 typedef struct {
     Node *nodes;
     int64_t capacity;
-    int32_t *heads;
+    int32_t heads[HEADS];
 } Polygons;
-
-/* False for arrays that are no front. */
-INLINE bool open_front(Polygons *front, Front given) {
-    *front = (Polygons){(Node *)given.nodes.data, given.nodes.rows, given.heads.data};
-    return given.nodes.columns == NODE_COLUMNS && given.nodes.rows <= INT32_MAX && given.heads.size == HEADS
-        && front->heads[MADE] >= 0 && front->heads[MADE] <= front->capacity;
-}
 
 INLINE int bucket_of(int32_t free) { return free < BUCKETS - 1 ? free : BUCKETS - 1; }
 
@@ -111,35 +99,18 @@ enum {
     MOST_HASH_BITS = 12,
 };
 
-/* As Python keeps it. */
-typedef struct {
-    Bank valence, event, rare;
-    int64_t bits; /* binary logarithm of the number of contexts in each hashed table of valences */
-} Models;
-
-/* What contexts see of a vertex; a row of two numbers of 64 bits in Python. */
+/* What contexts see of a vertex. */
 typedef struct {
     int64_t sum;    /* of the known neighbors' labels less 6 each */
     int32_t label;  /* valence up to 15, 0 for a dummy */
     int32_t rank;   /* number among the real vertices, -1 for a dummy */
 } Vertex;
 
-enum { VERTEX_COLUMNS = sizeof(Vertex) / sizeof(int64_t) };
-
 typedef struct {
     Mixer valence, event, rare;
-    int bits;
+    int bits; /* binary logarithm of the number of contexts in each hashed table of valences */
     int64_t contexts[VALENCE_CONTEXTS], event_contexts[EVENT_CONTEXTS];
 } ValenceModel;
-
-INLINE bool open_models(ValenceModel *model, Models given) {
-    if (given.bits < LEAST_HASH_BITS || given.bits > MOST_HASH_BITS) return false;
-    model->bits = (int)given.bits;
-    int64_t valence_slots = ((int64_t)VALENCE_CONTEXTS << given.bits) * VALENCE_NODES;
-    return open_bank(&model->valence, given.valence, valence_slots, VALENCE_NODES, VALENCE_CONTEXTS)
-        && open_bank(&model->event, given.event, EVENT_CONTEXTS * EVENT_SIZE, 1, EVENT_CONTEXTS)
-        && open_bank(&model->rare, given.rare, RARE_NODES, RARE_NODES, 1);
-}
 
 /* Code an unsigned integer of a rare kind. */
 static inline int64_t code_rare(RangeCoder *coder, const ValenceModel *model, int kind, int64_t value) {
@@ -232,37 +203,42 @@ static inline int64_t code_valence(RangeCoder *coder, const ValenceModel *model,
     return LAST_UNARY + 1 + code_rare(coder, model, RARE_VALENCE, valence - LAST_UNARY - 1);
 }
 
-/* The conquest: triangle by triangle over a closed surface (specification, C 6). See conquest.py. */
+/* Known to an encoder only: its surface, whose half-edges 3 i .. 3 i + 2 are those of face i, and what was coded of it;
+ * `fans` and `faces` are in the order of coding. */
 typedef struct {
-    ConstInts twin, corner, valence, vertex;
-} Surface;
-
-/* What only the encoder knows; a decoder has empty arrays. */
-typedef struct {
-    Surface surface;
-    Bytes conquered;
-    Ints node, number, fans, faces;
+    const int32_t *twin, *corner, *valence;
+    int64_t real; /* fans; the numbers after them are those of dummies */
+    uint8_t *conquered;
+    int32_t *node, *number, *fans, *faces;
 } Guide;
 
-/* What both sides know; tallies: vertices, real vertices and faces so far; dummies, triangles and steps along the front
- * still allowed; first face that the encoder may have left; label of the latest real vertex. */
+/* The conquest: triangle by triangle over a closed surface (specification, C 6). */
 typedef struct {
-    Front front;
-    Longs2 vertices;
-    Ints2 faces;
-    Longs tallies;
+    RangeCoder coder;
+    ValenceModel model;
+    Guide map;
+    Polygons front;
+    Vertex *vertices;
+    int64_t vertex_room;
+    int32_t *faces;
+    int64_t face_room;
+    int64_t coded_vertices, coded_real, coded_faces;
+    int64_t dummies, turns, steps; /* dummies, triangles and steps along the front that are still allowed */
+    int64_t start;                 /* first face that the encoder may have left */
+    int32_t latest;                /* label of the latest real vertex */
 } Conquest;
 
-/* How a call ends; without room, make some and call again. */
-enum { CONQUEST_DONE, CONQUEST_NONSENSE, CONQUEST_NO_ROOM };
+/* How a call ends; without room for more nodes or TURN_BYTES, make some and call again. */
+typedef enum { CONQUEST_DONE, CONQUEST_NONSENSE, CONQUEST_NO_ROOM } ConquestEnd;
+enum { TURN_BYTES = 1024 /* more than one triangle can take */ };
 
-int64_t conquer(Coder coder, Models models, Guide guide, Conquest conquest);
+ConquestEnd conquer(Coder coder, Conquest *walk);
 
 /* Half-edges of a triangle list: number 3 i + k runs from corner k of face i to corner k + 1. */
 INLINE int32_t next_halfedge(int32_t h) { return h % 3 != 2 ? h + 1 : h - 2; }
 INLINE int32_t previous_halfedge(int32_t h) { return h % 3 != 0 ? h - 1 : h + 2; }
 
-int64_t match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin);
+void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin);
 int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex);
 int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner);
 
@@ -273,8 +249,7 @@ int64_t code_labels(Coder coder, Bank bank, ConstInts offsets, ConstInts neighbo
 int64_t code_steps(Coder coder, Bank bank, Ints values, Ints tree);
 int64_t code_turns(Coder coder, Bank bank, Ints values);
 
-/* Fans that are the same vertex, and faces that repeat a corner. See seams.py. */
-/* As Python keeps it: an entry per fan, and -1 for what is not there or not known. */
+/* Fans that are the same vertex, and faces that repeat a corner: an entry per fan, -1 for none or an unknown one. */
 typedef struct {
     Ints vertex, after, before, sibling, latest;
 } Seams;

@@ -5,70 +5,11 @@
  * of which counts. */
 #include "bitstream/connectivity/connectivity.h"
 
-
-enum { VERTICES, REAL, FACES, DUMMIES, TURNS, STEPS, START, LATEST, TALLIES };
-enum {
-    TURN_BYTES = 1024, /* more than one triangle can take */
-    REACH = 4096,      /* a node further along the front than this is named by its number instead */
-};
-
-/* A guide, of one surface: half-edges 3 i .. 3 i + 2 are those of face i. */
-typedef struct {
-    const int32_t *twin, *corner, *valence;
-    int64_t real; /* fans; the numbers behind them are those of dummies */
-    uint8_t *conquered;
-    int32_t *node, *number, *fans, *faces;
-} Map;
-
-typedef struct {
-    RangeCoder coder;
-    ValenceModel model;
-    Map map;
-    Polygons front;
-    Vertex *vertices;
-    int64_t vertex_room;
-    int32_t *faces;
-    int64_t face_room;
-    int64_t *tallies;
-} Walk;
-
-static bool are_within(ConstInts values, int64_t size) {
-    for (int64_t i = 0; i < values.size; i++)
-        if (values.data[i] < 0 || values.data[i] >= size) return false;
-    return true;
-}
-
-/* False for a guide that does not fit its surface, or the conquest. A decoder's is empty. */
-static bool open_guide(Map *map, const Guide *guide, const Conquest *conquest) {
-    const Surface *surface = &guide->surface;
-    int64_t halfedges = surface->twin.size, all = surface->valence.size;
-    *map = (Map){surface->twin.data, surface->corner.data, surface->valence.data, guide->fans.size,
-        guide->conquered.data, guide->node.data, guide->number.data, guide->fans.data, guide->faces.data};
-    if (surface->corner.size != halfedges || guide->conquered.size * 3 != halfedges || guide->node.size != halfedges
-        || guide->number.size != all)
-        return false;
-    return halfedges == 0
-        || (guide->fans.size <= all && guide->faces.size == conquest->faces.rows && all == conquest->vertices.rows
-            && are_within(surface->twin, halfedges) && are_within(surface->corner, all));
-}
-
-static bool open_walk(Walk *walk, Coder coder, Models models, const Guide *guide, const Conquest *conquest) {
-    walk->vertices = (Vertex *)conquest->vertices.data;
-    walk->vertex_room = conquest->vertices.rows;
-    walk->faces = conquest->faces.data;
-    walk->face_room = conquest->faces.rows;
-    walk->tallies = conquest->tallies.data;
-    return open_coder(&walk->coder, coder) && open_models(&walk->model, models)
-        && (is_reading(&walk->coder) || guide->conquered.size > 0 || walk->face_room == 0)
-        && (!is_reading(&walk->coder) || guide->conquered.size == 0) && open_guide(&walk->map, guide, conquest)
-        && open_front(&walk->front, conquest->front) && conquest->vertices.columns == VERTEX_COLUMNS
-        && walk->vertex_room <= INT32_MAX && walk->face_room <= INT32_MAX / 3 && conquest->faces.columns == 3
-        && conquest->tallies.size == TALLIES;
-}
+enum { REACH = 4096 /* a node further along the front than this is named by its number instead */ };
 
 /* Code the valence of a new vertex and enter it in the table; -1 if there are too many. */
-INLINE int64_t add_vertex(Walk *walk, int32_t fan, bool dummy) {
-    int64_t *tallies = walk->tallies, vertex = tallies[VERTICES], valence = 2;
+INLINE int64_t add_vertex(Conquest *walk, int32_t fan, bool dummy) {
+    int64_t vertex = walk->coded_vertices, valence = 2;
     if (vertex == walk->vertex_room) return -1;
     if (!is_reading(&walk->coder)) {
         valence = walk->map.valence[fan];
@@ -77,49 +18,49 @@ INLINE int64_t add_vertex(Walk *walk, int32_t fan, bool dummy) {
     if (dummy) {
         valence = 2 + code_rare(&walk->coder, &walk->model, RARE_LOOP, valence - 2);
         walk->vertices[vertex] = (Vertex){.label = 0, .sum = 0, .rank = -1};
-        tallies[DUMMIES]--;
+        walk->dummies--;
     } else {
-        if (vertex + tallies[DUMMIES] >= walk->vertex_room) return -1;
+        if (vertex + walk->dummies >= walk->vertex_room) return -1;
         valence = code_valence(&walk->coder, &walk->model, valence);
         int32_t label = (int32_t)least(valence, 15);
-        walk->vertices[vertex] = (Vertex){.label = label, .sum = 0, .rank = (int32_t)tallies[REAL]};
+        walk->vertices[vertex] = (Vertex){.label = label, .sum = 0, .rank = (int32_t)walk->coded_real};
         if (!is_reading(&walk->coder)) {
-            if (tallies[REAL] >= walk->map.real) return -1;
-            walk->map.fans[tallies[REAL]] = fan;
+            if (walk->coded_real >= walk->map.real) return -1;
+            walk->map.fans[walk->coded_real] = fan;
         }
-        tallies[REAL]++;
-        tallies[LATEST] = label;
+        walk->coded_real++;
+        walk->latest = label;
     }
-    tallies[VERTICES]++;
+    walk->coded_vertices++;
     return valence;
 }
 
 /* Add triangle (a, b, c) to what is conquered, and to the faces unless it has a dummy (C 5.5). */
-INLINE bool emit(Walk *walk, int32_t a, int32_t b, int32_t c, int32_t face) {
+INLINE bool emit(Conquest *walk, int32_t a, int32_t b, int32_t c, int32_t face) {
     if (!is_reading(&walk->coder)) walk->map.conquered[face] = 1;
     if (a == b || b == c || c == a) return false;
     int32_t rank_a = walk->vertices[a].rank, rank_b = walk->vertices[b].rank, rank_c = walk->vertices[c].rank;
     if (rank_a < 0 || rank_b < 0 || rank_c < 0) return true;
-    int64_t number = walk->tallies[FACES];
+    int64_t number = walk->coded_faces;
     if (number == walk->face_room) return false;
     int32_t *row = walk->faces + 3 * number;
     row[0] = rank_a;
     row[1] = rank_b;
     row[2] = rank_c;
     if (!is_reading(&walk->coder)) walk->map.faces[number] = face;
-    walk->tallies[FACES]++;
+    walk->coded_faces++;
     return true;
 }
 
 /* Tell the contexts of a new edge (C 5.6). */
-INLINE void meet(Walk *walk, int32_t a, int32_t b) {
+INLINE void meet(Conquest *walk, int32_t a, int32_t b) {
     Vertex *one = walk->vertices + a, *other = walk->vertices + b;
     if (one->label != 0) other->sum += one->label - 6;
     if (other->label != 0) one->sum += other->label - 6;
 }
 
 /* The edge from `node` to its next one has become a gate, with `halfedge` on the conquered side. */
-INLINE void set_gate(Walk *walk, int32_t node, int32_t apex, int32_t halfedge) {
+INLINE void set_gate(Conquest *walk, int32_t node, int32_t apex, int32_t halfedge) {
     walk->front.nodes[node].apex = apex;
     if (!is_reading(&walk->coder)) {
         int32_t gate = walk->map.twin[halfedge];
@@ -129,13 +70,13 @@ INLINE void set_gate(Walk *walk, int32_t node, int32_t apex, int32_t halfedge) {
 }
 
 /* Make the border of the first face that is left, of three new vertices, the front (C 6.3). */
-static bool start_component(Walk *walk) {
-    int32_t first = (int32_t)walk->tallies[VERTICES], node = walk->front.heads[MADE];
-    int32_t start = (int32_t)walk->tallies[START];
+static bool start_component(Conquest *walk) {
+    int32_t first = (int32_t)walk->coded_vertices, node = walk->front.heads[MADE];
+    int32_t start = (int32_t)walk->start;
     if (!is_reading(&walk->coder)) {
         while (start < walk->face_room && walk->map.conquered[start]) start++;
         if (start == walk->face_room) return false;
-        walk->tallies[START] = start;
+        walk->start = start;
     }
     look_nowhere(&walk->model);
     for (int k = 0; k < 3; k++) {
@@ -153,7 +94,7 @@ static bool start_component(Walk *walk) {
 }
 
 /* Add the triangle of a node without free edges and its neighbors p and n, which makes an edge from p to n (C 6.4). */
-INLINE bool close_node(Walk *walk, int32_t f) {
+INLINE bool close_node(Conquest *walk, int32_t f) {
     Polygons *front = &walk->front;
     Node *nodes = front->nodes;
     int32_t p = nodes[f].previous, n = nodes[f].next, gate = nodes[f].gate;
@@ -201,13 +142,13 @@ static int search(const Node *nodes, int32_t f, int32_t node, int64_t reach, int
 /* Code the node where a split happens: how many candidates along the front away, or else its number (C 6.8).
  *
  * Candidates have two free edges. All steps together are bounded, so that work is, too. Returns -1 for nonsense. */
-static int32_t code_node(Walk *walk, int32_t f, int32_t node) {
+static int32_t code_node(Conquest *walk, int32_t f, int32_t node) {
     const Node *nodes = walk->front.nodes;
     RangeCoder *coder = &walk->coder;
-    int64_t reach = least(REACH, walk->tallies[STEPS]), count = 0;
+    int64_t reach = least(REACH, walk->steps), count = 0;
     int way = is_reading(coder) ? 2 : search(nodes, f, node, reach, &count);
     if (code_rare_bit(coder, &walk->model, RARE_WAY, way >> 1)) {
-        walk->tallies[STEPS] -= reach;
+        walk->steps -= reach;
         return (int32_t)code_uniform(coder, node, walk->front.heads[MADE]);
     }
     way = code_rare_bit(coder, &walk->model, RARE_WAY + 1, way);
@@ -215,7 +156,7 @@ static int32_t code_node(Walk *walk, int32_t f, int32_t node) {
     int32_t a = way ? f : nodes[f].next;
     for (int64_t k = 0; k < reach; k++) {
         a = way ? nodes[a].previous : nodes[a].next;
-        walk->tallies[STEPS]--;
+        walk->steps--;
         if (nodes[a].free >= 2 && --count < 0) return a;
     }
     return -1;
@@ -224,8 +165,8 @@ static int32_t code_node(Walk *walk, int32_t f, int32_t node) {
 /* Node at the third vertex of the triangle at `gate`, and its free edges between that triangle and its own gate.
  *
  * Turns around the vertex both ways at once until one side is conquered: a hub is not searched again and again. */
-static int32_t find_node(const Walk *walk, int32_t gate, int32_t *free) {
-    const Map *map = &walk->map;
+static int32_t find_node(const Conquest *walk, int32_t gate, int32_t *free) {
+    const Guide *map = &walk->map;
     int32_t inward = next_halfedge(gate), outward = previous_halfedge(gate);
     for (*free = -1;; ++*free) {
         if (map->conquered[map->twin[inward] / 3]) return map->node[inward];
@@ -240,11 +181,10 @@ static int32_t find_node(const Walk *walk, int32_t gate, int32_t *free) {
 }
 
 /* Add the triangle beyond the edge from f to n, the next node; all nodes have free edges (C 6.5 to C 6.7). */
-SHARED bool pass_gate(Walk *walk, int32_t f) {
+SHARED bool pass_gate(Conquest *walk, int32_t f) {
     Polygons *front = &walk->front;
     Node *nodes = front->nodes;
     RangeCoder *coder = &walk->coder;
-    int64_t *tallies = walk->tallies;
     int32_t n = nodes[f].next, gate = nodes[f].gate, v_f = nodes[f].vertex, v_n = nodes[n].vertex;
     /* The node to split at, its free edges on the side of f, or else the new vertex. */
     int32_t node = -1, free = 0, fan = 0;
@@ -254,9 +194,9 @@ SHARED bool pass_gate(Walk *walk, int32_t f) {
         if (walk->map.number[fan] >= 0) node = find_node(walk, gate, &free);
         usual = node < 0 && fan < walk->map.real;
     }
-    look_beyond(&walk->model, front, walk->vertices, (int32_t)tallies[LATEST], f);
+    look_beyond(&walk->model, front, walk->vertices, walk->latest, f);
     usual = code_usual(coder, &walk->model, usual);
-    if (!usual && tallies[DUMMIES] > 0) loop = code_rare_bit(coder, &walk->model, RARE_DUMMY, node < 0);
+    if (!usual && walk->dummies > 0) loop = code_rare_bit(coder, &walk->model, RARE_DUMMY, node < 0);
 
     int32_t vertex, other;
     if (!usual && !loop) {
@@ -269,7 +209,7 @@ SHARED bool pass_gate(Walk *walk, int32_t f) {
         set_free(front, node, free);
         link_nodes(front, before, other);
     } else {
-        vertex = (int32_t)tallies[VERTICES];
+        vertex = (int32_t)walk->coded_vertices;
         int64_t valence = add_vertex(walk, fan, loop);
         if (valence < 0) return false;
         other = node = add_node(front, vertex, (int32_t)valence - 2);
@@ -286,26 +226,24 @@ SHARED bool pass_gate(Walk *walk, int32_t f) {
     return true;
 }
 
-static int64_t take_turns(Walk *walk) {
+static ConquestEnd take_turns(Conquest *walk) {
     Polygons *front = &walk->front;
-    int64_t *tallies = walk->tallies;
-    while (front->heads[ALIVE] > 0 || tallies[FACES] < walk->face_room) {
+    while (front->heads[ALIVE] > 0 || walk->coded_faces < walk->face_room) {
         if (front->heads[MADE] + 3 > front->capacity || !has_room(&walk->coder, TURN_BYTES)) return CONQUEST_NO_ROOM;
-        if (--tallies[TURNS] < 0 || overran(&walk->coder)) return CONQUEST_NONSENSE;
+        if (--walk->turns < 0 || overran(&walk->coder)) return CONQUEST_NONSENSE;
         int32_t f = first_node(front);
         bool legal = f < 0              ? start_component(walk)
             : front->nodes[f].free == 0 ? close_node(walk, f)
                                         : pass_gate(walk, f);
         if (!legal) return CONQUEST_NONSENSE;
     }
-    return tallies[VERTICES] == walk->vertex_room ? CONQUEST_DONE : CONQUEST_NONSENSE;
+    return walk->coded_vertices == walk->vertex_room ? CONQUEST_DONE : CONQUEST_NONSENSE;
 }
 
 /* Code the surface, from where the last call ran out of room. */
-int64_t conquer(Coder coder, Models models, Guide guide, Conquest conquest) {
-    Walk walk;
-    if (!open_walk(&walk, coder, models, &guide, &conquest)) return MISUSED;
-    int64_t end = take_turns(&walk);
-    close_coder(&walk.coder, coder);
+ConquestEnd conquer(Coder coder, Conquest *walk) {
+    if (!open_coder(&walk->coder, coder)) return CONQUEST_NONSENSE;
+    ConquestEnd end = take_turns(walk);
+    close_coder(&walk->coder, coder);
     return end;
 }

@@ -20,13 +20,8 @@ static void sum_up(Longs starts) {
 /* Twin of each half-edge, -1 unless its edge has exactly one half-edge in each direction. Half-edges are sorted by both
  * ends with two counting passes, so time is linear whatever the degrees. `starts` has an entry more than there are
  * vertices; the other arrays have one for each half-edge. */
-int64_t match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin) {
+void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin) {
     int64_t size = origin.size, vertices = starts.size - 1;
-    if (size % 3 != 0 || size > INT32_MAX || by_high.size != size || order.size != size || twin.size != size)
-        return MISUSED;
-    for (int64_t h = 0; h < size; h++)
-        if (origin.data[h] < 0 || origin.data[h] >= vertices) return MISUSED;
-
     for (int64_t v = 0; v <= vertices; v++) starts.data[v] = 0;
     for (int32_t h = 0; h < size; h++) starts.data[high_end(origin.data, h) + 1]++;
     sum_up(starts);
@@ -55,20 +50,11 @@ int64_t match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order
             }
         }
     }
-    return 0;
-}
-
-/* Whether every twin is a half-edge or -1. */
-static bool are_twins(ConstInts twin) {
-    for (int64_t h = 0; h < twin.size; h++)
-        if (twin.data[h] < -1 || twin.data[h] >= twin.size) return false;
-    return twin.size % 3 == 0;
 }
 
 /* Number the fans by first corner: the fan of each corner, and the vertex of each fan. Returns how many there are. */
 int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex) {
     int64_t size = origin.size;
-    if (twin.size != size || corner.size != size || vertex.size != size || !are_twins(twin)) return MISUSED;
     for (int64_t h = 0; h < size; h++) corner.data[h] = -1;
     int32_t count = 0;
     for (int32_t start = 0; start < size; start++) {
@@ -89,18 +75,11 @@ int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex) {
  * `leaving` has an entry for each fan; the full arrays have room for three half-edges more for each open edge. Returns
  * the number of dummies. */
 int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner) {
-    int64_t size = twin.size, fans = leaving.size, open = 0;
-    if (corner.size != size || !are_twins(twin) || full_twin.size != full_corner.size) return MISUSED;
+    int64_t size = twin.size, fans = leaving.size;
     /* The boundary half-edge that starts at each fan: at most one. */
     for (int64_t v = 0; v < fans; v++) leaving.data[v] = -1;
-    for (int32_t h = 0; h < size; h++) {
-        if (corner.data[h] < 0 || corner.data[h] >= fans) return MISUSED;
-        if (twin.data[h] < 0) {
-            leaving.data[corner.data[h]] = h;
-            open++;
-        }
-    }
-    if (full_twin.size != size + 3 * open || full_twin.size > INT32_MAX) return MISUSED;
+    for (int32_t h = 0; h < size; h++)
+        if (twin.data[h] < 0) leaving.data[corner.data[h]] = h;
     for (int64_t h = 0; h < size; h++) {
         full_twin.data[h] = twin.data[h];
         full_corner.data[h] = corner.data[h];
@@ -111,7 +90,6 @@ int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twi
         int32_t first = fill;
         for (int32_t h = start; full_twin.data[h] < 0; h = leaving.data[corner.data[next_halfedge(h)]]) {
             int32_t a = corner.data[h], b = corner.data[next_halfedge(h)];
-            if (leaving.data[b] < 0) return MISUSED;
             full_corner.data[fill] = b;
             full_corner.data[fill + 1] = a;
             full_corner.data[fill + 2] = (int32_t)fans + dummies;
@@ -128,19 +106,14 @@ int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twi
     return dummies;
 }
 
-/* The numbers that a decoder gives vertices: in the order of their first appearance (specification, C 7.2 and C
- * 8.1). */
-
-/* The distinct values in the order of their first appearance, and the number of each value there, -1 if it does not
- * occur; both arrays have an entry for each possible value. Returns how many there are. */
+/* The distinct values in the order of their first appearance, by which a decoder numbers vertices (specification, C 7.2
+ * and C 8.1), and the number of each value there, -1 if it does not occur; both arrays have an entry for each possible
+ * value. Returns how many there are. */
 int64_t number_by_appearance(ConstInts sequence, Ints order, Ints number) {
-    int64_t size = number.size;
-    if (order.size != size || size > INT32_MAX) return MISUSED;
-    for (int64_t v = 0; v < size; v++) number.data[v] = -1;
+    for (int64_t v = 0; v < number.size; v++) number.data[v] = -1;
     int32_t count = 0;
     for (int64_t i = 0; i < sequence.size; i++) {
         int32_t value = sequence.data[i];
-        if (value < 0 || value >= size) return MISUSED;
         if (number.data[value] < 0) {
             number.data[value] = count;
             order.data[count++] = value;

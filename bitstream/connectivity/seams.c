@@ -52,14 +52,8 @@ int64_t code_fans(Coder given, Bank bank, ConstInts known, Seams seams) {
     RangeCoder coder;
     Mixer mixer;
     int64_t size = known.size;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, SEAM_SLOTS, 1, 1) || size > INT32_MAX
-        || seams.vertex.size != size || seams.after.size != size || seams.before.size != size
-        || seams.sibling.size != size || seams.latest.size != size)
-        return MISUSED;
-    for (int64_t fan = 0; fan < size; fan++) {
-        if (seams.after.data[fan] >= size || seams.before.data[fan] >= size) return MISUSED;
-        seams.vertex.data[fan] = seams.sibling.data[fan] = -1;
-    }
+    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, SEAM_SLOTS, 1, 1)) return MISUSED;
+    for (int64_t fan = 0; fan < size; fan++) seams.vertex.data[fan] = seams.sibling.data[fan] = -1;
     int32_t count = 0;
     for (int32_t fan = 0; fan < size && !overran(&coder); fan++) {
         int32_t after = seams.after.data[fan], before = seams.before.data[fan], u = known.data[fan];
@@ -82,8 +76,7 @@ int64_t code_fans(Coder given, Bank bank, ConstInts known, Seams seams) {
  * Returns the number of vertices afterwards, or -1 for nonsense. */
 int64_t code_degenerate(Coder given, Ints corners, int64_t count) {
     RangeCoder coder;
-    if (!open_coder(&coder, given) || corners.size % 3 != 0 || count < 0 || count + corners.size > INT32_MAX)
-        return MISUSED;
+    if (!open_coder(&coder, given)) return MISUSED;
     bool legal = true;
     for (int64_t i = 0; i < corners.size && legal; i += 3) {
         int32_t *face = corners.data + i;

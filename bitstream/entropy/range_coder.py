@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream import _kernels
 from bsm.bitstream.errors import OptionError
 
 ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
@@ -89,17 +88,10 @@ def finish_writing(coder: Coder) -> bytes:
 
 
 def unsigned_span(unary: int) -> int:
-    """Number of nodes (slots per context, and selectors) that `code_unsigned` uses."""
+    """Number of nodes (slots per context, and selectors) of an unsigned integer with this unary prefix."""
     return unary + _SUFFIX_NODES + 2
 
 
 def signed_span(unary: int) -> int:
-    """Number of nodes that `code_signed` uses."""
+    """Number of nodes of a signed integer."""
     return unsigned_span(unary) + 2
-
-
-def code_unsigned(
-    coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], selector: int, unary: int, value: int, node: int = 0
-) -> int:
-    """Code an integer in 0 .. 2**24 - 2 + unary: a unary prefix, then an Exp-Golomb escape."""
-    return _kernels.code_unsigned(coder, bank, contexts, selector, unary, value, node)

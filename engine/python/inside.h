@@ -34,6 +34,10 @@ bool write_grid(bsmdec *decoder, Written given, const int32_t *largest, int ligh
 bool write_levels(bsmdec *decoder, Written given);
 bool write_values(bsmdec *decoder, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places);
+/* Write CONNECTIVITY of faces whose numbers are below `rows`, and say in which order vertices and faces are coded, and
+ * which faces a decoder makes. `values` has the vertex of each number; NULL: the number itself. */
+bool write_faces(bsmdec *decoder, Written given, int64_t vertices, Writing *writing, int32_t *order,
+    int32_t *face_order, int32_t *faces);
 /* Write the payloads of rows, or, without `writing`, read that of one kind of values. */
 bool code_chunk(bsmdec *decoder, int64_t first, int64_t count, const uint8_t *payload, int64_t size, Writing *writing);
 /* The rows in the order of coding, all of them (NULL: as they are numbered), and the first kind of values. */

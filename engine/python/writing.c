@@ -2,6 +2,7 @@
 #include "engine/python/inside.h"
 
 #include "engine/decoder.h"
+#include "engine/topology.h"
 
 /* A mesh of faces that the caller keeps. */
 static Mesh *begin(bsmdec *decoder, const Header *header, const int32_t *faces) {
@@ -69,6 +70,84 @@ bool write_values(bsmdec *decoder, Written given, const uint8_t *declaration, in
         if (!fill(context, group->pieces, given, MOST_COMPONENTS * g, largest, false)) return false;
     }
     return true;
+}
+
+/* The surface of faces that do not repeat a corner, closed by dummies (C 4), and room for its conquest. */
+static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Surface *surface) {
+    ConstInts origin = {faces.data, 3 * faces.rows};
+    int64_t size = origin.size, closed = size, all;
+    Guide *guide = &surface->guide;
+    Longs starts;
+    Ints by_high, order, twin, corner, vertex, leaving, full_twin, full_corner, valence;
+    if (!take_longs(arena, vertices + 1, &starts) || !take_ints(arena, size, &by_high)
+        || !take_ints(arena, size, &order) || !take_ints(arena, size, &twin) || !take_ints(arena, size, &corner)
+        || !take_ints(arena, size, &vertex))
+        return false;
+    match_halfedges(origin, starts, by_high, order, twin);
+    guide->real = find_fans(origin, const_ints(twin), corner, vertex);
+    for (int64_t h = 0; h < size; h++) closed += 3 * (twin.data[h] < 0);
+    if (closed > INT32_MAX) return FAIL(context, LIMIT, "# faces are too many", faces.rows);
+    if (!take_ints(arena, guide->real, &leaving) || !take_ints(arena, closed, &full_twin)
+        || !take_ints(arena, closed, &full_corner))
+        return false;
+    surface->dummies = fill_loops(const_ints(twin), const_ints(corner), leaving, full_twin, full_corner);
+    all = guide->real + surface->dummies;
+    if (!zero_ints(arena, all, &valence) || !TAKE(arena, all, guide->number) || !TAKE(arena, closed, guide->node)
+        || !TAKE_ZEROS(arena, closed / 3, guide->conquered) || !TAKE(arena, guide->real, guide->fans)
+        || !TAKE(arena, faces.rows, guide->faces))
+        return false;
+    for (int64_t h = 0; h < closed; h++) valence.data[full_corner.data[h]]++;
+    for (int64_t i = 0; i < all; i++) guide->number[i] = -1;
+    guide->twin = full_twin.data;
+    guide->corner = full_corner.data;
+    guide->valence = valence.data;
+    surface->vertex = vertex.data;
+    return true;
+}
+
+static bool write_connectivity(Context *context, Written given, int64_t vertices, Arena *arena, Arena *scratch,
+    int32_t *order, int32_t *face_order, int32_t *faces) {
+    int64_t m = given.faces_count, proper = 0, next = 0;
+    Surface surface = {.order = {order, vertices}};
+    Ints2 own, coded;
+    Ints places;
+    if (!take_ints2(arena, m, 3, &own) || !take_ints(arena, m, &places)
+        || !take_ints(arena, vertices, &surface.number))
+        return false;
+    for (int repeated = 0; repeated < 2; repeated++) {
+        proper = next;
+        for (int64_t f = 0; f < m; f++) {
+            const int32_t *face = given.faces + 3 * f;
+            if ((face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) != repeated) continue;
+            for (int k = 0; k < 3; k++) own.data[3 * next + k] = face[k];
+            places.data[next++] = (int32_t)f;
+        }
+    }
+    if (!close_surface(context, (ConstInts2){own.data, proper, 3}, given.rows, arena, &surface)) return false;
+    int64_t fans = surface.guide.real, corners = 3 * (m - proper);
+    if (!take_ints(arena, fans + corners, &surface.used)) return false;
+    memcpy(surface.used.data + fans, own.data + 3 * proper, (size_t)corners * sizeof *own.data);
+    for (int64_t i = 0; i < fans && given.values != NULL; i++) surface.vertex[i] = given.values[surface.vertex[i]];
+    int64_t regular = number_by_appearance((ConstInts){surface.vertex, fans}, surface.order, surface.number);
+    surface.repeated = m - proper;
+    surface.lonely = vertices - regular;
+    surface.surplus = fans - regular;
+    if (!code_connectivity(context, (Span){0}, &(Header){.vertices = vertices, .faces = m}, &surface, arena, scratch,
+            &coded))
+        return false;
+    memcpy(faces, coded.data, (size_t)(3 * m) * sizeof *faces);
+    for (int64_t i = 0; i < m; i++) face_order[i] = places.data[i < proper ? surface.guide.faces[i] : i];
+    return true;
+}
+
+bool write_faces(bsmdec *decoder, Written given, int64_t vertices, Writing *writing, int32_t *order,
+    int32_t *face_order, int32_t *faces) {
+    Arena arena = arena_of(&decoder->context);
+    decoder->context.writing = writing;
+    bool done = write_connectivity(&decoder->context, given, vertices, &arena, &decoder->scratch, order, face_order,
+        faces);
+    release_all(&arena);
+    return done;
 }
 
 bool code_chunk(bsmdec *decoder, int64_t first, int64_t count, const uint8_t *payload, int64_t size, Writing *writing) {

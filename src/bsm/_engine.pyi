@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 version: str = '1.0.0'
 
+def write_faces(faces: numpy.typing.NDArray[numpy.int32], vertices: int, merged: numpy.typing.NDArray[numpy.int32] | None = None) -> tuple[bytes, numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
+
 class Field:
     def __init__(self, faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> None: ...
 

@@ -16,9 +16,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import BsmError
-from bsm.bitstream._kernels import code_uniform
+from bsm.bitstream._kernels import code_uniform, code_unsigned
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.entropy.range_coder import code_unsigned, finish_writing, make_bank, start_writing, unsigned_span
+from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing, unsigned_span
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.bitstream.fields.grid import spread
 from bsm.codec.geometry.graph import graph_of_faces

@@ -10,22 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm._engine import write_faces
 from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, encode_seams
 from bsm.bitstream.coefficients.matrices import Levels, encode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
-from bsm.bitstream.connectivity.faces import (
-    RARE_HEADER,
-    EncodedConnectivity,
-    _number_by_appearance,
-    close_surface,
-    code_rare,
-    conquer,
-    encode_connectivity,
-    make_conquest,
-    make_guide,
-    make_models,
-    write_seams,
-)
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
@@ -33,7 +22,6 @@ from bsm.bitstream.container.header import AS_CODED, CORNER, FACE, HEADER_FIELDS
 from bsm.bitstream.container.packets import WRITERS
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
-from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
 from bsm.bitstream.fields.corners import corners_of
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
@@ -59,23 +47,10 @@ def _coded(name: str, *arguments: int) -> EncodedConnectivity:
 
 
 def _glued(rows: int, columns: int) -> EncodedConnectivity:
-    """A torus whose vertices are three, again and again: coded by hand, as no encoder would."""
-    surface = close_surface(_torus(rows, columns), rows * columns)
-    size, faces = rows * columns, 2 * rows * columns
-    coder, models = start_writing(1 << 20), make_models(3)
-    for count in (0, 0, size - 3, 0):
-        code_rare(coder, models, RARE_HEADER, count)
-    guide = make_guide(surface, faces)
-    coder, conquest = conquer(coder, models, guide, make_conquest(faces, size, 0))
-    coder = make_room(coder, 32 * size)
-    place = surface.vertex[guide.fans]
+    """A torus whose vertices are three, again and again, as no encoder would code it."""
+    place = np.arange(rows * columns, dtype=np.int32)
     colors = ((place // columns + place % columns) % 3).astype(np.int32)
-    _, number = _number_by_appearance(colors, 3)
-    vertices = number[colors]
-    write_seams(coder, conquest.faces, vertices)
-    return EncodedConnectivity(
-        finish_writing(coder), np.arange(3, dtype=np.int32), np.arange(faces, dtype=np.int32), vertices[conquest.faces]
-    )
+    return EncodedConnectivity(*write_faces(_torus(rows, columns), 3, colors))
 
 
 def _torus(rows: int, columns: int) -> Faces:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream import _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, encode_coefficients
-from bsm.bitstream.connectivity.faces import RARE_HEADER, code_rare, encode_connectivity, make_models
+from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map
 from bsm.bitstream.entropy import range_coder as entropy
@@ -151,9 +152,10 @@ def _metadata() -> bytes:
 def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -> bytes:
     """Faces that end behind their counts."""
     vertices = min(3 * faces, fans + lonely)
-    coder, models = entropy.start_writing(64), make_models(vertices)
+    span = entropy.unsigned_span(2)
+    coder, rare, context = entropy.start_writing(64), entropy.make_bank(6 * span, 6 * span, 1), np.zeros(1, np.int64)
     for count in (degenerate, lonely, fans + lonely - vertices, dummies):
-        code_rare(coder, models, RARE_HEADER, count)
+        _kernels.code_unsigned(coder, rare, context, 0, 2, count, 5 * span)
     header = header_frame(vertices=vertices, faces=faces, grid=[1, 1, 1])
     return stream_of([header, (FrameType.CONNECTIVITY, entropy.finish_writing(coder))])
 

@@ -10,17 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import CorruptError, OptionError, TruncatedError
-from bsm.bitstream._kernels import code_uniform
+from bsm.bitstream._kernels import code_uniform, code_unsigned
 from bsm.bitstream.entropy import range_coder as entropy
-from bsm.bitstream.entropy.range_coder import (
-    Bank,
-    code_unsigned,
-    copy_bank,
-    finish_writing,
-    make_bank,
-    start_writing,
-    unsigned_span,
-)
+from bsm.bitstream.entropy.range_coder import Bank, copy_bank, finish_writing, make_bank, start_writing, unsigned_span
 from tools import entropy_tables
 from tools.payloads import finish_reading, overran, start_reading
 
