@@ -626,7 +626,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
 
     from bsm.comparison import compare_meshes, order_of_used, pair
 
-    whole = [as_mesh(_opened(mesh)) for mesh in (original, decoded)]
+    whole = [as_mesh(as_input(mesh)) for mesh in (original, decoded)]
     first, second = (mesh.without_isolated_vertices()[0] for mesh in whole)
     if order is None:
         return compare_meshes(first, second, pair(first, second))
@@ -665,12 +665,13 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     """
     from bsm.codec.look.measure import look as look_at
 
-    first, second = (as_mesh(_opened(mesh)) for mesh in (original, other))
+    first, second = (as_mesh(as_input(mesh)) for mesh in (original, other))
     return look_at(first, second, threads=threads)
 
 
-def _opened(mesh: Any) -> Any:
-    return Input(mesh) if isinstance(mesh, (bytes, bytearray, memoryview)) or hasattr(mesh, "read") else mesh
+def as_input(mesh: Any) -> Any:
+    named = isinstance(mesh, (bytes, bytearray, memoryview, str, os.PathLike))
+    return Input(mesh) if named or hasattr(mesh, "read") else mesh
 
 
 def _chosen(

@@ -31,8 +31,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference, decibel
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.evaluation.bench import least_time
-from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options
+from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options, timed
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh
 from tools.noise import gaussian_along_normals
@@ -265,7 +264,7 @@ class Study:
 def fastest(work: Callable[[], object], repeats: int) -> float:
     """CPU seconds of the fastest run, with one BLAS thread, so that what else the machine does counts for little."""
     with threadpool_limits(1):
-        return least_time(work, repeats, time.process_time)
+        return timed(work, repeats, time.process_time)[0]
 
 
 # ------------------------------------------------------------------------------- section 6: segments, how they overlap

@@ -51,11 +51,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "(default), PC2, MDD, GLB, USD, a folder for its frames, or a pattern such as walk/%%04d.obj",
     )
     add("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name, else ply)")
-    add("--blocks", type=int, metavar="N", help="stop after N blocks, and write that part")
-    add("--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement adds one")
+    part = parser.add_mutually_exclusive_group()
+    part.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write that part")
+    layers = "stop after N layers: 1 is the base, each refinement adds one"
+    part.add_argument("--layers", type=int, metavar="N", help=layers)
+    tolerant = "continue after damage; list the lost parts and leave them out"
+    part.add_argument("--tolerant", action="store_true", help=tolerant)
     order = "restore the order of the input; the file that encode wrote with the same option"
     add("--permutation", metavar="FILE.npy", help=order)
-    add("--tolerant", action="store_true", help="continue after damage; list the lost parts and leave them out")
     add_limits_flag(parser)
     group = parser.add_argument_group("sequences")
     group.add_argument("--frames", metavar="A:B", help="decode frames A to B - 1 only")
@@ -67,10 +70,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError("--permutation is for one input")
     if args.permutation and (args.blocks is not None or args.tolerant):
         raise OptionError("--permutation orders whole meshes; leave out --blocks and --tolerant")
-    if args.layers is not None and (args.blocks is not None or args.tolerant):
-        raise OptionError("--layers is for whole layers; leave out --blocks and --tolerant")
-    if args.blocks is not None and args.tolerant:
-        raise OptionError("--blocks stops early and --tolerant continues: choose one")
     refuse_two_on_one_pipe(args, jobs[0].output)
     given = args.output and (anywhere(args.output) if args.dask else args.output)
     job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)

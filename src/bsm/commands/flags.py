@@ -56,9 +56,16 @@ def within(least: int, most: float = math.inf) -> Callable[[str], int]:
     return whole_number
 
 
-def thresholds(text: str) -> tuple[float, float]:
-    low, high = map(float, text.split(","))
-    return low, high
+def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
+    """A type of options that are numbers with commas between them."""
+
+    def parsed(text: str) -> tuple[float, ...]:
+        found = tuple(map(float, text.split(",")))
+        if len(found) != count:
+            raise ValueError(text)
+        return found
+
+    return parsed
 
 
 def named_setting(text: str) -> tuple[str, Any]:
@@ -78,17 +85,10 @@ def named_setting(text: str) -> tuple[str, Any]:
         raise argparse.ArgumentTypeError(f"{name}={setting.metavar} is expected, not {text!r}") from None
 
 
-def point(text: str) -> tuple[float, ...]:
-    numbers = tuple(map(float, text.split(",")))
-    if len(numbers) != 3:
-        raise ValueError(text)
-    return numbers
-
-
 ENCODE_FLAGS = (
     Setting("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
     Setting("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
-    Setting("grid_origin", point, "X,Y,Z", "a point of the grid (default 0,0,0)"),
+    Setting("grid_origin", numbers(3), "X,Y,Z", "a point of the grid (default 0,0,0)"),
     Setting(
         "effort",
         str,
@@ -133,7 +133,7 @@ SETTINGS = (
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
     Setting(
         "doi",
-        thresholds,
+        numbers(2),
         "EPS_L,EPS_H",
         "choose the coefficients of a block so that its residual lies between two thresholds",
     ),

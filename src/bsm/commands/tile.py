@@ -12,7 +12,7 @@ from typing import Any
 
 from bsm.bitstream.errors import BsmError, FormatError, OptionError, counted
 from bsm.codec.threads import available_threads
-from bsm.commands.flags import asked, point, within
+from bsm.commands.flags import asked, numbers, within
 from bsm.console import Console, print_json
 from bsm.exits import report_error
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--triangles", type=int, default=1 << 19, metavar="N", help=largest)
     cell = "cell of the grid of all tiles (default: a power of two, chosen by the look)"
     add("--grid-cell", type=float, metavar="H", help=cell)
-    add("--grid-origin", type=point, metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
+    add("--grid-origin", type=numbers(3), metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
     add("--finest", action="store_true", help="write only the finest level")
     add("--work", metavar="FOLDER", help="folder for temporary files, several times the input (default: OUTPUT/.work)")
     at_once = "work on N tiles at a time; 0: one per core (default 1)"

@@ -4,19 +4,12 @@ import argparse
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError, counted
-from bsm.commands.flags import add_limits_flag, limits_of
+from bsm.commands.flags import add_limits_flag, limits_of, numbers
 from bsm.console import Console
 from bsm.files.mesh import write_mesh
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
 from bsm.tiles.joining import CONTENT_HELP, CONTENTS, TILESET, write_joined, write_tileset
 from bsm.tiles.shards import open_tiles
-
-
-def box(text: str) -> tuple[float, ...]:
-    numbers = tuple(map(float, text.split(",")))
-    if len(numbers) != 6:
-        raise ValueError(text)
-    return numbers
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     output = ".ply of any size, - for a pipe, or .../tileset.json (3D Tiles). Other formats must fit into memory"
     add("-o", "--output", metavar="OUT", required=True, help=output)
     reaching = "only triangles that reach into this box; they must fit into memory"
-    add("--box", type=box, metavar="X,Y,Z,X,Y,Z", help=reaching)
+    add("--box", type=numbers(6), metavar="X,Y,Z,X,Y,Z", help=reaching)
     of = parser.add_mutually_exclusive_group()
     of.add_argument("--level", type=int, metavar="N", help="level of detail; 0 is the coarsest (default: the finest)")
     coarsest = "the coarsest tiles with an error of at most H, in the unit of the mesh"

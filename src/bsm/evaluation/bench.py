@@ -27,7 +27,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.evaluation.curve import decode_draco, encode_draco, number, table
+from bsm.evaluation.curve import decode_draco, encode_draco, number, table, timed
 from bsm.files.mesh import read_mesh
 
 KEEPS = (0.10, 0.15, 0.20, 0.25)
@@ -87,7 +87,7 @@ def compare_with_draco(mesh: TriangleMesh, repeats: int) -> dict[str, dict[str, 
     }
     found = {}
     for name, work in works.items():
-        seconds, cpu = (least_time(work, repeats + 1, clock) for clock in (time.perf_counter, time.process_time))
+        seconds, cpu = (timed(work, repeats + 1, clock)[0] for clock in (time.perf_counter, time.process_time))
         found[name] = {"seconds": seconds, "cpu_seconds": cpu, "vertices_per_second": len(mesh.positions) / seconds}
     return found
 
@@ -106,7 +106,7 @@ def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
     def exact_seconds(solver: Solver, width: int) -> float:
         for laplacian in chosen:
             check_lowest(solver, laplacian, min(width, len(laplacian) - 1))
-        seconds = least_time(lambda: [solver.solve(a, min(width, len(a) - 1)) for a in chosen], repeats)
+        seconds = timed(lambda: [solver.solve(a, min(width, len(a) - 1)) for a in chosen], repeats, time.thread_time)[0]
         return seconds * len(ordered) / len(chosen)
 
     def nmsve_db(bases: list[Matrix]) -> float:
@@ -130,9 +130,9 @@ def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
             rows.append({"solver": solver.name, **facts, "seconds": seconds, "nmsve_db": exact_db, "exact": True})
         for power in POWERS:
             work = partial(lambda width, power: [iterated(block, width, power) for block in ordered], width, power)
-            seconds = least_time(work, repeats)
+            seconds, bases = timed(work, repeats, time.thread_time)
             speedups = {"against_svd": times[EXACT[0].name] / seconds, "against_fastest": min(times.values()) / seconds}
-            row = {"solver": f"OI, R^{power}", **facts, "seconds": seconds, "nmsve_db": nmsve_db(work())}
+            row = {"solver": f"OI, R^{power}", **facts, "seconds": seconds, "nmsve_db": nmsve_db(bases)}
             rows.append({**row, "exact": False, **speedups})
     return rows
 
@@ -152,16 +152,6 @@ def check_lowest(solver: Solver, laplacian: Matrix, width: int) -> None:
     excess = np.einsum("ij,ij->", basis, laplacian @ basis) - least
     if not abs(excess) <= 1e-8 * max(1.0, least):
         raise NumericError(f"{solver.name}: the trace is {excess:g} above the sum of the lowest eigenvalues")
-
-
-def least_time(work: Callable[[], object], repeats: int, clock: Callable[[], float] = time.thread_time) -> float:
-    """Seconds of a clock, by default this thread's, the least of `repeats` runs."""
-    seconds = []
-    for _ in range(repeats):
-        begin = clock()
-        work()
-        seconds.append(clock() - begin)
-    return min(seconds)
 
 
 def bench_tables(result: Result) -> str:

@@ -229,8 +229,8 @@ def draco_curve() -> Curve:
 
 def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int = 1) -> Result:
     """Encode and decode once or more, and return all measurements."""
-    encode_seconds, (data, align) = _timed(lambda: codec.encode(mesh), repeats)
-    decode_seconds, decoded = _timed(lambda: codec.decode(data), repeats)
+    encode_seconds, (data, align) = timed(lambda: codec.encode(mesh), repeats)
+    decode_seconds, decoded = timed(lambda: codec.decode(data), repeats)
     comparison = reference.compare(align(decoded))
     parts = codec.parts(data)
     bpv_paper, geometry = parts.pop("bpv_paper"), parts["coefficients"]
@@ -285,12 +285,12 @@ def read_results(folder: Path) -> Iterator[Result]:
         yield result
 
 
-def _timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
-    """Seconds of the fastest of some runs, and the result."""
+def timed(work: Callable[[], Any], repeats: int, clock: Callable[[], float] = time.perf_counter) -> tuple[float, Any]:
+    """Return the seconds of the fastest of some runs, and the result."""
     runs = []
     for _ in range(max(1, repeats)):
-        start, result = time.perf_counter(), work()
-        runs.append(time.perf_counter() - start)
+        start, result = clock(), work()
+        runs.append(clock() - start)
     return min(runs), result
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bsm.api import encode, encode_sequence
+from bsm.api import as_input, encode, encode_sequence
 from bsm.bitstream.errors import OptionError, imported
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
@@ -61,8 +61,8 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
 
 def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
     name = Path(source).name if isinstance(source, (str, os.PathLike)) else "mesh"
-    given = _as_input(source)
-    mesh = None if original is None else as_mesh(_as_input(original))
+    given = as_input(source)
+    mesh = None if original is None else as_mesh(as_input(original))
     preset = None
     if isinstance(given, Input) and is_stream(given):
         if keywords:
@@ -75,8 +75,3 @@ def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
         preset = None if set(keywords) - {"preset"} or mesh else keywords.get("preset", "balanced")
         mesh = mesh or encoded
     return alone(name, data) if mesh is None else compared(name, data, mesh, preset=preset)
-
-
-def _as_input(source: Any) -> Any:
-    readable = isinstance(source, (bytes, bytearray, memoryview, str, os.PathLike)) or hasattr(source, "read")
-    return Input(source) if readable else source
