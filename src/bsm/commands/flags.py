@@ -89,54 +89,25 @@ ENCODE_FLAGS = (
     Setting("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
     Setting("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
     Setting("grid_origin", numbers(3), "X,Y,Z", "a point of the grid (default 0,0,0)"),
-    Setting(
-        "effort",
-        str,
-        "quick|normal|best",
-        "quick: grids only, larger files; best: try more, smaller files (default normal)",
-    ),
+    Setting("effort", str, "quick|normal|best", "quick: only grids, larger files; best: slower, smaller files"),
     Setting("quick", bool, "", "same as --effort quick"),
-    Setting(
-        "keep_order",
-        bool,
-        "",
-        "store the order of vertices and faces. PC2 and MDD keep the order of vertices by default",
-    ),
+    Setting("keep_order", bool, "", "store the order of vertices and faces; PC2 and MDD keep that of vertices"),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
 
 SETTINGS = (
-    Setting(
-        "limits",
-        str,
-        "default|service|wide",
-        "exit with an error if decoders with these limits would refuse the stream (default: default)",
-    ),
-    Setting(
-        "keep",
-        float,
-        "FRACTION",
-        "largest c_i, as a fraction of a block's vertices (default: chosen by rate and distortion)",
-    ),
+    Setting("limits", str, "default|service|wide", "refuse streams that exceed these limits of decoders"),
+    Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: by rate)"),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
-    Setting(
-        "step", float, "S", "quantization step, relative to the diagonal of the bounding box; replaces the promise"
-    ),
+    Setting("step", float, "S", "quantization step, relative to the diagonal; replaces the promise"),
     Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
     Setting("block_size", int, "N", "approximate vertices of a block before overlap (default 450)"),
-    Setting(
-        "partition", str, "derived|metis", "how the mesh is cut into blocks (default derived: the decoder repeats it)"
-    ),
+    Setting("partition", str, "derived|metis", "how to cut the mesh into blocks (default derived)"),
     Setting("key_seed", str, "cosines|svd", "first dictionary of a chain (default cosines; with bits, svd)"),
     Setting("key_interval", int, "K", "every K-th block starts a chain; 0: only the first (default 8)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    Setting(
-        "doi",
-        numbers(2),
-        "EPS_L,EPS_H",
-        "choose the coefficients of a block so that its residual lies between two thresholds",
-    ),
+    Setting("doi", numbers(2), "EPS_L,EPS_H", "choose coefficients so that the residual is between two thresholds"),
 )
 """Advanced settings of the codec: `--set NAME=VALUE`."""
 
@@ -151,7 +122,7 @@ PROMISES = (
     "near-lossless  0.25  0.05 %  a bound for measuring, of the diagonal of the whole mesh\n"
     "grid14                       exact positions on a grid of 14 bits per axis\n"
     "lossless                     exact positions in single precision, exact attributes\n"
-    "none                         only the targets that you give"
+    "none                         only the bounds and targets that you give"
 )
 """A table of the presets; written out, because importing their definitions takes time."""
 
@@ -173,35 +144,22 @@ def named_quality(text: str) -> tuple[str, str]:
 BOUNDS = (
     Setting("look", number_or_length, "D", "largest look distance from the original: 1 is balanced, 3 a preview"),
     Setting(
-        "max_error",
-        number_or_length,
-        "REL",
-        "maximum vertex error: a fraction of the bounding-box diagonal (0.001, 0.1%%) or a length (0.05mm)",
+        "max_error", number_or_length, "REL", "largest vertex error: 0.1%% (of the diagonal), or a length (0.05mm)"
     ),
 )
 TARGETS = (
-    Setting("nmsve_db", float, "X", "normalized mean squared visual error, at most X dB"),
-    Setting("theta", float, "DEG", "mean angle between normals of faces before and after, at most DEG degrees"),
-    Setting("bpv", float, "X", "bits per vertex of the whole file, at most X"),
-    Setting("size", number_or_length, "BYTES", "size of the file, at most BYTES (20000, 20kB)"),
+    Setting("nmsve_db", float, "X", "largest normalized mean squared visual error, dB"),
+    Setting("theta", float, "DEG", "largest mean angle between face normals before and after, degrees"),
+    Setting("bpv", float, "X", "largest number of bits per vertex, of the whole file"),
+    Setting("size", number_or_length, "BYTES", "largest file (20000, 20kB)"),
 )
 OF_SEQUENCES = (
-    Setting("kg", float, "PERCENT", "error of Karni and Gotsman, at most PERCENT"),
-    Setting("bpvf", float, "X", "bits per vertex and frame of the whole file, at most X"),
+    Setting("kg", float, "PERCENT", "largest error of Karni and Gotsman, percent"),
+    Setting("bpvf", float, "X", "largest number of bits per vertex and frame, of the whole file"),
     Setting("runs", bool, "", "let the faces change from frame to frame"),
     Setting("gop", int, "N", "largest group of frames that are coded together (default 256 to 512)"),
-    Setting(
-        "low_delay",
-        int,
-        "N",
-        "send every N frames at once, with a key frame every --gop frames. 8 takes a fifth fewer bytes than 1",
-    ),
-    Setting(
-        "frame_rate",
-        float,
-        "FPS",
-        "frames per second: stored as metadata; glTF and USD animations are sampled at this rate",
-    ),
+    Setting("low_delay", int, "N", "send N frames at a time, and a key frame every --gop frames"),
+    Setting("frame_rate", float, "FPS", "frames per second: metadata; sampling rate of glTF and USD animations"),
 )
 
 

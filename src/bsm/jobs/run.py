@@ -192,8 +192,6 @@ class Costs:
 
 
 def _processes(run: Run, count: int) -> int:
-    if run.jobs < 0:
-        raise OptionError(f"-j {run.jobs}: must be 0 or more")
     from bsm.codec.threads import available_threads
 
     return min(run.jobs or available_threads(), count) or 1
