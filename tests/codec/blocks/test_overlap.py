@@ -7,7 +7,7 @@ from hypothesis.extra import numpy as hnp
 from bsm.codec.blocks.overlap import block_size, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import even_interval
-from tests.shapes import grid_faces, patch, tetrahedron, together, torus
+from tests.shapes import patch, tetrahedron, together, torus
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
 
@@ -51,14 +51,6 @@ def test_every_block_of_a_connected_mesh_touches_one_before_it(parts):
         steps += bool(around & set(blocks.core(index - 1)))
         seen |= set(blocks.core(index))
     assert steps >= 0.8 * (parts - 1)
-
-
-def test_the_chain_of_a_strip_walks_along_it():
-    graph = graph_of_faces(grid_faces(3, 200), 600)
-    _, blocks = blocks_of(graph, 8, 1.0)
-    places = [np.mean(blocks.core(index) % 200) for index in range(8)]
-    steps = np.abs(np.diff(places))
-    assert np.sort(steps)[:-1].max() < 40
 
 
 def test_a_component_smaller_than_a_block_stays_small():

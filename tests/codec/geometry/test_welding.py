@@ -28,8 +28,3 @@ def test_minus_zero_is_zero_and_nothing_else_is_near_enough():
     welded, _, index = weld(positions, np.array([[0, 1, 2]], dtype=np.int32))
     assert index.tolist() == [0, 0, 1]
     assert len(welded) == 2
-
-
-def test_no_vertices_are_welded_to_none():
-    welded, faces, index = weld(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32))
-    assert len(welded) == len(faces) == len(index) == 0

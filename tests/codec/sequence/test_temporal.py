@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
-from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, learn_basis, projection, trajectories
+from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, learn_basis
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
 
@@ -45,19 +44,3 @@ def test_few_vertices_over_many_frames_have_the_same_components_as_the_rest_of_t
     few, many = (learn_basis(rows, STEP, 1000) for rows in (motion, np.vstack([motion, np.zeros((ROWS, COLUMNS))])))
     assert few.exponents.tolist() == many.exponents.tolist() and few.columns.shape == (COLUMNS, 4)
     np.testing.assert_allclose(np.abs(few.columns.T @ many.columns), np.eye(4), atol=1e-12)
-
-
-def test_projection_finds_the_components_even_if_a_basis_is_not_quite_orthonormal() -> None:
-    random = np.random.default_rng(2)
-    basis = np.linalg.qr(random.normal(size=(COLUMNS, 5)))[0] + 0.01 * random.normal(size=(COLUMNS, 5))
-    components = random.normal(size=(7, 5))
-    np.testing.assert_allclose(components @ basis.T @ projection(basis), components, atol=1e-12)
-
-
-@pytest.mark.parametrize("frames", [1, 2])
-def test_trajectories_are_no_view_of_frames(frames: int) -> None:
-    given = np.arange(12.0 * frames).reshape(frames, 4, 3)
-    found = trajectories(given)
-    found *= 2.0
-    np.testing.assert_array_equal(given, np.arange(12.0 * frames).reshape(frames, 4, 3))
-    np.testing.assert_array_equal(found.reshape(4, 3, frames).transpose(2, 0, 1), 2.0 * given)

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm import TriangleMesh
-from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, tangent_steps
-from tests.shapes import tetrahedron, torus
+from bsm.codec.signal.smooth import local_frames, tangent_steps
+from tests.shapes import torus
 
 
 def test_frames_of_a_torus_are_orthonormal_and_stand_on_it() -> None:
@@ -24,26 +24,6 @@ def test_a_base_off_by_rounding_turns_frames_by_little(seed: int) -> None:
     noise = np.random.default_rng(seed).normal(size=mesh.positions.shape)
     moved = local_frames(mesh.positions + 1e-9 * noise, mesh.faces)
     assert np.abs(moved - local_frames(mesh.positions, mesh.faces)).max() < 1e-5
-
-
-def test_faces_without_area_have_the_frame_of_the_pole() -> None:
-    frames = local_frames(np.zeros((3, 3)), np.array([[0, 1, 2]], np.int32))
-    assert np.allclose(frames[:, :3], (0.48, 0.6, 0.64))
-    assert np.allclose(frames[:, 3:6], (-0.8, 0.0, 0.6))
-
-
-def test_levels_add_up_along_the_axes() -> None:
-    mesh = tetrahedron()
-    frames = local_frames(mesh.positions, mesh.faces)
-    levels = np.array([[1, -2, 3], [0, 0, 0], [4, 0, -1], [0, 5, 0]], np.int32)
-    heights = raised(mesh.positions, frames, levels, 0.25)
-    assert np.allclose(in_frames(heights - mesh.positions, frames), levels * np.array([0.25, 0.0, 0.0]), atol=1e-12)
-    assert (raised(mesh.positions, frames, levels[:, :1], 0.25) == heights).all()
-    wide = np.array([0.5, 1.0, 2.0, 0.25])
-    aside = heights.copy()
-    slide(aside, frames, levels, wide)
-    assert np.allclose(in_frames(aside - heights, frames)[:, 1:], levels[:, 1:] * wide[:, None], atol=1e-12)
-    assert np.allclose(in_frames(aside - heights, frames)[:, 0], 0.0, atol=1e-12)
 
 
 def folded(angle: float) -> TriangleMesh:
@@ -74,11 +54,6 @@ def test_a_ratio_of_one_or_less_is_the_same_everywhere() -> None:
     mesh = folded(1.0)
     for ratio in (0.25, 1.0):
         assert (tangent_steps(mesh.positions, mesh.faces, 0.5, ratio) == 0.5 * ratio).all()
-
-
-def test_what_has_no_area_or_no_face_has_the_least_step() -> None:
-    steps = tangent_steps(np.zeros((4, 3)), np.array([[0, 1, 2]], np.int32), 0.5, 3.0)
-    assert np.allclose(steps, 0.5)
 
 
 @given(st.integers(0, 2**32 - 1))

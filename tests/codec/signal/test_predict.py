@@ -8,13 +8,9 @@ from bsm.codec.basis.laplacian import dense_laplacian, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import exact_basis, first_columns
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.chain import Known, Surroundings, unheld
+from bsm.codec.signal.chain import Known, Surroundings
 from bsm.options import encode_options
 from tests.shapes import patch, torus
-
-
-def path(size):
-    return graph_of_faces(np.array([[i, i + 1, i] for i in range(size - 1)], np.int32), size)
 
 
 def piece(graph, vertices):
@@ -29,41 +25,6 @@ def piece(graph, vertices):
 
 
 SHIFT = 2.0**-16
-
-
-def test_between_two_ends_a_path_is_a_straight_line():
-    graph = path(12)
-    known = Known(graph, 8.0)
-    known.add(piece(graph, [0]), np.zeros((1, 3)))
-    known.add(piece(graph, [11]), np.array([[11.0, -22.0, 0.5]]))
-    middle = piece(graph, np.arange(1, 11))
-    line = np.arange(1, 11)[:, None] * np.array([1.0, -2.0, 0.5 / 11])
-    assert np.abs(known.around(laplacian_of(middle), SHIFT).continuation - line).max() < 1e-2
-
-
-def test_from_one_end_a_path_stays_where_it_is():
-    graph = path(12)
-    known = Known(graph, 8.0)
-    known.add(piece(graph, [0]), np.array([[3.0, 4.0, 5.0]]))
-    rest = piece(graph, np.arange(1, 12))
-    assert known.around(laplacian_of(rest), SHIFT).continuation == pytest.approx(np.tile([3.0, 4.0, 5.0], (11, 1)))
-
-
-def test_what_is_not_connected_lies_at_the_mean():
-    graph = graph_of_faces(np.array([[0, 1, 2], [3, 4, 5]], np.int32), 6)
-    known = Known(graph, 8.0)
-    known.add(piece(graph, [0]), np.array([[1.0, 2.0, 3.0]]))
-    block = piece(graph, [1, 2, 3, 4, 5])
-    assert known.around(laplacian_of(block), SHIFT).continuation == pytest.approx(np.tile([1.0, 2.0, 3.0], (5, 1)))
-
-
-def test_a_block_that_knows_of_nothing_is_predicted_at_zero():
-    graph = path(5)
-    block = piece(graph, np.arange(5))
-    around = Known(graph, 8.0).around(laplacian_of(block), SHIFT)
-    assert not around.springs.any() and not around.pulls.any()
-    assert not around.continuation.any()
-    assert not unheld(laplacian_of(block), SHIFT).continuation.any()
 
 
 def test_springs_count_edges_that_leave_and_known_rows():

@@ -32,11 +32,3 @@ def test_smoothing_is_the_polynomial_of_the_sparse_matrix():
     rows = np.array([3, 500, 77])
     part = smoothing_spectrum(graph, mesh.positions).only(rows)
     assert np.array_equal(part.smoothed(4.0), smooth(graph, mesh.positions, 4.0)[rows])
-
-
-def test_smoothing_leaves_isolated_vertices_and_constants_alone():
-    graph = graph_of_faces(np.array([[0, 1, 2], [2, 1, 3]], np.int32), 6)
-    positions = np.tile([1.0, -2.0, 3.0], (6, 1))
-    positions[4:] = [[7.0, 8.0, 9.0], [0.1, 0.2, 0.3]]
-    assert np.allclose(smooth(graph, positions, 8.0), positions, atol=1e-14)
-    assert np.array_equal(smooth(graph, positions, 0.0), positions)

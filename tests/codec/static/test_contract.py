@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -27,8 +26,6 @@ from bsm import (
 )
 from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import LookMetric, look
-from bsm.codec.static.choice.bounds import Bounds, Measures
-from bsm.codec.static.choice.search import Search
 from bsm.evaluation.sample import knot
 from bsm.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
@@ -176,29 +173,6 @@ def test_who_says_how_to_code_gets_that() -> None:
     assert kept(encoder, encoder.encode())[1] > 8.0
 
 
-def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> None:
-    mesh = noisy(torus(80, 40), 0.003)
-    encoder = Encoder(mesh, EncodeOptions(block_size=300, contract=Contract(0.004, 4.0)))
-    measures = Measures(encoder._input.prepared, 1)
-    bounds = Bounds(measures, Contract(0.004, 4.0))
-    drafts = [way.at(way.first).draft for way in Search(measures, encoder.options)._ways(bounds, math.inf)]
-    assert any(draft.header.refinement for draft in drafts)
-    assert any(draft.header.grid for draft in drafts)
-    for draft in drafts:
-        assert np.abs(decode(b"".join(draft.frames)).positions - draft.decoded).max() < 1e-9
-
-
-def test_a_search_reports_its_blocks_and_tries() -> None:
-    reports: list[tuple[int, int]] = []
-    encoder = Encoder(
-        noisy(torus(80, 40), 0.003), EncodeOptions(block_size=300, contract=Contract(0.004, 4.0), threads=1)
-    )
-    encoder.draft(lambda done, total: reports.append((done, total)))
-    shares = [done for done, _ in reports]
-    assert {total for _, total in reports} == {1000} and shares == sorted(shares) and shares[-1] == 1000
-    assert len(set(shares)) >= 11 + 3  # blocks, a picture, tries, and the check at the end
-
-
 @pytest.mark.parametrize("bits", [1, 4, 11, 16, 20])
 def test_a_grid_gives_exactly_the_nearest_places(bits: int) -> None:
     mesh = torus(20, 12)
@@ -217,14 +191,6 @@ def test_many_components_cost_what_their_vertices_cost() -> None:
     draft = encoder.draft()
     assert draft.header.grid
     assert draft.size < 12 * len(many.positions) / 8
-
-
-@pytest.mark.parametrize(("kind", "value"), [("theta_deg", 2.0), ("nmsve_db", -70.0)])
-def test_targets_of_quality_are_met_without_wide_dictionaries(kind: str, value: float) -> None:
-    encoder = Encoder(noisy(torus(60, 40), 0.002), replace(PRESETS["none"], target=Target(kind, value)))
-    attempt = encoder.search()
-    assert getattr(attempt.comparison, kind) <= value
-    assert max(attempt.draft.coefficients, default=0) <= 0.18 * attempt.header.block_size
 
 
 def test_a_contract_excludes_what_it_must() -> None:

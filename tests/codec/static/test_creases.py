@@ -19,16 +19,6 @@ RNG = np.random.default_rng(3)
 ROUGH = TriangleMesh(MESH.positions + RNG.normal(0, 0.003 * MESH.diagonal, MESH.positions.shape), MESH.faces)
 
 
-def roof(*degrees):
-    """Faces that share an edge or a vertex with the first one, bent against it by so much."""
-    positions = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, -1.0, 0.0)]
-    faces = [(0, 2, 1)]
-    for k, angle in enumerate(np.radians(degrees)):
-        positions.append((0.5, np.cos(angle), -np.sin(angle)))
-        faces.append((0, 1, 3 + k))
-    return np.array(positions), np.array(faces, np.int32)
-
-
 def unit_normals(positions, faces):
     a, b, c = (positions[faces[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
@@ -39,14 +29,6 @@ def wrong(creases: Creases, positions):
     normals = unit_normals(positions, creases.faces)
     cosines = (normals[creases.pairs[:, 0]] * normals[creases.pairs[:, 1]]).sum(axis=1)
     return (cosines <= CREASE) != creases.sharp.astype(bool)
-
-
-@pytest.mark.parametrize("angle", (31.0, 33.0, 39.0, 41.0, 47.0, 49.0))
-def test_what_is_near_a_crease_is_watched(angle):
-    creases = creases_of(*roof(angle))
-    near = abs(angle - 40.0) < WITHIN
-    assert len(creases.pairs) == near
-    assert not near or bool(creases.sharp[0]) == (angle > 40.0)
 
 
 def test_pairs_and_costs_are_those_of_all_corners():
@@ -70,17 +52,6 @@ def test_pairs_and_costs_are_those_of_all_corners():
     assert found == pytest.approx(expected)
     assert not wrong(creases, positions).any()
     assert 0 < creases.sharp.sum() < len(creases.sharp)
-
-
-def test_pairs_hang_on_the_vertices_of_their_faces():
-    creases = creases_of(ROUGH.positions, ROUGH.faces)
-    hanging = [set() for _ in ROUGH.positions]
-    for number, pair in enumerate(creases.pairs):
-        for vertex in ROUGH.faces[pair].ravel():
-            hanging[vertex].add(number)
-    for vertex, numbers in enumerate(hanging):
-        members = creases.members[creases.starts[vertex] : creases.starts[vertex + 1]]
-        assert sorted(members) == sorted(numbers)
 
 
 def test_levels_keep_creases(monkeypatch):

@@ -125,13 +125,6 @@ def test_a_lost_chunk_of_a_grid_costs_those_behind_it() -> None:
     assert sum(len(event.vertices) for event in events if isinstance(event, BlockEvent)) == 30
 
 
-@pytest.mark.parametrize("size", [1, 7, 64])
-def test_events_do_not_depend_on_how_bytes_come(size: int) -> None:
-    for data in (REFINED, GRID):
-        found = events_of(data, [data[start : start + size] for start in range(0, len(data), size)])
-        assert [type(event) for event in found] == [type(event) for event in events_of(data)]
-
-
 def test_levels_that_are_out_of_range_are_refused() -> None:
     data = refined(MESH, LAYER, (120,))
     start = offset_of(data, FrameType.REFINEMENT, 0)
