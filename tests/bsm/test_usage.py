@@ -169,7 +169,7 @@ def test_help_says_what_presets_promise():
         elif options.exact:
             assert "single precision" in row
         elif options.contract is None:
-            assert "only the targets" in row
+            assert "only the bounds and targets" in row
         else:
             look = f"{options.contract.look:g}" if np.isfinite(options.contract.look) else "any"
             assert row.split()[:3] == [look, f"{100 * options.contract.farthest:g}", "%"]

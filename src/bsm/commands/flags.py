@@ -89,14 +89,14 @@ ENCODE_FLAGS = (
     Setting("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
     Setting("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
     Setting("grid_origin", numbers(3), "X,Y,Z", "a point of the grid (default 0,0,0)"),
-    Setting("effort", str, "quick|normal|best", "quick: only grids, larger files; best: slower, smaller files"),
+    Setting("effort", str, "quick|normal|best", "quick: faster, larger files; best: slower, smaller (default normal)"),
     Setting("quick", bool, "", "same as --effort quick"),
     Setting("keep_order", bool, "", "store the order of vertices and faces; PC2 and MDD keep that of vertices"),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
 
 SETTINGS = (
-    Setting("limits", str, "default|service|wide", "refuse streams that exceed these limits of decoders"),
+    Setting("limits", str, "default|service|wide", "limits that decoders must accept (default: default)"),
     Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: by rate)"),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
     Setting("step", float, "S", "quantization step, relative to the diagonal; replaces the promise"),
