@@ -151,17 +151,6 @@ def test_what_is_no_stream_is_named(read, source):
         read(source)
 
 
-def test_options_of_the_other_kind_are_named_so(mesh):
-    with pytest.raises(bsm.ArgumentError, match=r"^grid is for single meshes, not for a sequence$"):
-        bsm.encode_sequence(mesh.positions[None], mesh.faces, grid=12)
-    with pytest.raises(bsm.ArgumentError, match=r"^bpv is for single meshes, not for a sequence$"):
-        bsm.encode_sequence(mesh.positions[None], mesh.faces, bpv=2)
-    with pytest.raises(bsm.ArgumentError, match=r"^kg is for sequences, not for a mesh$"):
-        bsm.encode(mesh, kg=0.1)
-    with pytest.raises(bsm.ArgumentError, match=r"^unknown option gird for a mesh; did you mean grid[?]$"):
-        bsm.encode(mesh, gird=12)
-
-
 # ------------------------------------------------------------------------------------------------ compare and denoise
 
 

@@ -161,12 +161,6 @@ def test_a_permutation_takes_attributes_along(tmp_path):
     assert attribute(again, "number").values[:, 0].tolist() == list(range(len(mesh.positions)))
 
 
-def test_moving_keeps_all_but_normals():
-    mesh = dressed()
-    moved, stale = mesh.moved(mesh.positions + 1)
-    assert stale == ("normal",) and {a.name for a in moved.attributes} == {a.name for a in mesh.attributes} - {"normal"}
-
-
 def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     mesh = dressed()
     write_mesh(tmp_path / "a.npz", mesh)

@@ -17,7 +17,6 @@ from bsm.codec import denoise as library
 from bsm.codec.denoise.frames import GROUP, OVERLAP, WINDOW
 from bsm.codec.geometry.metrics import mnd, theta
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
-from bsm.files.formats.npz import npz_frames, shape_of
 from bsm.files.mesh import format_mesh, read_mesh, write_mesh
 from tests.bsm import program
 from tests.shapes import torus
@@ -193,12 +192,6 @@ def test_no_more_than_a_few_frames_are_held():
         assert next(results).shape == still.positions.shape
         held -= 1
     assert most <= WINDOW + OVERLAP + 2 * (os.cpu_count() or 1) + 2
-
-
-def test_frames_of_an_npz_are_read_one_by_one(frames, tmp_path):
-    np.savez(tmp_path / "a.npz", positions=frames, faces=CLEAN.faces)
-    assert shape_of(tmp_path / "a.npz", "positions")[0] == frames.shape
-    assert all((read == frame).all() for read, frame in zip(npz_frames(tmp_path / "a.npz"), frames, strict=True))
 
 
 @pytest.mark.parametrize(

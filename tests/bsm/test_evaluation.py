@@ -28,7 +28,6 @@ from bsm.evaluation.curve import (
     read_results,
     run_curve,
     table,
-    write_result,
 )
 from bsm.files.mesh import write_mesh
 from bsm.options import encode_options
@@ -147,11 +146,6 @@ class TestResults:
         mesh = patch(20, 25)
         padded = TriangleMesh(np.concatenate([mesh.positions, [[9.0, 9, 9]]]), mesh.faces)
         assert run_curve(tiny_curve(), padded, "patch")["mesh"]["vertices"] == 500
-
-    def test_written_results_are_read_again(self, tmp_path):
-        result = run_curve(tiny_curve(), patch(20, 25), "patch")
-        assert write_result(result, tmp_path).name == "patch.oi-r1.json"
-        assert list(read_results(tmp_path)) == [result]
 
     def test_another_schema_is_refused(self, tmp_path):
         (tmp_path / "a.b.json").write_text('{"schema": 0}')

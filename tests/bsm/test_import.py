@@ -1,7 +1,6 @@
 """`import bsm`: the one supported name."""
 
 import ast
-import doctest
 import importlib
 import inspect
 import subprocess
@@ -70,13 +69,6 @@ def test_type_checkers_see_the_same_names():
     seen = {alias.asname: node.module for node in imports for alias in node.names if alias.asname}
     assert seen == bsm._HOMES
     assert list(seen) == bsm.__all__[1:]
-
-
-@pytest.mark.parametrize("module", ["bsm", "bsm.research"])
-def test_the_example_of_the_docstring(module):
-    (example,) = doctest.DocTestFinder(recurse=False).find(importlib.import_module(module))
-    done = doctest.DocTestRunner().run(example)
-    assert done.attempted > 0 and done.failed == 0
 
 
 def test_the_version_is_written_once():

@@ -242,19 +242,6 @@ def test_limits_bound_the_mesh(tmp_path):
         read_mesh(path, limits=Limits(faces=3))
 
 
-@pytest.mark.parametrize("start", range(6))
-def test_concave_polygons_are_cut_without_overlap(start, tmp_path):
-    outline = [(0, 0), (2, 0), (2, 2), (1, 2), (1, 1), (0, 1)]
-    turned = outline[start:] + outline[:start]
-    text = "".join(f"v {x} {y} 3\n" for x, y in turned) + "f 1 2 3 4 5 6\n"
-    mesh = read_mesh(write(tmp_path, "a.obj", text)).mesh
-    corners = mesh.positions[mesh.faces]
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
-    assert len(areas) == 4
-    assert (areas >= 0).all()
-    assert areas.sum() == pytest.approx(3)
-
-
 @pytest.mark.real
 @pytest.mark.parametrize("name", ["scan_angel", "cgal_elephant_with_holes"])
 @pytest.mark.parametrize("kind", ["obj", "off", "ply", "npz"])

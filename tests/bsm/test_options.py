@@ -110,8 +110,9 @@ def test_what_is_refused(keywords, error, words):
 
 
 def test_a_sequence_has_fewer_options():
-    with pytest.raises(ArgumentError, match="power is for single meshes, not for a sequence"):
-        sequence_options(power=3)
+    for name in ("power", "grid", "bpv"):
+        with pytest.raises(ArgumentError, match=f"^{name} is for single meshes, not for a sequence$"):
+            sequence_options(**{name: 3})
 
 
 def test_a_largest_error_may_have_a_unit():

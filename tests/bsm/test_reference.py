@@ -103,13 +103,12 @@ def test_a_page_can_be_read_alone(name, folder, monkeypatch):
     run(getattr(bsm, name), folder, monkeypatch)
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", ["bsm", *MODULES])
 def test_modules_can_be_read_alone(module, folder, monkeypatch):
     pytest.importorskip(NEEDS.get(module, "numpy"))
     room = importlib.import_module(module)
     assert all(inspect.getdoc(getattr(room, name)) for name in room.__all__)
-    if module != "bsm.research":  # whose example test_import.py runs
-        run(room, folder, monkeypatch)
+    run(room, folder, monkeypatch)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if inspect.isclass(getattr(bsm, name))])

@@ -73,10 +73,6 @@ def test_of_two_runs_at_a_time_the_first_is_whole(source, tmp_path):
         assert bsm("verify", output).returncode == 0
 
 
-def test_earlier_tiles_are_not_counted_without_resume(source, tmp_path):
-    assert "were up to date" not in tile(source, tmp_path / "out").stderr
-
-
 def test_a_run_that_died_is_taken_over_when_asked(source, tmp_path):
     (tmp_path / "out").mkdir()
     with holding(tmp_path / "out") as other:

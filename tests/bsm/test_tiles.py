@@ -32,7 +32,7 @@ from bsm.gltf.document import read_document
 from bsm.tiles.cutting import Lattice
 from bsm.tiles.making import farthest_near, simplified, welded
 from tests.bsm.program import bsm as program
-from tests.shapes import curved, patch, torus
+from tests.shapes import curved, torus
 
 CELL = 2.0**-14
 
@@ -80,15 +80,6 @@ def edges(faces):
 
 def contents(folder):
     return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
-
-
-def test_a_flat_mesh_comes_back_at_its_finest(tmp_path):
-    across, along = np.divmod(np.arange(60 * 60), 60)
-    flat = TriangleMesh(np.stack([across, along, 0 * along], axis=1).astype(float), patch(60, 60).faces)
-    write_mesh(tmp_path / "flat.ply", flat)
-    tile(tmp_path / "flat.ply", tmp_path / "out", "--grid-cell", 1, "--triangles", 800)
-    program("untile", tmp_path / "out", "-o", tmp_path / "back.ply")
-    assert same(bsm.load(tmp_path / "back.ply"), flat)
 
 
 def test_a_grid_too_coarse_makes_tiles_that_are_read(mesh, tmp_path):
@@ -315,15 +306,6 @@ def test_contents_that_cannot_be_made(folder, tmp_path, monkeypatch):
     (tmp_path / "gltf-transform").chmod(0o755)
     done = program("untile", folder, "-o", tmp_path / "tileset.json", "--content", "draco", text=True)
     assert done.returncode != 0 and "gltf-transform draco failed: it broke" in done.stderr
-
-
-def test_locked_vertices_stay_where_nothing_else_holds_them():
-    mesh = torus(60, 40)
-    places = Lattice(CELL).places(mesh.positions)
-    locked = np.arange(len(places)) % 37 == 0
-    new, faces, owners = simplified(places, mesh.faces, locked, 900)
-    assert len(faces) <= 1000 and (edges(faces)[1] == 2).all()
-    assert np.array_equal(new[owners[locked]], places[locked])
 
 
 def test_borders_stay_and_what_is_no_surface_is_left_alone():
@@ -595,14 +577,3 @@ def test_the_error_of_a_mesh_that_is_too_large_names_tiles(tmp_path):
     )
     done = program("encode", tmp_path / "big.ply", text=True)
     assert done.returncode == 6 and "bsm tile" in done.stderr
-
-
-@pytest.mark.real
-@pytest.mark.slow
-def test_a_scan_comes_back(meshes, tmp_path):
-    source = meshes / "static" / "bunny_34834.ply"
-    tile(source, tmp_path / "out", "--triangles", 2000, "--finest")
-    assert program("untile", tmp_path / "out", "-o", tmp_path / "back.ply").returncode == 0
-    lattice = bsm.open_tiles(str(tmp_path / "out")).lattice
-    for first, other in zip(sets(bsm.load(source), lattice), sets(bsm.load(tmp_path / "back.ply"), lattice)):
-        assert np.array_equal(first, other)

@@ -70,13 +70,6 @@ def test_help_alone_is_that_of_the_program(capsys):
     assert "COMMAND" in capsys.readouterr().out
 
 
-def test_a_missing_folder_is_named(tmp_path, capsys):
-    write_mesh(tmp_path / "a.ply", torus(5, 5))
-    assert main(["encode", str(tmp_path / "a.ply"), "-o", str(tmp_path / "none" / "a.bsm")]) == 9
-    expected = f"{tmp_path / 'none' / 'a.bsm'}: the folder of the output does not exist; create it first"
-    assert expected in capsys.readouterr().err
-
-
 def test_targets_go_by_the_name_of_their_flag(tmp_path, capsys):
     write_mesh(tmp_path / "a.ply", torus(5, 5))
     assert main(["encode", str(tmp_path / "a.ply"), "--theta", "0"]) == 2

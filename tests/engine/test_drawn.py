@@ -13,7 +13,7 @@ import numpy.typing as npt
 import pytest
 
 import bsm
-from tests.engine.decoding import BLOCK, CONNECTIVITY, KINDS, SEMANTICS, Entry, Event, Failure, Limits, Options
+from tests.engine.decoding import BLOCK, CONNECTIVITY, KINDS, SEMANTICS, Entry, Event, Failure, Options
 from tests.streams import frames_in, moving_events_of
 from tools.amalgamate import ROOT
 
@@ -213,15 +213,6 @@ def test_wrong_options_are_named(
     with drawn(decoder, (VECTORS / "good-chain.bsm").read_bytes(), options, *fields, expected=MISUSED) as found:
         assert found.error.contents.message.decode() == message
         assert not found.vertex_data and not found.vertices and found.decoder
-
-
-def test_wrong_limits_are_named(decoder: ctypes.CDLL) -> None:
-    limits, stream = Limits(), (VECTORS / "good-chain.bsm").read_bytes()
-    for heap in (-1.0, float("nan")):
-        decoder.bsmdec_default_limits(byref(limits), ctypes.sizeof(limits))
-        limits.bounds[21] = heap
-        with drawn(decoder, stream, Options(ctypes.addressof(limits)), expected=MISUSED) as found:
-            assert found.error.contents.message == b"field 22 of the limits is negative or not a number"
 
 
 def test_a_stride_holds_without_fields(decoder: ctypes.CDLL) -> None:

@@ -2,13 +2,11 @@
 
 from dataclasses import asdict
 
-import numpy as np
 import pytest
 
 from bsm import BsmError, CorruptError, TruncatedError
 from tools.attack import shard as proof
 from tools.attack.decoding import is_sequence, piecewise, whole
-from tools.attack.encodes import store, stored
 from tools.attack.places import environments, processors
 from tools.attack.proof import Part, cuts, plan, run, table
 from tools.attack.shard import SUITES, Shard
@@ -36,28 +34,6 @@ def test_outcomes_are_held_against_each_other():
     assert "corrupt instead of truncated" in tally.hold(CHAIN, CorruptError("no"), TruncatedError("yes"))
     assert tally.hold(CHAIN, CorruptError("this"), CorruptError("that")) is None
     assert tally.differing == 5
-
-
-def test_attributes_are_held_against_each_other():
-    tally, decoded = Tally(), whole(TEXTURED)
-    *rest, attributes = decoded
-    assert len(attributes) > 1
-    for name, values in attributes.items():
-        other = values.copy()
-        other.flat[0] += 1
-        assert repr(name) in tally.hold(TEXTURED, (*rest, {**attributes, name: other}), decoded)
-        assert "attributes" in tally.hold(TEXTURED, (*rest, {**attributes, "another": values}), decoded)
-    name = next(name for name, values in attributes.items() if values.dtype.kind == "f")
-    nearly = (*rest, {**attributes, name: attributes[name] * (1 + 1e-6)})
-    assert not np.array_equal(nearly[2][name], attributes[name])
-    assert tally.hold(TEXTURED, nearly, decoded) is None
-    assert "differs" in tally.hold(TEXTURED, nearly, decoded, exact=True)
-
-
-def test_what_was_decoded_elsewhere_can_be_stored(tmp_path):
-    decoded = whole(TEXTURED)
-    store(tmp_path / "0.npz", decoded)
-    assert Tally().hold(TEXTURED, stored(tmp_path / "0.npz"), decoded, exact=True) is None
 
 
 @pytest.mark.parametrize("stream", [CHAIN, SEQUENCE, TEXTURED])

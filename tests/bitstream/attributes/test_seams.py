@@ -6,11 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm import CorruptError, TruncatedError
-from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, SEAM, Joins, encode_seams, find_seams
+from bsm.bitstream.attributes.seams import NO_SEAM, Joins, encode_seams, find_seams
 from bsm.bitstream.fields.corners import corners_of
 from tools.payloads import decode_seams
 
-SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
 FAN = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])
 
 
@@ -58,14 +57,6 @@ def test_any_triangles_come_back(triangles, seed, most):
     assert (joins.faces == brute_joins(corners, values)).all()
     assert (np.diff(joins.first) > 0).all()
     assert (joins.vertices == corners.faces.ravel()[joins.first]).all()
-
-
-def test_a_seam_between_two_triangles():
-    corners = corners_of(SQUARE, 4)
-    seams = find_seams(corners, [[0, 1, 2], [5, 2, 3]])
-    assert seams.tolist() == [OPEN, SEAM, OPEN, OPEN, OPEN, SEAM]
-    assert Joins(corners, seams).faces.tolist() == [[0, 1, 2], [3, 4, 5]]
-    assert Joins(corners, seams).vertices.tolist() == [0, 1, 2, 0, 2, 3]
 
 
 def test_without_seams_there_is_next_to_nothing():

@@ -9,13 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import CorruptError, EncodeOptions, OptionError, TriangleMesh, TruncatedError
-from bsm import decode as decode_mesh
-from bsm import encode as encode_mesh
+from bsm import CorruptError, OptionError, TruncatedError
 from bsm.bitstream import _kernels
 from bsm.bitstream.connectivity.order import permutation_bank, rotation_bank, write_permutation, write_rotations
 from bsm.bitstream.entropy.range_coder import finish_writing, start_writing
-from tests.shapes import Faces, grid_faces
 from tools.payloads import finish_reading, start_reading
 
 quick = settings(max_examples=100)
@@ -86,29 +83,3 @@ def test_damage_to_a_permutation_is_noticed_or_gives_another() -> None:
             continue
         np.testing.assert_array_equal(np.sort(order), np.arange(300))
     assert noticed > 0.8 * len(damaged)
-
-
-def shuffled(faces: Faces, seed: int) -> Faces:
-    """Other numbers, another order, other first corners."""
-    rng = np.random.default_rng(seed)
-    faces = rng.permutation(int(faces.max()) + 1)[faces][rng.permutation(len(faces))]
-    turn = rng.integers(0, 3, len(faces))
-    return np.take_along_axis(faces, (turn[:, None] + np.arange(3)) % 3, axis=1)
-
-
-@pytest.mark.parametrize(
-    "faces",
-    [
-        grid_faces(9, 13),
-        shuffled(grid_faces(9, 13), 3),
-        np.array([[0, 1, 2], [1, 2, 0], [0, 1, 2], [2, 1, 0], [3, 3, 1], [3, 1, 3], [2, 2, 2]]),
-        shuffled(np.random.default_rng(2).integers(0, 12, (60, 3)), 4),
-    ],
-    ids=["grid", "shuffled", "repeats", "soup"],
-)
-def test_original_faces_are_restored_exactly(faces: Faces) -> None:
-    positions = np.random.default_rng(0).normal(size=(int(faces.max()) + 1, 3))
-    stream = encode_mesh(TriangleMesh(positions, faces), EncodeOptions(grid=9, keep_order=True, threads=1))
-    decoded = decode_mesh(stream, threads=1)
-    np.testing.assert_array_equal(decoded.faces, faces)
-    assert np.abs(decoded.positions - positions).max() < 0.02

@@ -101,23 +101,6 @@ def test_size_is_near_the_entropy_of_a_memoryless_source() -> None:
     assert 8 * len(payload) / len(values) < 1.015 * _entropy(np.bincount(values)) + 0.005
 
 
-def test_size_is_near_the_entropy_of_a_markov_source() -> None:
-    rng = np.random.default_rng(3)
-    stay = rng.random(60000) < 0.9
-    jumps = rng.integers(0, 4, 60000)
-    values = np.zeros(60000, np.int64)
-    for i in range(1, len(values)):
-        values[i] = values[i - 1] if stay[i] else jumps[i]
-    rate = _entropy(np.array([0.925, 0.025, 0.025, 0.025]))
-    payload = _write(_code_order_one, _order_one_bank(), values, capacity=1 << 18)
-    assert 8 * len(payload) / len(values) < 1.02 * rate + 0.005
-
-
-def test_a_constant_source_costs_almost_nothing() -> None:
-    payload = _write(_code_order_one, _order_one_bank(), np.zeros(100000, np.int64))
-    assert len(payload) < 20
-
-
 @settings(max_examples=50)
 @given(st.binary(max_size=200))
 def test_random_bytes_are_read_without_harm(payload: bytes) -> None:
@@ -173,16 +156,6 @@ def test_a_full_buffer_is_an_error_and_not_a_crash() -> None:
 def test_bad_sizes_of_a_bank_are_refused(arguments: tuple[int, ...]) -> None:
     with pytest.raises(OptionError):
         make_bank(*arguments)
-
-
-def test_tables_are_what_the_logistic_function_says() -> None:
-    x = np.arange(-2880, 2880)
-    exact = np.clip(np.rint(65536 / (1 + np.exp(-x / 256))), 1, 65535)
-    np.testing.assert_array_equal(entropy_tables.squash_table(), exact)
-    centers = (np.arange(4096) + 0.5) / 4096
-    stretch = entropy_tables.stretch_table()
-    assert np.abs(stretch - 256 * np.log(centers / (1 - centers))).max() < 20
-    np.testing.assert_array_equal(stretch, -stretch[::-1])
 
 
 def test_tables_of_the_kernels_are_fresh() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from bsm import BsmError, CorruptError, NumericError, TruncatedError
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.fields.corners import MOST_LARGEST, corners_of
+from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.bitstream.fields.grid import find_lattice, spread
 from tests.bitstream.fields.fields import (
     COLUMNS,
@@ -190,21 +190,6 @@ def test_counts_are_checked():
         field.write(1)
 
 
-def test_a_first_vertex_of_a_light_grid_by_hand():
-    """Nothing is known, the guess is 0 and all decisions are even, a one being the lower half.
-
-    1, 0, 0: not the guess, not below, no farther (0, 0, 0: the last eighth); the guess; the guess (its first quarter).
-    """
-    field = field_of("light", NOTHING, 1, (9, 9, 9))
-    assert encode(field, [[1, 0, 0]]) == [(b"\xe0", 1)]
-    assert decode(field, [(b"\xe0", 1)]).tolist() == [[1, 0, 0]]
-
-
-@pytest.mark.parametrize("name", ["light", "levels"])
-def test_vertices_come_as_they_are_numbered(name):
-    assert field_of(name, TORUS, 108, (9, 9, 9)).order().tolist() == list(range(108))
-
-
 @settings(max_examples=100)
 @given(st.integers(3, 60), st.integers(0, 200), SEEDS)
 def test_extremes_stay_within_their_types(vertices: int, count: int, seed: int):
@@ -218,21 +203,6 @@ def test_extremes_stay_within_their_types(vertices: int, count: int, seed: int):
 
 def test_tables_are_what_their_tool_writes():
     assert field_tables.PATH.read_text() == field_tables.source()
-
-
-def test_corners_of_two_triangles():
-    corners = corners_of([[0, 1, 2], [2, 1, 3]], 5)
-    assert corners.starts.tolist() == [0, 1, 3, 5, 6, 6]
-    assert corners.corners.tolist() == [0, 1, 4, 2, 3, 5]
-    assert corners.opposite.tolist() == [5, -1, -1, -1, -1, 0]
-
-
-def test_the_order_prefers_complete_neighborhoods():
-    order = field_of("grid", TORUS, 108, (9, 9, 9)).order()
-    assert sorted(order.tolist()) == list(range(108))
-    rank = np.argsort(order)
-    near = [sum(rank[u] < rank[v] for u in set(TORUS[(v == TORUS).any(axis=1)].ravel()) - {v}) for v in order]
-    assert near[0] == 0 and np.mean(near[10:]) >= 2.5
 
 
 def test_what_is_known_helps():

@@ -3,16 +3,14 @@
 import gzip
 import json
 import struct
-import sys
 
 import pytest
 
-from bsm import CorruptError, DependencyError, FormatError, LimitError, Limits, MeshError, TruncatedError
+from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, TruncatedError
 from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.sequence import open_sequence
 from tests.shapes import tetrahedron, torus
 
-SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 OURS = ("obj", "off", "ply", "stl")
 
 
@@ -115,16 +113,3 @@ def test_damaged_scenes(trimesh, data, tmp_path):
     (tmp_path / "a.glb").write_bytes(data)
     with pytest.raises((FormatError, TruncatedError), match=r"this is no GLB|this GLB should|a GLB begins"):
         read_mesh(tmp_path / "a.glb")
-
-
-def test_formats_that_nobody_knows(trimesh, tmp_path):
-    (tmp_path / "a.xyz9").write_bytes(b"1 2 3\n")
-    with pytest.raises(FormatError, match=r"\.xyz9 is no mesh format that is known here"):
-        read_mesh(tmp_path / "a.xyz9")
-
-
-def test_where_trimesh_is_missing_the_way_out_is_reported(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "trimesh", None)
-    (tmp_path / "a.dae").write_bytes(b"<COLLADA/>")
-    with pytest.raises(DependencyError, match=r"\.dae files are read with trimesh; run: pip install .*\[form"):
-        read_mesh(tmp_path / "a.dae")
