@@ -10,7 +10,7 @@ from bsm.codec.denoise.noise.outliers import find_outliers, put_strays_back
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.safety import judge, keep_good, restraint
+from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
@@ -237,11 +237,3 @@ def test_neither_clean_shapes_nor_white_noise_nor_corrugated_sheets_have_waves()
     sheet[:, 2] = 0.2 * np.sin(2.0 * np.pi * sheet[:, 0] / 4.0)
     ripples = find_ripples(sheet, Probe(Topology(faces, len(sheet))))
     assert (ripples.put_back(sheet) == sheet).all()
-
-
-def test_less_is_done_where_faint_noise_seems_mixed_with_detail() -> None:
-    levels = np.ones(3)
-    faint, strong = (Finding("white", level, level * levels, 1.0, "") for level in (0.1, 0.3))
-    assert restraint(0.9, faint) == restraint(1.2, strong) == 1.0
-    assert 0.5 < restraint(1.0, faint) < restraint(0.95, faint) < 1.0
-    assert restraint(1.2, Finding("axis", 0.1, 0.1 * levels, 1.0, "")) == 1.0

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise import automatic, recipe
-from bsm.codec.denoise.learnt.cascade import WEIGHTS, Learnt, Network, joined, learnt, read_networks, regressed_normals
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
+from bsm.codec.denoise.learnt.cascade import WEIGHTS, Learnt, Network, joined, learnt, read_networks
+from bsm.codec.denoise.learnt.descriptors import NUMBERS, descriptions, mirrored
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.recipe import Patient
 from bsm.codec.denoise.rehearsal import LEARNT_SHARES
@@ -86,21 +86,6 @@ def test_weights_are_small_and_written_as_they_are_read(tmp_path: Path) -> None:
     numbers = np.random.default_rng(0).normal(size=(7, NUMBERS)).astype(np.float32)
     assert len(again) == len(networks)
     assert all((network(numbers) == other(numbers)).all() for network, other in zip(networks, again, strict=True))
-
-
-def test_weights_for_other_numbers_are_refused(tmp_path: Path) -> None:
-    short = zeros(5)
-    write_networks(tmp_path / "short.npz", [short])
-    with pytest.raises(ValueError, match="train"):
-        read_networks(tmp_path / "short.npz")
-
-
-def test_a_network_of_zeros_says_the_filtered_normal() -> None:
-    _, noisy, faces = noisy_sphere(8)
-    topology = Topology(faces, len(noisy))
-    numbers, frames = next(descriptions(noisy, topology))
-    filtered = np.einsum("kij,ki->kj", frames, numbers[:, BASE])
-    assert regressed_normals(noisy, topology, zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
 
 
 def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatch) -> None:

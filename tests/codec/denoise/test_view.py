@@ -9,8 +9,7 @@ from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.finding import lattice_step
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.noise.synthesis import in_space
-from bsm.codec.denoise.noise.view import View, bending, find_view
+from bsm.codec.denoise.noise.view import View, find_view
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import theta
 from bsm.files.mesh import read_mesh
@@ -32,13 +31,6 @@ def test_what_is_scanned_is_the_mesh_with_the_noise_of_the_camera(camera: str) -
     assert 0.0005 < noisy.rms(noisy.positions) < 0.005
     eighths = CAMERAS[camera].focal * BASELINE_EIGHTHS / noisy.positions[:, 2]
     assert (np.abs(eighths - np.round(eighths)).max() < 1e-6) == (camera == "structured light")
-
-
-def test_many_views_make_a_closed_mesh_near_the_truth() -> None:
-    pytest.importorskip("skimage")
-    made = fused(*sphere(20), CAMERAS["time of flight"], 3, cells=40)
-    assert not Topology(made.faces, len(made.positions)).boundary.any()
-    assert made.rms(made.positions) < 0.002 and made.angle(made.positions) < 20.0
 
 
 def test_noise_of_fused_views_is_taken_away() -> None:
@@ -81,15 +73,6 @@ def test_a_lattice_is_known_by_its_lines_and_not_when_it_is_turned() -> None:
     assert not lattice_step(grid(60)[0])
 
 
-def test_noise_in_space_is_alike_at_places_that_are_near() -> None:
-    places = 30.0 * np.random.default_rng(5).random((5000, 3))
-    together = np.concatenate([places, places + 0.1, places + 3.0])
-    here, near, far = np.split(in_space(together, np.random.default_rng(6)), 3)
-    assert here.std() == pytest.approx(1.0, rel=0.05)
-    assert np.corrcoef(here, near)[0, 1] > 0.9
-    assert abs(np.corrcoef(here, far)[0, 1]) < 0.1
-
-
 @pytest.mark.parametrize("camera", CAMERAS)
 @pytest.mark.parametrize("shape", [cube, sphere])
 def test_the_eye_is_found_wherever_the_scan_is_put(shape, camera: str) -> None:  # type: ignore[no-untyped-def]
@@ -105,16 +88,6 @@ def test_closed_meshes_and_grids_that_fold_are_no_views() -> None:
     sheet, faces = grid(30)
     sheet[:, 0] = np.abs(sheet[:, 0] - sheet[:, 0].mean())
     assert find_view(sheet, Probe(Topology(faces, len(sheet)))) is None
-
-
-def test_planes_have_no_bends_and_a_roof_one_at_its_ridge() -> None:
-    plane, faces = grid(8)
-    bends, lengths = bending(plane[:, :2], Topology(faces, len(plane)))
-    assert np.abs(bends @ (2.0 * plane[:, 0] - 3.0 * plane[:, 1] + 5.0)).max() < 1e-12
-    middle = np.unique(plane[:, 0])[4]
-    roof = np.abs(bends @ np.abs(plane[:, 0] - middle))
-    assert np.unique(np.round(roof, 9)) == pytest.approx([0.0, 2.0])
-    assert (roof * lengths).sum() == pytest.approx(2.0 * np.ptp(plane[:, 1]))
 
 
 def test_flattening_moves_along_the_rays_and_keeps_creases() -> None:

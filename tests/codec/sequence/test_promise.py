@@ -19,7 +19,7 @@ from bsm import (
 )
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.options import PROMISES, Promise
-from bsm.codec.sequence.step_search import Measured, StepSearch, shading_error
+from bsm.codec.sequence.step_search import StepSearch, shading_error
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending
 
@@ -51,19 +51,6 @@ def test_every_frame_looks_the_same(gop: int) -> None:
     found = looks(original, decoded, faces)
     assert max(found) <= 1.0 and farthest(original, decoded) <= 0.01
     assert max(found) > 0.8  # with little to spare
-
-
-def test_frames_that_come_again_are_looked_at_once_if_they_are_decoded_alike() -> None:
-    positions, faces = bending(3)
-    frames = np.concatenate([positions, positions + 1e-7])
-    search = StepSearch(frames, faces, Promise(0.01, 1.0), 1.0, 1)
-    decoded = frames + 0.003 * np.sin(40.0 * frames)
-    decoded[3:] = decoded[:3]
-    once, again = (search._look(index, decoded) for index in (0, 3))
-    assert once < again < 1.01 * once and len(search._metrics) == 1
-    decoded = decoded.copy()
-    decoded[3] = frames[3]
-    assert search._look(3, decoded) < 0.1 * once and len(search._metrics) == 2
 
 
 @pytest.mark.parametrize("absolute", [False, True])
@@ -138,23 +125,6 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     seen = dict(zip(some, looks(original[some], decoded[some], found), strict=True))
     assert max(seen.values()) <= 1.0 and len(drawn) < 30
     assert max(seen[index] for index in drawn) > 0.9 * max(seen.values())
-
-
-def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn() -> None:
-    errors = np.full(41, 2.0)
-    drawn = {0: 0.4, 10: 0.5, 20: 0.4, 30: 0.5, 40: 0.4}
-    measured = Measured(0.3, errors, dict(drawn))
-    for index, share in drawn.items():
-        assert measured.shares[index] == measured.most[index] == share
-    assert measured.shares[5] == pytest.approx(np.sqrt(0.4 * 0.5))  # halfway, in logarithms
-    spare = measured.most / measured.shares
-    assert 1.0 < spare[9] < spare[7] < spare[5] < 2.0
-    assert measured.doubtful is not None and measured.doubtful % 10 in range(3, 8)
-    worse = np.where(np.arange(41) == 33, 8.0, errors)  # a frame whose normals are far off is the one to be drawn
-    assert Measured(0.3, worse, dict(drawn)).doubtful == 33
-    assert measured.excess == pytest.approx(np.log(0.5))
-    assert Measured(0.9, errors[:1], {0: 0.2}).excess == pytest.approx(np.log(0.9))
-    assert Measured(0.9, errors[:1], {0: 0.2}).doubtful is None
 
 
 @pytest.mark.parametrize("promise", [None, Promise(0.01, 1.0)])

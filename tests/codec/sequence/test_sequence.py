@@ -21,15 +21,11 @@ from bsm import (
     SequenceOptions,
     SequenceTarget,
     TargetError,
-    VerificationError,
     decode_sequence,
 )
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.sequence import tracks
-from bsm.codec.sequence.gop import FrameHistory
-from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
@@ -71,31 +67,12 @@ def test_the_error_is_within_what_quantization_allows(way):
     assert error <= bound * (1.05 if way else 2.0)
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_a_finer_step_is_closer(way):
-    positions, faces = bending(12)
-    errors = []
-    for step in (0.02, 0.002, 0.0002):
-        data, original = encoded(positions, faces, step=step, **way)
-        errors.append(compare_sequences(original, decode_sequence(data)[0], faces).kg)
-    assert errors[0] > 4 * errors[1] > 16 * errors[2] > 0
-
-
 def test_rigid_motion_costs_little_more_than_its_basis():
     positions, faces = turning(40)
     data, original = encoded(positions, faces, gop=40)
     static = len(encoded(positions[:1], faces)[0])
     assert compare_sequences(original, decode_sequence(data)[0], faces).kg < 0.2
     assert len(data) - static < 40 * 12 * 3  # 12 numbers move it, and a frame of it alone takes a thousand bytes
-
-
-def test_prediction_from_the_first_frame_pays():
-    positions, faces = bending(24)
-    moving = len(encoded(positions, faces, gop=24)[0])
-    shuffled = positions.copy()
-    # The same detail, but no frame has the first one's: nothing to predict from.
-    shuffled[1:] += 0.01 * np.random.default_rng(0).standard_normal(positions[0].shape)
-    assert moving < 0.8 * len(encoded(shuffled, faces, gop=24)[0])
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -163,22 +140,6 @@ def test_frames_that_return_cost_next_to_nothing(together):
     half = len(sizes) // 2
     assert sizes[half + 1 :].sum() < 0.3 * sizes[1:half].sum()
     assert np.abs(decode_sequence(data)[0] - original).max() < 0.02
-
-
-def test_frames_that_may_be_referred_to_are_bounded(monkeypatch):
-    monkeypatch.setattr(tracks, "KEPT", 9 * 480)
-    positions, faces = bending(40)
-    kept = []
-    commit = FrameHistory.commit
-
-    def watched(history, levels, given):
-        commit(history, levels, given)
-        kept.append(len(history._kept))
-
-    monkeypatch.setattr(FrameHistory, "commit", watched)
-    with pytest.raises(VerificationError, match="positions"):  # decoders keep more
-        encoded(positions, faces, low_delay=1, gop=40)
-    assert max(kept) == 9
 
 
 @pytest.mark.parametrize("way", [{}, *WAYS])
@@ -392,24 +353,6 @@ def test_long_motion_is_one_gop_or_two_whatever_costs_less():
     assert firsts == [0]
     assert size < 0.8 * firsts_and_bytes(*lasting, gop=150)[1]
     assert firsts_and_bytes(*changing)[0] == [0, 150]
-
-
-@pytest.mark.parametrize(
-    ("vertices", "low_delay", "frames"), [(1, 0, 512), (5000, 0, 512), (7500, 0, 384), (10_000, 0, 256), (100, 1, 256)]
-)
-def test_gops_have_fewer_frames_of_larger_meshes(vertices, low_delay, frames):
-    assert SequenceOptions(low_delay=low_delay).longest(vertices) == frames
-    assert SequenceOptions(low_delay=low_delay, gop=9).longest(vertices) == 9
-
-
-def test_frames_may_go_far_in_a_long_gop():
-    positions, faces = bending(120, 20, 12)
-    positions[..., 0] += 0.5 * np.arange(120)[:, None]
-    chosen = SequenceOptions(block_size=100, promise=Promise(0.001), threads=1)
-    encoder = SequenceEncoder(faces, chosen, len(positions))
-    data = b"".join(encoder.chunks(positions))
-    wrong = np.linalg.norm(decode_sequence(data)[0] - positions[:, encoder.vertex_order], axis=2).max()
-    assert wrong / np.linalg.norm(np.ptp(positions[0], axis=0)) <= 0.001
 
 
 def test_frames_that_are_shown_grant_work():

@@ -51,6 +51,17 @@ def looks(encoder: Encoder, data: bytes) -> float:
         return 0.0
 
 
+def assert_kept(mesh: TriangleMesh, options: EncodeOptions) -> Encoder:
+    """Encode a mesh; all bounds of its contract hold."""
+    contract, encoder = options.contract, Encoder(mesh, options)
+    assert contract is not None
+    data = encoder.encode()
+    farthest, angle = kept(encoder, data)
+    assert farthest <= contract.farthest * (1 + 1e-9) and angle <= contract.angle + 1e-9
+    assert looks(encoder, data) <= contract.look
+    return encoder
+
+
 def patterned(mesh: TriangleMesh) -> TriangleMesh:
     """With normals that have nothing to do with its shape: edges are seen that are no creases."""
     normals = np.repeat(np.random.default_rng(0).normal(size=(len(mesh.faces), 3)), 3, axis=0)
@@ -83,14 +94,7 @@ def test_a_look_holds_by_the_normals_that_are_sent(preset):
     ids=["tetrahedron", "patch", "torus", "noise", "strong-noise", "many", "flat", "far", "tiny", "point", "line"],
 )
 def test_presets_keep_what_they_promise(mesh: TriangleMesh, preset: str) -> None:
-    contract = PRESETS[preset].contract
-    assert contract is not None
-    encoder = Encoder(mesh, PRESETS[preset])
-    data = encoder.encode()
-    farthest, angle = kept(encoder, data)
-    assert farthest <= contract.farthest * (1 + 1e-9)
-    assert angle <= contract.angle + 1e-9
-    assert looks(encoder, data) <= contract.look
+    assert_kept(mesh, PRESETS[preset])
 
 
 @given(st.integers(0, 2**32 - 1), st.floats(1e-4, 0.1), st.floats(0.5, 30.0))
@@ -108,15 +112,8 @@ def test_any_bounds_are_kept(seed: int, farthest: float, angle: float) -> None:
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
 @pytest.mark.parametrize("mesh", [torus(48, 30), noisy(torus(48, 30), 0.002)], ids=["torus", "noise"])
 def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: TriangleMesh, preset: str) -> None:
-    contract = PRESETS[preset].contract
-    assert contract is not None
-    encoder = Encoder(mesh, replace(PRESETS[preset], quick=True))
-    assert encoder.draft().header.grid and encoder.draft().header.light
-    data = encoder.encode()
-    farthest, angle = kept(encoder, data)
-    assert farthest <= contract.farthest * (1 + 1e-9)
-    assert angle <= contract.angle + 1e-9
-    assert looks(encoder, data) <= contract.look
+    header = assert_kept(mesh, replace(PRESETS[preset], quick=True)).draft().header
+    assert header.grid and header.light
 
 
 @pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])

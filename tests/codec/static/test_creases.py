@@ -72,8 +72,3 @@ def test_levels_keep_creases(monkeypatch):
         errors.append(np.sqrt(np.square(error).mean()))
     assert broken[1] < 0.5 * broken[0]
     assert errors[1] < 1.5 * errors[0]
-
-
-def test_a_mesh_without_faces_has_none():
-    creases = creases_of(np.zeros((3, 3)), np.empty((0, 3), np.int32))
-    assert len(creases.pairs) == len(creases.members) == 0
