@@ -1,13 +1,17 @@
 """The same positions to the last bit, whatever compiler made the decoder and for whatever processor, or no decoder."""
 
+import importlib.util
+import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from tests.engine.decoding import build, compiled, decode, of_sequence
 from tools.amalgamate import ROOT
+from tools.release.windows import build_dll, compare, find_wine
 from tools.vectors.store import read_manifest
 
 AVX2 = ("avx2", "fma")
@@ -85,3 +89,26 @@ def test_the_arithmetic_of_the_host_changes_nothing(tmp_path: Path) -> None:
     )
     assert len(usual.splitlines()) == len(vectors)
     assert unusual == usual
+
+
+CRATE = Path(__file__).parents[2] / "engine/rust"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("cargo") is None, reason="no Rust here")
+def test_the_crate_passes_its_tests(tmp_path: Path) -> None:
+    own = {"CARGO_TARGET_DIR": str(tmp_path), "PYTHON": sys.executable, "CFLAGS": "-O1 -DKERNEL_ONE_TARGET"}
+    command = ["cargo", "test", "--offline", "--quiet", "--locked"]
+    done = subprocess.run(command, cwd=CRATE, env=os.environ | own, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.slow
+def test_the_dll_gives_the_same_bits(tmp_path: Path) -> None:
+    wine = find_wine()
+    if wine is None or importlib.util.find_spec("ziglang") is None or shutil.which("cc") is None:
+        pytest.skip("no Wine, Zig or C compiler here")
+    subprocess.run([sys.executable, "-m", "tools.amalgamate", tmp_path], cwd=ROOT, check=True)
+    (tmp_path / "inside").mkdir()
+    build_dll(tmp_path, tmp_path / "inside/bsmdec.dll")
+    compare(tmp_path, tmp_path / "inside", ROOT, wine)

@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.decoding import decode, of_sequence
+import bsm
+from tests.bitstream.streams import encoded, frame_ends
+from tests.engine.decoding import decode, of_sequence, released
+from tests.engine.mutants import compare
 from tools.vectors.store import Vector, read_manifest
 
 STATUS = {"format": 3, "corrupt": 4, "unsupported": 5, "limit": 6, "numeric": 7, "truncated": 12}
@@ -23,3 +26,24 @@ def test_vector(library: ctypes.CDLL, vector: Vector) -> None:
         arrays = of_sequence(found) if "-sequence" in vector.name else dict(found.arrays)
         complaint = vector.complaint(arrays.pop("positions"), arrays.pop("faces"), arrays)
         assert complaint is None, complaint
+
+
+def test_the_decoder_of_1_0_and_todays_agree_on_mutants() -> None:
+    tally, found = compare(released(), 150, "test", tolerant=True)
+    # Release 1.0 compares rows of attributes with the mesh before it decodes the section; the first error counts.
+    assert not [text for text in found if "values where" not in text]
+    assert tally["status 4"] > 50
+    assert tally["status 0"] > 0
+
+
+def test_a_length_that_cannot_be_is_over_a_limit_and_to_those_who_tolerate_damage_damage() -> None:
+    stream = encoded("bare")
+    header = frame_ends(stream)[1]
+    broken = stream[:header] + b"\xff\xff\xff\xff\x7f" + stream[header:]
+    for tolerant, error in ((False, bsm.LimitError), (True, bsm.CorruptError)):
+        with bsm.Decoder(tolerant=tolerant) as decoder:
+            decoder.receive_data(broken)
+            decoder.receive_eof()
+            with pytest.raises(error, match="frame_bytes"):
+                while decoder.next_event() is not bsm.END_OF_STREAM:
+                    pass

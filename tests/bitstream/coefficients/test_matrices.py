@@ -7,6 +7,7 @@ from hypothesis.extra.numpy import array_shapes, arrays
 from bsm import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.coefficients.adaptive import points_of_levels
 from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, make_level_bank, price_levels
+from bsm.bitstream.coefficients.packed import compress, pack_coefficients
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, write_gop_body
 from tools.payloads import decode_levels
 
@@ -112,3 +113,15 @@ def test_places_that_are_not_coded_cost_nothing():
     prices = price_levels(make_level_bank(), matrix, empty(columns), (2, 3))
     assert not prices[~stairs, :, 0].any()
     assert (prices[~stairs, :, 1:] > prices[stairs].max()).all()
+
+
+def test_packed_known_bytes():
+    # 101 011 110 000, then zeros to the byte
+    assert pack_coefficients(np.array([5, 3, 6, 0]), 3).hex() == "af00"
+
+
+def test_packing_refuses_what_does_not_fit():
+    assert len(compress(bytes(1000))) < 20 and compress(b"abc") == b"abc"
+    for values, bits in [([8], 3), ([-1], 3), ([0.5], 3), ([0], 0), ([0], 33)]:
+        with pytest.raises(OptionError):
+            pack_coefficients(np.array(values), bits)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, learn_basis
+from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, columns_of, free_of, learn_basis
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
 
@@ -44,3 +45,62 @@ def test_few_vertices_over_many_frames_have_the_same_components_as_the_rest_of_t
     few, many = (learn_basis(rows, STEP, 1000) for rows in (motion, np.vstack([motion, np.zeros((ROWS, COLUMNS))])))
     assert few.exponents.tolist() == many.exponents.tolist() and few.columns.shape == (COLUMNS, 4)
     np.testing.assert_allclose(np.abs(few.columns.T @ many.columns), np.eye(4), atol=1e-12)
+
+
+def right_angled(rows, columns):
+    basis, _ = np.linalg.qr(np.random.default_rng(rows).normal(size=(rows, columns)))
+    return basis
+
+
+def one_by_one(free):
+    """`columns_of` as the specification has it."""
+    columns = free.copy()
+    for k in reversed(range(free.shape[1])):
+        vector = free[:, k].copy()
+        if length := np.linalg.norm(vector):
+            vector[k] += -length if vector[k] < 0.0 else length
+            columns[:, k + 1 :] -= np.outer(vector, 2.0 * (vector @ columns[:, k + 1 :]) / (vector @ vector))
+    return columns
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(60, 13), (24, 24), (3, 1), (6, 0)])
+def test_columns_return_from_what_is_free_in_them(rows, columns):
+    basis = right_angled(rows, columns)
+    free = free_of(basis)
+    assert np.array_equal(free, np.tril(free))
+    assert (np.diagonal(free) >= 0.0).all()
+    found = columns_of(free)
+    np.testing.assert_allclose(found * np.sign((found * basis).sum(axis=0)), basis, atol=1e-13)
+
+
+def test_columns_that_are_not_orthogonal_span_the_same():
+    basis = right_angled(40, 9) * np.linspace(0.7, 1.5, 40)[:, None]
+    found = columns_of(free_of(basis))
+    products = found.T @ found
+    np.testing.assert_allclose(products, np.diag(np.diagonal(products)), atol=1e-13)
+    span = found / np.linalg.norm(found, axis=0)
+    np.testing.assert_allclose(span @ (span.T @ basis), basis, atol=1e-13)
+
+
+def test_columns_are_what_reflections_make_of_them():
+    free = np.tril(np.random.default_rng(1).normal(size=(120, 70)))
+    free[:, 3] = 0.0
+    free[40:, 40], free[40, 40] = 0.0, -2.0
+    np.testing.assert_allclose(columns_of(free), one_by_one(free), atol=1e-11)
+
+
+def test_rounding_leaves_columns_orthogonal_and_near():
+    free = free_of(right_angled(300, 40))
+    rounded = np.tril(np.round(free / 0.02) * 0.02)
+    found = columns_of(rounded)
+    products = found.T @ found
+    np.testing.assert_allclose(products, np.diag(np.diagonal(products)), atol=1e-11)
+    assert np.linalg.norm(found - columns_of(free)) < 2.0 * np.linalg.norm(rounded - free)
+
+
+@pytest.mark.parametrize("least", [-1e-20, -0.0, 0.0, 1e-20])
+def test_what_rounding_leaves_of_a_diagonal_turns_no_column(least):
+    basis = np.array([[least, 0.6], [1.0, 0.3], [0.0, 0.8], [0.0, 0.0]])
+    found = columns_of(free_of(basis))
+    found /= np.linalg.norm(found, axis=0)
+    np.testing.assert_allclose(found @ (found.T @ basis), basis, atol=1e-8)

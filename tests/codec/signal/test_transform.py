@@ -1,8 +1,14 @@
+from __future__ import annotations
+
 import numpy as np
 import pytest
 
-from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.signal.transform import placed, project, reconstruct
+from bsm.codec.basis.laplacian import factorize, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import first_columns, hash_columns, orthogonal_iteration
+from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.transform import MeasuredSpectrum, placed, project, reconstruct
+from tests.shapes import patch
 
 
 def basis(rows, columns):
@@ -29,3 +35,46 @@ def test_later_columns_change_no_bit():
 def test_a_block_of_another_shape_is_not_placed(rows, levels):
     with pytest.raises(ValueError, match="fit together"):
         placed(np.zeros((rows, 3)), basis(50, 9), np.zeros((levels, 3), np.int32), 0.25)
+
+
+SHIFT = 2.0**-5
+
+
+def blocks_of(side: int, parts: int) -> Blocks:
+    mesh = patch(side, side)
+    graph = graph_of_faces(mesh.faces, side * side)
+    return grow_blocks(graph, derive_partition(graph, parts), side * side // parts + 40)
+
+
+def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
+    """Positions of a single block whose first `count` coefficients in x, y and z are all `amplitude`, and no others."""
+    block = blocks.block(0)
+    start = first_columns(block.size, count, noisy=False)
+    subspace = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=1, iterations=1)
+    positions = np.zeros((block.size, 3))
+    positions[block.vertices] = amplitude * subspace.sum(axis=1)[:, None]
+    return positions
+
+
+@pytest.mark.parametrize("count", [9, 40, 200])
+def test_each_frequency_is_worth_a_coefficient(count: int) -> None:
+    blocks = blocks_of(22, 1)
+    spectrum = MeasuredSpectrum(blocks, waves(blocks, count, 0.01), shift=SHIFT)
+    blur = 2 + (count + 4) // 8  # frequencies are averaged with an eighth of them around
+    assert abs(spectrum.worthwhile_size(0.005) - count) <= blur
+    assert spectrum.worthwhile_size(0.1) == 1
+
+
+def test_a_point_is_worth_one_coefficient() -> None:
+    blocks = blocks_of(22, 1)
+    assert MeasuredSpectrum(blocks, np.zeros((484, 3)), shift=SHIFT).worthwhile_size(1e-9) == 1
+
+
+def test_noise_is_worth_them_all_and_a_finer_step_no_fewer() -> None:
+    blocks = blocks_of(24, 3)
+    positions = np.random.default_rng(1).normal(size=(576, 3))
+    spectrum = MeasuredSpectrum(blocks, positions, shift=SHIFT)
+    largest = int(np.diff(blocks.starts).max())
+    assert spectrum.worthwhile_size(0.01) == largest
+    sizes = [spectrum.worthwhile_size(step) for step in (3.0, 1.0, 0.3, 0.1)]
+    assert sizes == sorted(sizes)
