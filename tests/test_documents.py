@@ -25,6 +25,7 @@ from tests.bsm.test_libraries import painted
 from tests.plugins import declare_entry_points
 from tools.docs_pages import exit_codes
 from tools.noise import gaussian_along_normals
+from tools.pictures import PICTURES
 
 ROOT = Path(__file__).parents[1]
 PAGES = tuple(
@@ -279,6 +280,17 @@ def test_docstrings_of_public_arrays_name_shapes():
 
 def test_the_table_of_exit_codes_is_that_of_the_program():
     assert exit_codes() in (ROOT / "docs" / "troubleshooting.md").read_text()
+
+
+def test_one_script_makes_all_pictures():
+    kept = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
+    links = {
+        str((ROOT / page).parent.joinpath(link).resolve().relative_to(ROOT.resolve()))
+        for page in kept
+        if page.endswith(".md")
+        for link in re.findall(r"!\[[^\]]*\]\((?!https?:)([^)]+)\)", (ROOT / page).read_text("utf-8"))
+    }
+    assert links == {*PICTURES} == {name for name in kept if re.search(r"\.(png|jpe?g|gif|webp|svg|avif)$", name)}
 
 
 def test_the_first_picture_says_what_the_table_says():

@@ -1,9 +1,9 @@
-"""The pictures of README, gallery and guides, made by the present commit.
+"""Make all pictures of the documents: README, gallery and guides.
 
     python -m tools.pictures FOLDER
 
-FOLDER has static/, noisy/, dynamic/ and assets/. The pictures of `bsm view` and of streaming need Node, the packages of
-web/ and Chromium. Blender makes docs/guides/gallop.jpg.
+FOLDER has static/, noisy/, dynamic/ and assets/. Most pictures are views of the page of `bsm view`, which need Node,
+the packages of web/ and Chromium.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -24,14 +25,31 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.pictures import Image, bounds_of, render, view_matrix, with_titles
+from bsm.viewer.contents import Content, made
+from bsm.viewer.page import page_with
 from tools.command import run_command
 
-TOOLS = Path(__file__).parent
-ROOT = TOOLS.parent
-GUIDES = ROOT / "docs" / "guides"
-FRONT = view_matrix(-90.0, 15.0)
+ROOT = Path(__file__).parents[1]
+FRONT, MOTION, STREAMING = "tools/front.png", "docs/gallery/motion.webp", "docs/guides/streaming.png"
+SCANS, ASSETS = "docs/gallery/scans.jpg", "docs/guides/assets.jpg"
+PAGES = ("docs/guides/page-scan.jpg", "docs/guides/page-errors.jpg", "docs/guides/page-phone.jpg")
+PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, *PAGES)
+"""All pictures of the documents."""
+SCANNED = {
+    "static/armadillo_20002_derived.ply": 20,
+    "static/dragon_22998.ply": 0,
+    "static/c3d_spot.ply": 15,
+    "assets/ADIS16480.STL": 0,
+}
+"""Meshes of the gallery, and how often the right arrow turns each to its front."""
+DRESSED = {"assets/Duck.glb": 0, "assets/BoxTextured.glb": 0, "assets/monkey.glb": 0}
+VIEW = view_matrix(-90.0, 15.0)
+UPRIGHT = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)
 PIXELS = 480
-FRAMES = 24
+SIDE = 320  # of a mesh in a table of pictures
+LINE = 26  # of a title there
+FRAMES, MILLISECONDS = 35, 90  # of the motion, each
+KEY_BITS = 9  # of Draco's frames
 
 
 def main(args: argparse.Namespace, console: Console) -> None:
@@ -39,33 +57,74 @@ def main(args: argparse.Namespace, console: Console) -> None:
     folder = Path(args.folder)
     pictures, figures = scan(folder / "static" / "bunny_34834.ply")
     titles, images = zip(*pictures, *part(folder), strict=True)
-    (TOOLS / "front.png").write_bytes(with_titles(images, titles, figures=figures))
-    text = _save_motion(folder / "dynamic" / "samba.npz", TOOLS / "motion.gif")
-    console.note(text)
+    (ROOT / FRONT).write_bytes(with_titles(images, titles, figures=figures))
+    console.note(motion(folder / "dynamic" / "samba.npz", ROOT / MOTION))
     with tempfile.TemporaryDirectory() as work:
-        pages(folder, GUIDES, Path(work))
+        pages(folder, ROOT / "docs" / "guides", Path(work))
+        tables(folder, Path(work))
         stream = Path(work) / "bunny.bsm"
         stream.write_bytes(bsm.encode(folder / "static" / "bunny_34834.ply"))
-        picture = ["npm", "run", "picture", "--", str(stream), str(GUIDES / "streaming.png")]
+        picture = ["npm", "run", "picture", "--", str(stream), str(ROOT / STREAMING)]
         subprocess.run(picture, cwd=ROOT / "web", env=os.environ | {"PYTHON": sys.executable}, check=True)
 
 
 def pages(folder: Path, target: Path, work: Path) -> list[Path]:
     """Take pictures of the page of `bsm view` with a scan, its errors, and a textured asset on a phone."""
-    scan, asset = work / "scan.html", work / "asset.html"
-    for mesh, page in (("static/bunny_34834.ply", scan), ("assets/Duck.glb", asset)):
-        command = [sys.executable, "-m", "bsm", "view", str(folder / mesh), "--save", str(page), "-q", "-f"]
-        subprocess.run(command, check=True)
-    shots = [
-        {"page": scan, "picture": "page-scan.jpg", "layers": 3, "keys": "", "dark": False, "size": [1280, 800]},
-        {"page": scan, "picture": "page-errors.jpg", "layers": 3, "keys": "e3", "dark": True, "size": [1280, 800]},
-        {"page": asset, "picture": "page-phone.jpg", "layers": 2, "keys": "", "dark": False, "size": [390, 780]},
-    ]
-    for shot in shots:
-        shot |= {"page": str(shot["page"]), "picture": str(target / str(shot["picture"]))}
+    scan, asset = (_saved(folder / mesh, work)[0] for mesh in ("static/bunny_34834.ply", "assets/Duck.glb"))
+    scan_names = [target / Path(name).name for name in PAGES]
+    _shoot(
+        _shot(scan, scan_names[0], 3, size=(1280, 800)),
+        _shot(scan, scan_names[1], 3, "e3", size=(1280, 800), dark=True),
+        _shot(asset, scan_names[2], 2, size=(390, 780)),
+    )
+    return scan_names
+
+
+def tables(folder: Path, work: Path) -> None:
+    """Draw tables of originals and decoded meshes, each as the page draws it, under their sizes."""
+    from PIL import Image as Pictures
+    from PIL import ImageDraw, ImageFont
+
+    for target, names in ((SCANS, SCANNED), (ASSETS, DRESSED)):
+        saved = [_saved(folder / name, work) for name in names]
+        rows = [[work / f"{row}-{column}.jpg" for column in range(len(c.layers))] for row, (_, c) in enumerate(saved)]
+        shots = [
+            _shot(page, picture, len(row), str(number + 1), size=(SIDE, SIDE), turns=turns)
+            for (page, _), row, turns in zip(saved, rows, names.values(), strict=True)
+            for number, picture in enumerate(row)
+        ]
+        _shoot(*shots)
+        wide, high = max(map(len, rows)), len(rows)
+        # Scans are rows, with Draco at the end; assets are columns.
+        across = target == SCANS
+        sheet = Pictures.new(
+            "RGB", tuple(np.multiply((SIDE, SIDE + LINE), (wide, high) if across else (high, wide))), "white"
+        )
+        pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(15)
+        for i, (row, (_, content)) in enumerate(zip(rows, saved, strict=True)):
+            for j, (picture, layer) in enumerate(zip(row, content.layers, strict=True)):
+                x, y = np.multiply((j, i) if across else (i, j), (SIDE, SIDE + LINE))
+                title = f"{content.name if j == 0 else layer.title}: {layer.size / 1000:,.{int(layer.size < 1e5)}f} kB"
+                sheet.paste(Pictures.open(picture), (int(x), int(y) + LINE))
+                pen.text((x + SIDE / 2, y + LINE / 2), title, fill="black", font=font, anchor="mm")
+        sheet.save(ROOT / target, quality=85, optimize=True)
+
+
+def _saved(mesh: Path, work: Path) -> tuple[Path, Content]:
+    """Save the page of a mesh; return it with what it shows."""
+    content = made(mesh.name, mesh.stat().st_size, bsm.load(mesh), "balanced", lambda stage, share: None)
+    page = work / f"{mesh.stem}.html"
+    page.write_text(page_with([content]), encoding="utf-8")
+    return page, content
+
+
+def _shot(page: Path, picture: Path, layers: int, keys: str = "", **more: Any) -> dict[str, Any]:
+    return {"page": str(page), "picture": str(picture), "layers": layers, "keys": keys, **more}
+
+
+def _shoot(*shots: dict[str, Any]) -> None:
     environment = os.environ | {"BSM_PAGES": json.dumps(shots)}
     subprocess.run(["node", "scripts/test.mjs", "pages"], cwd=ROOT / "web", env=environment, check=True)
-    return [Path(str(shot["picture"])) for shot in shots]
 
 
 def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
@@ -74,12 +133,11 @@ def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
     mesh = bsm.load(path)
     data = bsm.encode(mesh)
     theirs = max((encode_draco(mesh, bits, 10) for bits in range(4, 15)), key=lambda file: _fits(file, len(data)))
-    upright = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)
-    bounds = bounds_of(mesh.positions @ upright.T, FRONT)
+    bounds = bounds_of(mesh.positions @ UPRIGHT.T, VIEW)
     figures = {"file": f"{path.stat().st_size / 1000:,.0f} kB", "balanced": f"{len(data) / 1000:.1f} kB"}
     rows = ((f"scan: {figures['file']}", mesh), (f"BSM, default: {figures['balanced']}", bsm.decode(data)))
     last = (f"Draco at that size: {len(theirs) / 1000:.1f} kB", decode_draco(theirs))
-    return [(name, _drawn(f.positions @ upright.T, f.faces, bounds)) for name, f in (*rows, last)], figures
+    return [(name, _drawn(f.positions, f.faces, bounds)) for name, f in (*rows, last)], figures
 
 
 def _fits(file: bytes, size: int) -> int:
@@ -95,23 +153,40 @@ def part(folder: Path) -> list[tuple[str, Image]]:
     return [(name, render(mesh.positions, mesh.faces, PIXELS, bounds=bounds)) for name, mesh in pairs]
 
 
-def _drawn(positions: Positions, faces: Faces, bounds: tuple[Image, float]) -> Image:
-    return render(positions, faces, PIXELS, view=FRONT, bounds=bounds)
+def _drawn(positions: Positions, faces: Faces, bounds: tuple[Image, float], pixels: int = PIXELS) -> Image:
+    return render(positions @ UPRIGHT.T, faces, pixels, view=VIEW, bounds=bounds)
 
 
-def _save_motion(path: Path, target: Path) -> str:
+def motion(path: Path, target: Path) -> str:
+    """Film a decoded sequence next to the frames that Draco keeps in as many bytes, each shown until the next one."""
     from PIL import Image as Pictures
+    from PIL import ImageDraw, ImageFont
 
-    frames = np.load(path)
-    data = bsm.encode_sequence(frames["positions"], frames["faces"])
+    with np.load(path) as arrays:
+        frames, given = arrays["positions"], arrays["faces"]
+    data = bsm.encode_sequence(frames, given)
     positions, faces = bsm.decode_sequence(data)
-    chosen = positions[:: max(1, len(positions) // FRAMES)][:FRAMES]
-    upright = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)
-    bounds = bounds_of(chosen.reshape(-1, 3) @ upright.T, FRONT)
-    drawn = [render(frame @ upright.T, faces, 280, view=FRONT, bounds=bounds) for frame in chosen]
-    images = [Pictures.fromarray(np.uint8(255 * image)).quantize(32) for image in drawn]
-    images[0].save(target, save_all=True, append_images=images[1:], duration=80, loop=0, optimize=True)
-    return f"{path.stem}: {frames['positions'].nbytes} bytes as float32, {len(data)} as a stream"
+    size = len(encode_draco(TriangleMesh(frames[0], given), KEY_BITS, 10))
+    keys = np.linspace(0, len(frames), max(1, len(data) // size), endpoint=False).astype(int)
+    theirs = [encode_draco(TriangleMesh(frames[key], given), KEY_BITS, 10) for key in keys]
+    shown = [decode_draco(file) for file in theirs]
+    chosen = range(0, len(frames), max(1, len(frames) // FRAMES))
+    bounds = bounds_of(frames[list(chosen)].reshape(-1, 3) @ UPRIGHT.T, VIEW)
+    titles = (
+        f"BSM, {len(frames)} frames: {len(data) / 1000:.1f} kB",
+        f"Draco, {len(keys)} frames: {sum(map(len, theirs)) / 1000:.1f} kB",
+    )
+    font, images = ImageFont.load_default(15), []
+    for index in chosen:
+        key = shown[int(np.searchsorted(keys, index, side="right")) - 1]
+        sides = [_drawn(positions[index], faces, bounds, SIDE), _drawn(key.positions, key.faces, bounds, SIDE)]
+        sheet = Pictures.new("RGB", (2 * SIDE, SIDE + LINE), "white")
+        for number, (side, title) in enumerate(zip(sides, titles, strict=True)):
+            sheet.paste(Pictures.fromarray(np.uint8(255 * side)), (number * SIDE, LINE))
+            ImageDraw.Draw(sheet).text(((number + 0.5) * SIDE, LINE / 2), title, fill="black", font=font, anchor="mm")
+        images.append(sheet)
+    images[0].save(target, save_all=True, append_images=images[1:], duration=MILLISECONDS, loop=0, quality=60, method=6)
+    return f"{path.stem}: {frames.nbytes} bytes as float32, {len(data)} as a stream"
 
 
 def _parser() -> argparse.ArgumentParser:
