@@ -74,24 +74,6 @@ def test_every_kind_of_file(stream, decoded, tmp_path):
         assert same(bsm.decode(raw), decoded)
 
 
-def test_a_file_that_cannot_seek(stream, decoded):
-    class Trickle(io.RawIOBase):
-        """Gives a few bytes at a time, as a connection does."""
-
-        def __init__(self, data):
-            self.rest = data
-
-        def readable(self):
-            return True
-
-        def read(self, size=-1):
-            piece, self.rest = self.rest[:7], self.rest[7:]
-            return piece
-
-    assert same(bsm.decode(Trickle(stream)), decoded)
-    assert same(bsm.load(Trickle(stream)), decoded)
-
-
 def test_sequences():
     positions, faces = bending(5)
     data = bsm.encode_sequence(positions, faces, step=0.001, keep_order=True, threads=1)

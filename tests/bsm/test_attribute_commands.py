@@ -80,13 +80,6 @@ def test_the_shape_alone_brings_no_images():
     assert some.metadata["image.0.data"] == png()
 
 
-def test_materials_that_are_left_out_are_named(tmp_path, capsys):
-    bsm.save(painted(), tmp_path / "a.npz")
-    words = ("encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "-f", *GRID)
-    assert "left out: materials, images" in notes(capsys, *words, "--attribute", "*=none")
-    assert "left out: materials, images" not in notes(capsys, *words)
-
-
 @pytest.mark.parametrize("text", ["name", "=x", ""])
 def test_metadata_that_say_nothing(tmp_path, text, capsys):
     write_mesh(tmp_path / "a.ply", tetrahedron())

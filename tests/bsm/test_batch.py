@@ -103,12 +103,6 @@ def test_info_of_many(streams, capsys):
     ]
 
 
-def test_denoise_many(meshes, tmp_path):
-    inputs = [str(meshes / "a.npz"), str(meshes / "b.npz")]
-    assert main(["denoise", "-q", *inputs, "-o", str(tmp_path)]) == 0
-    assert names(tmp_path) == ["a.npz", "b.npz"]
-
-
 # ---------------------------------------------------------------------------------------------------- what is refused
 
 

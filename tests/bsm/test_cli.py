@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import TriangleMesh
 from bsm.cli import COMMANDS, main
 from bsm.commands.flags import ENCODE_FLAGS, SETTINGS
 from bsm.evaluation.sample import knot
@@ -293,12 +292,3 @@ def test_the_flags_are_fields_and_show_their_defaults():
             assert not default or "yes" in shown
         elif default is not None:
             assert f"{default}" in shown, flag.field
-
-
-def test_an_unwelded_file_compares_with_its_stream(tmp_path, capsys):
-    corners = torus().positions[torus().faces].reshape(-1, 3)
-    write_mesh(tmp_path / "soup.ply", TriangleMesh(corners, np.arange(len(corners)).reshape(-1, 3)))
-    words = [str(tmp_path / "soup.ply"), str(tmp_path / "soup.bsm")]
-    assert main(["encode", words[0], "-q"]) == 0
-    assert main(["compare", *words, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["max_error_relative"] <= 0.01

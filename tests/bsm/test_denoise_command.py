@@ -5,14 +5,13 @@ import os
 import shutil
 import subprocess
 import sys
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from bsm import Attribute, DenoiseOptions, MeshError, TriangleMesh, api
+from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
 from bsm.codec.denoise.frames import GROUP, OVERLAP, WINDOW
 from bsm.codec.geometry.metrics import mnd, theta
@@ -84,13 +83,6 @@ def test_a_mesh_that_stays_as_it_was_is_copied_with_what_it_names(tmp_path):
     (tmp_path / "red.mtl").unlink()
     assert "left out: red.mtl" in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "b.obj").stderr
     assert "copied" not in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "c.off").stderr
-
-
-def test_normals_stay_where_nothing_moves(tmp_path):
-    normals = Attribute("normal", np.tile([0.0, 0.0, 1.0], (len(CLEAN.positions), 1)), semantic="normal")
-    write_mesh(tmp_path / "clean.npz", replace(CLEAN, attributes=(normals,)))
-    assert bsm("denoise", tmp_path / "clean.npz", "-o", tmp_path / "clean.ply").returncode == 0
-    assert [attribute.name for attribute in read_mesh(tmp_path / "clean.ply").mesh.attributes] == ["normal"]
 
 
 def test_harm_has_an_exit_code_of_its_own_and_writes_nothing_unless_forced(tmp_path):

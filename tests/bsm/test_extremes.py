@@ -1,6 +1,5 @@
 """Sizes that no mesh has end in a sentence, and never in warnings of numpy."""
 
-import json
 import warnings
 
 import numpy as np
@@ -10,7 +9,6 @@ import bsm
 from bsm import Attribute, MeshError, TriangleMesh
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.cli import main as program
-from bsm.files.mesh import read_mesh
 from tools.vectors.meshes import torus
 
 
@@ -30,28 +28,6 @@ def test_large_and_small_meshes_come_back(scale):
         warnings.simplefilter("error")
         decoded = bsm.decode(bsm.encode((mesh.positions * scale, mesh.faces), preset="near-lossless"))
     assert np.abs(decoded.positions).max() == pytest.approx(scale * np.abs(mesh.positions).max(), rel=0.01)
-
-
-def test_an_image_that_is_missing_is_named(tmp_path):
-    pytest.importorskip("trimesh")
-    points = np.eye(3, dtype="<f4").tobytes()
-    (tmp_path / "points.bin").write_bytes(points)
-    tree = {
-        "asset": {"version": "2.0"},
-        "buffers": [{"uri": "points.bin", "byteLength": 36}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "nodes": [{"mesh": 0}],
-        "scenes": [{"nodes": [0]}],
-        "scene": 0,
-        "images": [{"uri": "lost.png"}, {"uri": "../secret.png"}],
-        "textures": [{"source": 0}],
-    }
-    (tmp_path / "mesh.gltf").write_text(json.dumps(tree))
-    notes = " ".join(read_mesh(tmp_path / "mesh.gltf").notes)
-    assert "the image lost.png was left out: there is no such file beside the mesh" in notes
-    assert "the image ../secret.png was left out: it is not in the folder" in notes
 
 
 def test_too_many_attributes_are_refused_before_any_is_coded():

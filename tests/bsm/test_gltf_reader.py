@@ -256,13 +256,17 @@ def test_primitives_that_share_vertices_take_those_that_they_use():
     np.testing.assert_array_equal(mesh.positions[mesh.faces], POINTS[CORNERS.reshape(2, 3)])
 
 
-def test_images_at_addresses_are_named(tmp_path):
+def test_images_that_are_elsewhere_are_named(tmp_path):
     built = one({"TEXCOORD_0": (POINTS[:, :2].copy(),)}, material=0)
-    built.tree |= {"images": [{"uri": "https://example.org/a.png"}], "textures": [{"source": 0}]}
+    names = ("https://example.org/a.png", "lost.png", "../secret.png")
+    built.tree |= {"images": [{"uri": name} for name in names], "textures": [{"source": 0}]}
     built.tree["materials"] = [{"name": "m", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
     (tmp_path / "a.glb").write_bytes(built.bytes)
     found = read_mesh(tmp_path / "a.glb")
     assert "the image https://example.org/a.png was left out: it lies at an address" in found.notes
+    notes = " ".join(found.notes)
+    assert "the image lost.png was left out: there is no such file beside the mesh" in notes
+    assert "the image ../secret.png was left out: it is not in the folder" in notes
     assert found.mesh.metadata["material.0.name"] == "m" and "material.0.baseColorTexture" not in found.mesh.metadata
 
 

@@ -143,14 +143,6 @@ def test_parts_without_a_material_get_none(trimesh, tmp_path):
     assert len(whole.material.materials) == 2 and np.bincount(whole.face_materials)[1] == 2 * len(second.faces)
 
 
-def test_texture_coordinates_alone_invent_no_material(trimesh, tmp_path):
-    mesh = painted()
-    bsm.save(TriangleMesh(mesh.positions, mesh.faces, (attribute(mesh, "texcoord"),)), tmp_path / "a.glb")
-    found = bsm.load(tmp_path / "a.glb")
-    assert attribute(found, "texcoord").components == 2
-    assert not [name for name in found.metadata if name.startswith(("material.", "image."))]
-
-
 def test_hostile_images_and_materials(trimesh):
     mesh = painted(**{"image.0.data": b"\x89PNG\r\n\x1a\n" + bytes(20), "material.0.Kd": "a b c", "material.5.d": "x"})
     loaded = bsm.trimesh.to_trimesh(mesh)
@@ -259,6 +251,8 @@ def test_meshio_data():
     ours = as_mesh(theirs)
     assert attribute(ours, "height").values[:, 0].tolist() == [1, 2, 3, 4]
     assert attribute(ours, "kind").values[:, 0].tolist() == [3, 2, 2]
+    with pytest.raises(bsm.MeshError, match="tetra"):
+        as_mesh(meshio.Mesh(SQUARE, [("tetra", [[0, 1, 2, 3]])]))
 
 
 @pytest.mark.parametrize("library", ["trimesh", "pyvista"])

@@ -43,14 +43,6 @@ def test_trimesh():
     assert volumes == pytest.approx([sphere.volume, sphere.volume, 8 * sphere.volume]), "mirrored, yet not inside out"
 
 
-def test_meshio():
-    meshio = pytest.importorskip("meshio")
-    cells = [("triangle", [[0, 1, 2]]), ("line", [[0, 1]]), ("quad", [[0, 1, 2, 3]])]
-    assert as_mesh(meshio.Mesh(SQUARE, cells)).faces.tolist() == [[0, 1, 2], [0, 1, 2], [0, 2, 3]]
-    with pytest.raises(MeshError, match="tetra"):
-        as_mesh(meshio.Mesh(SQUARE, [("tetra", [[0, 1, 2, 3]])]))
-
-
 @pytest.mark.parametrize("points", ["vertices", "points", "positions"])
 @pytest.mark.parametrize("faces", ["faces", "triangles"])
 def test_any_object_with_points_and_faces(points, faces):
@@ -63,11 +55,6 @@ def test_pairs_of_arrays():
     mesh = tetrahedron()
     for pair in ((mesh.positions, mesh.faces), [mesh.positions.tolist(), mesh.faces.astype(np.uint64)]):
         assert same(as_mesh(pair), mesh)
-
-
-def test_polygons_are_cut():
-    assert as_mesh((SQUARE, [[0, 1, 2, 3]])).faces.tolist() == [[0, 1, 2], [0, 2, 3]]
-    assert as_mesh((SQUARE, [[0, 1, 2, 3], [2, 1, 0]])).faces.tolist() == [[0, 1, 2], [0, 2, 3], [2, 1, 0]]
 
 
 @settings(max_examples=50)

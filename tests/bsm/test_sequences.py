@@ -109,21 +109,6 @@ def test_folders_and_patterns_are_taken_in_the_order_of_numbers(tmp_path):
         assert np.abs(np.array(list(source.frames)) - positions).max() < 1e-6
 
 
-def test_the_first_frame_with_other_faces_is_named(tmp_path, capsys):
-    positions, faces = bending(4)
-    for folder, change in (("faces", faces[::-1]), ("count", faces[:-1])):
-        with sequence_writer(str(tmp_path / folder), "obj", faces, 4, overwrite=False) as write:
-            for frame in positions:
-                write(frame)
-        with sequence_writer(str(tmp_path / "other"), "obj", change, 4, overwrite=True) as write:
-            write(positions[2])
-        (tmp_path / "other" / "00000.obj").rename(tmp_path / folder / "00002.obj")
-        assert bsm("encode", tmp_path / folder, "-o", tmp_path / "x.bsm") != 0
-        with pytest.raises(MeshError, match=r"different meshes.*00002\.obj .frame 2. has other faces"):
-            list(open_sequence(str(tmp_path / folder)).frames)
-        assert not (tmp_path / "x.bsm").exists()
-
-
 def test_colors_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     positions, faces = bending(3)
     for name, domain, shades in (

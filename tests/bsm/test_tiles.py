@@ -158,16 +158,6 @@ def test_levels_meet_without_a_crack_and_are_as_near_as_they_say(mesh, folder):
     assert levels[0]["faces"] < 0.4 * len(mesh.faces)
 
 
-def test_one_tile_that_has_a_coarser_one_above_it(tmp_path):
-    mesh = torus(140, 120)
-    source = tmp_path / "mesh.npz"
-    bsm.save(mesh, source)
-    tile(source, tmp_path / "out", "--grid-cell", CELL)
-    tiles = bsm.open_tiles(str(tmp_path / "out"))
-    levels = [(level["tiles"], level["faces"]) for level in tiles.manifest["levels"]]
-    assert levels[-1] == (1, len(mesh.faces)) and levels[0][0] == 1 and levels[0][1] < len(mesh.faces) / 8
-
-
 def test_a_region_in_python(mesh, folder):
     tiles = bsm.open_tiles(folder)
     low, high = (-10.0, -10.0, -10.0), (10.0, 10.0, 10.0)
@@ -233,14 +223,6 @@ def test_textures_are_refused(mesh, tmp_path, suffix):
     write_mesh(tmp_path / f"a.{suffix}", TriangleMesh(mesh.positions, mesh.faces, [texture]))
     done = program("tile", tmp_path / f"a.{suffix}", "-o", tmp_path / "out", text=True)
     assert done.returncode == 5 and "has a texture" in done.stderr and done.stderr.count("\n") == 1
-
-
-def test_untile_of_one_level_of_any_size(folder, tmp_path):
-    for level, tiles in enumerate(levels := bsm.open_tiles(str(folder)).manifest["levels"]):
-        assert program("untile", folder, "-o", tmp_path / "a.ply", "-f", "--level", level).returncode == 0
-        assert len(bsm.load(tmp_path / "a.ply").faces) >= tiles["faces"]
-    done = program("untile", folder, "-o", tmp_path / "b.ply", "--level", len(levels), text=True)
-    assert done.returncode == 2 and f"levels 0 to {len(levels) - 1}" in done.stderr
 
 
 def test_a_tileset_says_where_tiles_are_and_how_far_off(mesh, folder, tmp_path):

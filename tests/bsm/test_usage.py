@@ -63,13 +63,6 @@ def test_help_of_a_command_is_that_of_its_flag(command, capsys):
     assert shown[0] == shown[1] and shown[0].startswith(f"usage: bsm {command}")
 
 
-def test_help_alone_is_that_of_the_program(capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["help"])
-    assert stop.value.code == 0
-    assert "COMMAND" in capsys.readouterr().out
-
-
 def test_targets_go_by_the_name_of_their_flag(tmp_path, capsys):
     write_mesh(tmp_path / "a.ply", torus(5, 5))
     assert main(["encode", str(tmp_path / "a.ply"), "--theta", "0"]) == 2
@@ -79,12 +72,6 @@ def test_targets_go_by_the_name_of_their_flag(tmp_path, capsys):
 def test_a_pipe_needs_a_format(capsys):
     assert main(["denoise", "-", "-o", "-"]) == 2
     assert "--format" in capsys.readouterr().err
-
-
-def test_commands_without_inputs_have_options_alone(capsys):
-    with pytest.raises(SystemExit):
-        main(["demo", "--help"])
-    assert capsys.readouterr().out.startswith("usage: bsm demo [options]\n")
 
 
 def test_no_words_are_wrong_usage(capsys):

@@ -160,12 +160,6 @@ def test_metadata_that_would_not_come_back_are_refused(metadata):
     assert [type(value) for value in mesh.metadata.values()] == [str, int, float, int]
 
 
-@pytest.mark.parametrize("faces", [[[[0, 1], [2]], [0, 1, 2, 3]], [[0, 1, 2], [10**400] * 4], [[0, 1, "a"]]])
-def test_faces_that_are_no_numbers(faces):
-    with pytest.raises(MeshError):
-        bsm.encode((arrays()[0], faces))
-
-
 def test_numbers_too_large_for_any_float():
     for call in (bsm.encode, lambda mesh: bsm.encode_sequence([mesh[0]], mesh[1])):
         with pytest.raises(MeshError, match="not an array of numbers"):

@@ -66,7 +66,7 @@ BROKEN: dict[str, tuple[Callable[[], bytes], type, Change]] = {
     "name": (
         painted,
         packets.Attribute,
-        lambda packet: replace(packet, declaration=replace(packet.declaration, name="color")),
+        lambda packet: replace(packet, declaration=replace(packet.declaration, name="shade")),
     ),
     "metadata": (painted, packets.Metadata, lambda packet: replace(packet, entries={"unit": "cm"})),
     "frames": (moving, packets.Gop, lambda packet: replace(packet, data=flipped(packet.data))),
@@ -109,12 +109,3 @@ def test_refinement_is_checked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Writer, "write", broken)
     with pytest.raises(bsm.VerificationError):
         refined()
-
-
-def test_a_command_writes_nothing_then(tmp_path, capsys, monkeypatch):
-    from bsm.cli import main
-
-    bsm.save(MESH, tmp_path / "mesh.ply")
-    monkeypatch.setattr(Writer, "end", lambda writer, positions=None: b"")
-    assert main(["encode", str(tmp_path / "mesh.ply"), "-o", str(tmp_path / "mesh.bsm")]) == 10
-    assert "refuses the encoded stream" in capsys.readouterr().err and not (tmp_path / "mesh.bsm").exists()

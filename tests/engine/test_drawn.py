@@ -215,14 +215,6 @@ def test_wrong_options_are_named(
         assert not found.vertex_data and not found.vertices and found.decoder
 
 
-def test_a_stride_holds_without_fields(decoder: ctypes.CDLL) -> None:
-    options, stream = Options(), (VECTORS / "good-attribute-uv-plain.bsm").read_bytes()
-    options.stride = 64
-    with drawn(decoder, stream) as packed, drawn(decoder, stream, options) as found:
-        assert (packed.stride, found.stride, found.vertex_bytes) == (20, 64, 64 * packed.vertices)
-        assert all(np.array_equal(found.vertex(k), packed.vertex(k)) for k in range(2))
-
-
 def test_what_all_leaves_out_is_no_misuse(decoder: ctypes.CDLL) -> None:
     stream, event, vertices = (VECTORS / "good-attribute-uv-plain.bsm").read_bytes(), Event(), c_int64()
     own = decoder.bsmdec_open(None)
@@ -331,13 +323,18 @@ def test_a_sequence_says_how_many_frames_come(decoder: ctypes.CDLL) -> None:
 
 
 def test_metadata_are_found_by_name(decoder: ctypes.CDLL) -> None:
-    entries = {"unit": "mm", "frame_rate": 25, "material.0.name": "wood", "image.0.data": b"\0\1"}
+    entries = {"unit": "mm", "frame_rate": 25, "material.0.name": "wood", "ratio": 0.5, "image.0.data": b"\0\1"}
     stream = bsm.encode(bsm.load(VECTORS / "good-tetrahedron.bsm"), metadata=entries)
     entry = Entry()
     with drawn(decoder, stream) as found:
         for name, value in entries.items():
             assert decoder.bsmdec_metadata_find(found.decoder, name.encode(), byref(entry)) == 0
             assert (entry.name.decode(), entry.value) == (name, value)
+        known = set()
+        for index in range(len(entries)):
+            assert decoder.bsmdec_metadata_at(found.decoder, index, byref(entry)) == 0
+            known.add(entry.name.decode())
+        assert known == set(entries)
         for name in (b"", b"uni", b"unit ", b"\xff"):
             assert decoder.bsmdec_metadata_find(found.decoder, name, byref(entry)) == MISUSED
         assert decoder.bsmdec_last_misuse(found.decoder) == b"no entry of metadata has this name"

@@ -56,23 +56,6 @@ def test_positions_are_known_as_far_as_they_have_come(library: ctypes.CDLL) -> N
     assert 0 < known[0] < known[-1] == len(bsm.decode(stream).positions)
 
 
-def test_what_authors_say_comes_back(library: ctypes.CDLL) -> None:
-    entries = {"bytes": b"\x00\x01", "float": 0.5, "int": -7, "text": "ä"}
-    stream = bsm.encode(bsm.load(VECTORS / "good-tetrahedron.bsm"), metadata=entries)
-    decoder, event, entry = library.bsmdec_open(None), Event(), Entry()
-    library.bsmdec_push(decoder, stream, len(stream))
-    library.bsmdec_finish(decoder)
-    while library.bsmdec_next(decoder, byref(event)) == 0 and event.type != END_OF_STREAM:
-        pass
-    found = {}
-    for index in range(len(entries)):
-        assert library.bsmdec_metadata_at(decoder, index, byref(entry)) == 0
-        found[entry.name.decode()] = entry.value
-    assert library.bsmdec_metadata_at(decoder, len(entries), byref(entry)) == MISUSED
-    library.bsmdec_close(decoder)
-    assert found == entries
-
-
 def test_calls_out_of_order_are_refused_and_touch_nothing(library: ctypes.CDLL) -> None:
     event, faces, entry, shape = Event(), np.full(3, 7, np.uint32), Entry(), Shape()
     decoder = library.bsmdec_open(None)
@@ -158,12 +141,6 @@ def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
 def test_positions_are_checked_from_whatever_start(library: ctypes.CDLL, name: str, start: int) -> None:
     found = decode(library, (VECTORS / f"bad-{name}.bsm").read_bytes(), start=start)
     assert "the checksum of decoded positions is wrong" in found.message
-
-
-@pytest.mark.parametrize("compiler", [("cc", "-xc", "-std=c99"), ("c++", "-xc++", "-std=c++11")])
-def test_the_header_and_default_options_give_no_warning(tmp_path: Path, compiler: tuple[str, ...]) -> None:
-    (tmp_path / "options.c").write_text('#include "bsmdec.h"\nbsmdec_options options = BSMDEC_OPTIONS;\n')
-    subprocess.run([*compiler, *WARNINGS, "-fsyntax-only", f"-I{compiled()}", "options.c"], check=True, cwd=tmp_path)
 
 
 def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from bsm.evaluation.curve import paper_options
 from bsm.files.mesh import write_mesh
 from tests.shapes import torus
 from tools.replicate import paper
@@ -45,9 +44,3 @@ def test_a_matrix_left_out_of_its_mean_is_farther_from_it():
     assert paper.smallest_on_diagonal(honest) < 4 and (np.diag(honest) > np.diag(printed)).all()
     off = ~np.eye(4, dtype=bool)
     assert (honest[off] == printed[off]).all()
-
-
-def test_every_block_has_its_error_and_coefficients():
-    rows = paper.block_errors(torus(), paper_options(block_size=150))
-    assert len(rows) > 1 and (rows[:, 0] > 0).all() and len({*rows[:, 1]}) == 1
-    assert paper.uneven(rows) > 0 == paper.uneven(np.ones((3, 2)))

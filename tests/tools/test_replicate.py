@@ -9,12 +9,11 @@ import pytest
 
 from bsm import TriangleMesh
 from bsm.files.mesh import write_mesh
-from bsm.options import encode_options
 from tests.shapes import torus
 from tools.replicate import ablation, denoising, fetch, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
-from tools.replicate.motion import bent, half_floats, sequences
+from tools.replicate.motion import bent, half_floats
 
 
 def flat(count=8):
@@ -91,10 +90,6 @@ class TestTables:
         found = rates.ratios(row(), "FLIP")
         assert found["default"] == pytest.approx(0.5) and found["fine"] == pytest.approx(0.5)
         assert found["BD-rate"] == pytest.approx(0.5, abs=0.01) and "quick" not in found
-
-    def test_the_worst_mesh_is_named(self):
-        line = rates.spread("default", "FLIP", [(0.4, "a"), (0.9, "b"), (0.5, "c"), (0.6, "d"), (0.7, "e")])
-        assert line == ("default", "FLIP", "5", "0.620", "0.500", "0.600", "0.700", "0.900", "b")
 
     def test_tables_and_figures_of_every_stage(self, tmp_path):
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
@@ -209,18 +204,6 @@ def test_a_mesh_that_fails_is_named_and_the_others_are_measured(tmp_path):
     assert "b failed: ValueError: no such mesh" in notes[0] and [p.name for p in tmp_path.iterdir()] == ["c.json"]
 
 
-def test_sequences_are_those_of_fetched_meshes_formulas_and_files(tmp_path):
-    mesh = torus(8, 8)
-    write_mesh(tmp_path / "cow.ply", mesh)
-    (tmp_path / "dynamic").mkdir()
-    np.savez(tmp_path / "dynamic" / "still.npz", positions=np.tile(mesh.positions, (3, 1, 1)), faces=mesh.faces)
-    cow = Source("cow", tmp_path / "cow.ply", "unseen", 64)
-    found = sequences([cow], tmp_path, quick=False)
-    assert [moving.name for moving in found] == ["cow, bent", "made cloth", "made violence", "still"]
-    assert found[0].frames()[0].shape == (32, 64, 3) and found[-1].frames()[0].shape == (3, 64, 3)
-    assert [moving.name for moving in sequences([cow], tmp_path, quick=True)] == ["cow, bent"]
-
-
 def test_what_ablation_replaces_is_there_and_comes_back():
     for tool in (*ablation.TOOLS.values(), *ablation.MOVING_TOOLS.values()):
         before = [getattr(owner, name) for owner, name, _ in tool.patches]
@@ -228,13 +211,3 @@ def test_what_ablation_replaces_is_there_and_comes_back():
             now = [getattr(owner, name) for owner, name, _ in tool.patches]
         assert all(attribute is not other for attribute, other in zip(before, now, strict=True))
         assert [getattr(owner, name) for owner, name, _ in tool.patches] == before
-
-
-def test_streams_without_a_tool_are_larger_or_equal_in_what_they_promise():
-    mesh, options = torus(24, 24), encode_options(threads=1)
-    whole = ablation._encoded(mesh, None, options)[0]
-    without = {
-        name: ablation._encoded(mesh, ablation.TOOLS[name], options)[0] for name in ("smoothing", "z = 3 (z = 1)")
-    }
-    assert min(without.values()) > 0.9 * whole
-    assert ablation._encoded(mesh, ablation.TOOLS["frames along normals"], options)[1] is None

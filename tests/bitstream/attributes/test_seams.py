@@ -59,18 +59,6 @@ def test_any_triangles_come_back(triangles, seed, most):
     assert (joins.vertices == corners.faces.ravel()[joins.first]).all()
 
 
-def test_without_seams_there_is_next_to_nothing():
-    rows = [[i * 50 + j for j in range(50)] for i in range(50)]
-    faces = [
-        face
-        for i in range(49)
-        for j in range(49)
-        for face in ([rows[i][j], rows[i][j + 1], rows[i + 1][j]], [rows[i + 1][j], rows[i][j + 1], rows[i + 1][j + 1]])
-    ]
-    corners = corners_of(faces, 2500)
-    assert len(encode_seams(corners, find_seams(corners, faces))) <= 4
-
-
 def test_seams_of_an_attribute_before_cost_next_to_nothing():
     random = np.random.default_rng(3)
     faces = np.array([[i, i + 1, i + 2] for i in range(2000)])

@@ -100,21 +100,6 @@ def test_illegal_steps_cannot_be_written():
     assert MAX_EXPONENT == 400
 
 
-def test_places_that_are_not_coded_cost_nothing():
-    matrix = decaying(6)
-    columns = matrix.shape[1]
-    stairs = np.arange(columns) < 2 + 3 * np.arange(len(matrix))[:, None]
-    matrix = np.where(stairs, matrix, 0).astype(np.int32)
-    payload = encode_levels(make_level_bank(), [matrix], [empty(columns)], [(2, 3)])
-    assert len(payload) < len(encode_levels(make_level_bank(), [matrix], [empty(columns)]))
-    decoded = np.zeros_like(matrix)
-    decode_levels(make_level_bank(), payload, [decoded], [empty(columns)], [(2, 3)])
-    np.testing.assert_array_equal(decoded, matrix)
-    prices = price_levels(make_level_bank(), matrix, empty(columns), (2, 3))
-    assert not prices[~stairs, :, 0].any()
-    assert (prices[~stairs, :, 1:] > prices[stairs].max()).all()
-
-
 def test_packed_known_bytes():
     # 101 011 110 000, then zeros to the byte
     assert pack_coefficients(np.array([5, 3, 6, 0]), 3).hex() == "af00"

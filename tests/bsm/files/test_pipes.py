@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from bsm import ArgumentError, FormatError, LimitError
+from bsm import LimitError
 from bsm.evaluation.sample import knot
 from bsm.files import pipes
 from bsm.files.mesh import read_mesh, write_mesh
@@ -67,16 +67,6 @@ def test_reading_in_parts(source):
     assert source.peek(4) == DATA[300:304] or source.is_file
     assert as_input(source) is source
     assert source.read_all() == DATA[300:]
-
-
-def test_a_text_file_is_refused():
-    with pytest.raises(ArgumentError, match="open it with mode 'rb'"):
-        read_bytes(io.StringIO("text"))
-
-
-def test_a_folder_is_refused(tmp_path):
-    with pytest.raises(FormatError, match="this is a folder"):
-        read_bytes(tmp_path)
 
 
 def test_too_much_is_refused(monkeypatch):

@@ -6,7 +6,7 @@ from hypothesis.extra import numpy as hnp
 
 from bsm.codec.blocks.overlap import bisect, derive_partition, metis_partition, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
-from tests.shapes import grid_faces, patch, together, torus
+from tests.shapes import grid_faces, torus
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
 
@@ -40,21 +40,6 @@ def test_derived_parts_are_even_and_short_of_boundary(parts):
     sizes = np.diff(partition.bounds)
     assert sizes.max() <= 1.03 * share + 2 and sizes.min() >= 0.9 * share
     assert cut(graph, partition) <= 1.4 * cut(graph, metis_partition(graph, parts))
-
-
-def test_parts_of_several_components():
-    graph = graph_of(together(torus(30, 20), patch(12, 12), torus(9, 7)))
-    sizes = np.diff(derive_partition(graph, 10).bounds)
-    assert sizes.max() - sizes.min() <= 0.1 * sizes.mean()
-    both, _ = bisect(graph_of(together(patch(12, 12), patch(12, 12))), 2)
-    assert {tuple(sorted(part)) for part in both.reshape(2, -1).tolist()} == {tuple(range(144)), tuple(range(144, 288))}
-
-
-def test_one_part_and_as_many_as_vertices():
-    graph = graph_of(patch(8, 9))
-    assert derive_partition(graph, 1).labels.tolist() == [0] * 72
-    assert sorted(derive_partition(graph, 72).labels) == list(range(72))
-    assert metis_partition(graph, 1).parts == 1
 
 
 @given(hnp.arrays(np.int32, st.integers(1, 60), elements=st.integers(0, 9)))

@@ -14,7 +14,7 @@ from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import theta
 from bsm.files.mesh import read_mesh
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
-from tools.scans import BASELINE_EIGHTHS, CAMERAS, Scan, fused, turning, view
+from tools.scans import CAMERAS, Scan, fused, turning, view
 
 AWAY = turning(5)
 
@@ -22,15 +22,6 @@ AWAY = turning(5)
 def scan(shape, camera: str, noisy: bool = True) -> Scan:  # type: ignore[no-untyped-def]
     model = CAMERAS[camera]._replace(pixels=100)
     return view(*shape(30), model if noisy else model._replace(noise=lambda depth, *_: depth), 3)
-
-
-@pytest.mark.parametrize("camera", CAMERAS)
-def test_what_is_scanned_is_the_mesh_with_the_noise_of_the_camera(camera: str) -> None:
-    true, noisy = scan(sphere, camera, noisy=False), scan(sphere, camera)
-    assert true.rms(true.positions) < 1e-12 and true.angle(true.positions) < 1e-4
-    assert 0.0005 < noisy.rms(noisy.positions) < 0.005
-    eighths = CAMERAS[camera].focal * BASELINE_EIGHTHS / noisy.positions[:, 2]
-    assert (np.abs(eighths - np.round(eighths)).max() < 1e-6) == (camera == "structured light")
 
 
 def test_noise_of_fused_views_is_taken_away() -> None:

@@ -7,16 +7,7 @@ import pytest
 
 from bsm import MeshError
 from bsm.codec.geometry.graph import vertex_neighbors
-from bsm.codec.geometry.metrics import (
-    Reference,
-    compare,
-    folded_edges,
-    geometric_laplacian,
-    mean_edge_length,
-    mnd,
-    rms_over_edge,
-    theta,
-)
+from bsm.codec.geometry.metrics import Reference, compare, folded_edges, geometric_laplacian, mnd, theta
 from bsm.codec.sequence.targets import compare_sequences
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
@@ -83,11 +74,6 @@ def test_the_unit_of_the_mesh_does_not_matter() -> None:
     assert large.nmsve == pytest.approx(small.nmsve)
     assert large.rms_relative == pytest.approx(small.rms_relative)
     assert large.rms == pytest.approx(small.rms * 1e3)
-
-
-def test_rms_over_the_mean_edge() -> None:
-    assert mean_edge_length(SQUARE, TWO) == pytest.approx((4 + math.sqrt(2)) / 5)
-    assert rms_over_edge(SQUARE, SQUARE + np.array([1.0, 0, 0]), TWO) == pytest.approx(5 / (4 + math.sqrt(2)))
 
 
 def test_kg_error_is_relative_to_the_extent() -> None:

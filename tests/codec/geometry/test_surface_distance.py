@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from bsm.codec.geometry.metrics import distances_to_surface, sample_surface, surface_distance
+from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 TWO = np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)
@@ -54,14 +54,6 @@ def test_the_distance_to_a_triangle_is_the_minimum_over_its_points(seed: int) ->
     best = minimize(squared, [0.3, 0.3], bounds=[(0, 1), (0, 1)], constraints=[inside], tol=1e-12)
     face = np.array([[0, 1, 2]], dtype=np.int32)
     assert distances_to_surface(point[None], triangle, face)[0] == pytest.approx(np.sqrt(best.fun), abs=1e-5)
-
-
-def test_samples_are_spread_by_area() -> None:
-    positions = np.array([[0.0, 0, 0], [3, 0, 0], [0, 1, 0], [0, -1, 0], [1, 0, 0]])
-    faces = np.array([[0, 1, 2], [0, 3, 4]], dtype=np.int32)
-    points = sample_surface(positions, faces, 20_000, seed=1)
-    assert np.mean(points[:, 1] > 0) == pytest.approx(0.75, abs=0.02)
-    assert points[points[:, 1] > 0].mean(axis=0) == pytest.approx([1, 1 / 3, 0], abs=0.03)
 
 
 def test_surfaces_without_area_are_points() -> None:

@@ -229,15 +229,6 @@ def test_the_distance_is_that_of_the_definition():
     assert look(MESH, worse).distance == pytest.approx(distance, rel=1e-3)
 
 
-def test_grain_counts_more_on_smooth_places_than_on_rough_ones():
-    random = np.random.default_rng(5)
-    smooth = np.full((64, 64), 0.5)
-    rough = smooth + random.normal(0.0, 0.1, smooth.shape)
-    grain = random.normal(0.0, 0.02, smooth.shape)
-    found = [difference(x.astype(np.float32), (x + grain).astype(np.float32))[0] for x in (smooth, rough)]
-    assert found[0] > 1.2 * found[1] > 0.0
-
-
 @pytest.mark.parametrize("turn", range(3))
 def test_spans_and_single_samples_show_the_same(turn):
     """Wide faces are drawn by eight samples at once, as small ones are one by one."""
@@ -324,11 +315,6 @@ def test_what_vanishes_or_flies_away_is_seen():
     spiked = MESH.positions.copy()
     spiked[0] = 1e6
     assert looker.distance(spiked) > 1
-
-
-def test_one_face_is_a_mesh():
-    mesh = TriangleMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    assert look(mesh, mesh).distance < 1e-3
 
 
 def test_the_side_that_differs_most_is_drawn():

@@ -18,7 +18,7 @@ from bsm import (
     decode_sequence,
 )
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.options import PROMISES, Promise
+from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.step_search import StepSearch, shading_error
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending
@@ -138,18 +138,6 @@ def test_the_progress_of_a_search_grows_to_the_whole(promise: Promise | None) ->
     assert promise or reports == sorted(reports)  # frames in doubt may be more than a search let expect
 
 
-def test_a_moving_look_is_what_pictures_differ_by() -> None:
-    positions, faces = bending(1)
-    seen = LookMetric(TriangleMesh(positions[0], faces), threads=1).look(positions[0] * 1.01)
-    assert seen.unlike > 0.0
-    assert seen.moving == pytest.approx((seen.unlike / 0.029) ** (4 / 3))
-
-
-def test_presets_are_ordered() -> None:
-    sizes = [kept(*bending(2), PROMISES[name])[0] for name in ("small", "balanced", "fine")]
-    assert sizes == sorted(sizes) and sizes[0] < sizes[2]
-
-
 def test_frames_of_which_nothing_is_seen_are_no_obstacle() -> None:
     positions, faces = bending(4)
     positions[2] = positions[2, :1]  # all vertices at one place
@@ -163,17 +151,6 @@ def test_what_cannot_be_kept_is_an_error() -> None:
     for bounds in ((0.0, 1.0), (0.01, 0.0), (float("inf"), 1.0)):
         with pytest.raises(OptionError, match="bounds"):
             Promise(*bounds)
-
-
-def test_errors_of_normals_are_angles() -> None:
-    positions, faces = bending(1)
-    angle = 0.1
-    turned = positions[0] @ np.array(
-        [[np.cos(angle), np.sin(angle), 0.0], [-np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]]
-    )
-    assert shading_error(positions[0], positions[0], faces) == pytest.approx(0.0, abs=1e-7)
-    assert 0.3 * angle < shading_error(positions[0], turned, faces) < angle
-    assert shading_error(np.zeros_like(turned), turned, faces) == 0.0  # no area is no error
 
 
 @pytest.mark.parametrize("width", [0.0, 1.0])

@@ -7,9 +7,7 @@ import pytest
 
 import bsm
 from bsm import Attribute, SequenceEncoder, SequenceOptions, TriangleMesh, decode_sequence
-from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
-from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
 from bsm.codec.sequence.options import Promise
 from tests.motion import bending
 from tools.payloads import parse_stretches
@@ -92,22 +90,3 @@ def test_frames_whose_attributes_differ_are_not_the_same() -> None:
     assert places(data) == [[0, 1, 2, 3, 0, 4, 2, 5]]
     for frame, found in zip(frames, bsm.decode_frames(data), strict=True):
         assert np.abs(found.attributes[0].values - frame.attributes[0].values).max() <= 0.5
-
-
-def test_which_frames_are_the_same() -> None:
-    frames = np.random.default_rng(0).standard_normal((5, 400, 3))
-    mean, most = SAME
-    frames[2] = frames[0] + 0.9 * mean * STEP
-    frames[3] = frames[0] + 1.1 * mean * STEP
-    frames[4] = frames[1]
-    assert same_frames(frames, [], STEP).tolist() == [0, 1, 0, 3, 1]
-    assert same_frames(frames, [np.arange(5)[:, None, None] // 4], STEP).tolist() == [0, 1, 0, 3, 4]
-    frames[4, 123, 1] += 1.1 * most * STEP
-    assert same_frames(frames, [], STEP).tolist() == [0, 1, 0, 3, 4]
-    distinct, places = distinct_frames(np.array([0, 1, 0, 3, 1]))
-    assert distinct.tolist() == [0, 1, 3] and places.tolist() == [0, 1, 0, 2, 1]
-
-
-def test_low_delay_sends_every_frame() -> None:
-    positions, faces = bending(3)
-    assert decode_sequence(encode_sequence(positions[[0, 1, 1, 0]], faces, options(low_delay=1)))[0].shape[0] == 4

@@ -24,7 +24,6 @@ from bsm import (
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
 from bsm.bitstream.container.wire import FrameType, write_preamble
-from bsm.codec.sequence.encoder import KEPT_MESHES
 from bsm.codec.sequence.options import Promise
 from tests.streams import frames_in, moving_events_of, packets_of
 from tools.surgery import frames_of, spans_of
@@ -131,27 +130,6 @@ def test_a_target_is_for_frames_that_share_their_faces():
     assert frames_in(moving_events_of(b"".join(encoded(same, target=SequenceTarget("kg", 5.0))[1])))
 
 
-def test_every_run_has_its_attributes():
-    frames = meshes((10, 2), (7, 2), (10, 1))
-
-    def painted(mesh, value):
-        colors = np.full((len(mesh.positions), 3), value, np.uint8)
-        return replace(mesh, attributes=(Attribute("color", colors, "vertex", "color"),))
-
-    chosen = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
-    colored = [painted(mesh, value) for mesh, value in zip(frames, (7, 7, 90, 90, 7), strict=True)]
-    encoder = SequenceEncoder(frames[0].faces, chosen, 5, attributes=colored[0].attributes)
-    decoder = SequenceDecoder(threads=1)
-    values = []
-    for chunk in encoder.chunks(colored):
-        decoder.receive_data(chunk)
-        while not isinstance(event := decoder.next_event(), Signal):
-            if isinstance(event, FrameEvent):
-                (attribute,) = decoder.attributes
-                values.append((attribute.name, int(attribute.values[0, 0]), len(attribute.values)))
-    assert values == [("color", 7, 60)] * 2 + [("color", 90, 42)] * 2 + [("color", 7, 60)]
-
-
 # ---------------------------------------------------------------------------------------------------- loss and joining
 
 
@@ -212,15 +190,6 @@ def test_late_joiners_begin_at_a_run_with_a_mesh():
 
 
 # ------------------------------------------------------------------------------------------------------------- charges
-
-
-def test_eight_meshes_are_kept():
-    sizes = [*range(3, 3 + KEPT_MESHES + 2), 3, 6, 12]
-    frames = meshes(*((size, 1) for size in sizes))
-    data = b"".join(encoded(frames)[1])
-    again = [packet.mesh_of for packet, *_ in packets_of(data) if isinstance(packet, Header)]
-    assert again[:-2] == [None] * (KEPT_MESHES + 3) and again[-2:] == [3, 9]
-    assert len(frames_in(moving_events_of(data))) == len(frames)
 
 
 def test_what_meshes_take_does_not_grow_with_their_number():

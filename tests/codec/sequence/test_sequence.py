@@ -171,14 +171,6 @@ def test_motion_far_beyond_the_first_frame(way):
         encode_sequence(positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way))
 
 
-def test_vertices_without_faces_are_left_out():
-    positions, faces = bending(3)
-    extra = np.concatenate([positions, np.zeros((3, 2, 3))], axis=1)
-    data, original = encoded(extra, faces)
-    decoded, _ = decode_sequence(data)
-    assert decoded.shape == original.shape == positions.shape
-
-
 @pytest.mark.parametrize("way", WAYS)
 def test_the_order_can_be_kept(way):
     positions, faces = bending(4)

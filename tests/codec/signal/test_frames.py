@@ -52,12 +52,6 @@ def test_steps_along_the_surface_are_wide_where_it_is_flat_and_one_at_creases() 
     assert (sharper[crease] > steps[crease]).all()
 
 
-def test_a_ratio_of_one_or_less_is_the_same_everywhere() -> None:
-    mesh = folded(1.0)
-    for ratio in (0.25, 1.0):
-        assert (tangent_steps(mesh.positions, mesh.faces, 0.5, ratio) == 0.5 * ratio).all()
-
-
 @given(st.integers(0, 2**32 - 1))
 def test_places_off_by_rounding_change_steps_by_little(seed: int) -> None:
     mesh = torus(12, 8)

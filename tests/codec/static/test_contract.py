@@ -125,10 +125,6 @@ def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -
     np.testing.assert_array_equal(first.faces, other.faces)
 
 
-def test_the_smallest_is_in_blocks_by_default() -> None:
-    assert not Encoder(torus(80, 40)).draft().header.grid
-
-
 @pytest.mark.parametrize("option", [{"step": 0.01}, {"bits": 12}, {"keep": 0.1}])
 def test_quick_decoding_excludes_options_of_blocks(option: dict[str, float]) -> None:
     with pytest.raises(OptionError, match="quick"):
@@ -188,13 +184,6 @@ def test_many_components_cost_what_their_vertices_cost() -> None:
     draft = encoder.draft()
     assert draft.header.grid
     assert draft.size < 12 * len(many.positions) / 8
-
-
-def test_a_contract_excludes_what_it_must() -> None:
-    with pytest.raises(OptionError):
-        EncodeOptions(grid=12, step=0.01)
-    with pytest.raises(OptionError):
-        EncodeOptions(grid=21)
 
 
 def test_small_parts_keep_their_shape() -> None:

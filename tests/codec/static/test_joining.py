@@ -7,8 +7,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import EncodeOptions, Encoder, TriangleMesh, decode
-from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.codec.static.preamble_encoding import join
 from tests.shapes import patch, torus
 
@@ -68,10 +66,3 @@ def test_a_kept_order_gives_back_the_given_mesh(seed: int) -> None:
     low, extent = places[used].min(axis=0), np.ptp(places[used], axis=0).max() or 1.0
     assert np.abs(decoded.positions[used] - places[used]).max() <= extent / 3 * 0.5 + 1e-6
     assert np.array_equal(decoded.positions[~used], places[~used]), low
-
-
-def test_splits_of_nothing_are_small() -> None:
-    faces = np.array([[0, 1, 2]], np.int32)
-    coded = encode_connectivity(faces, 3)
-    data = encode_order(faces, coded, Splits(np.array([0, 1, 2, -1], np.int32), faces, np.array([[1.0, 2.0, 3.0]])))
-    assert len(data) < 50

@@ -10,7 +10,6 @@ import pytest
 from bsm import (
     BlockEvent,
     ConnectivityEvent,
-    CorruptError,
     Decoder,
     EncodeOptions,
     EndEvent,
@@ -123,10 +122,3 @@ def test_a_lost_chunk_of_a_grid_costs_those_behind_it() -> None:
     events = events_of(broken(GRID, FrameType.GRID, 1), tolerant=True)
     assert len(events[-1].losses.missing) == 26
     assert sum(len(event.vertices) for event in events if isinstance(event, BlockEvent)) == 30
-
-
-def test_levels_that_are_out_of_range_are_refused() -> None:
-    data = refined(MESH, LAYER, (120,))
-    start = offset_of(data, FrameType.REFINEMENT, 0)
-    with pytest.raises(CorruptError):
-        decode(data[: start + 6] + bytes([data[start + 6] ^ 0xFF]) + data[start + 7 :])

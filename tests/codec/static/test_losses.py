@@ -61,12 +61,6 @@ def test_a_stream_cut_short_gives_the_blocks_that_came():
     assert isinstance(events[-1], EndEvent) and len(events[-1].losses.missing) > 0
 
 
-def test_a_whole_stream_loses_nothing():
-    events = events_of(stream(), tolerant=True)
-    assert not any(isinstance(event, LossEvent) for event in events)
-    assert len(events[-1].losses.missing) == len(events[-1].losses.degraded) == 0
-
-
 def test_damage_before_the_first_block_is_raised():
     data = stream(paper=Paper(partition="metis"))
     first = blocks_of(data)[0][1]

@@ -33,12 +33,6 @@ def entropy(levels):
     return -(counts * np.log2(counts)).sum()
 
 
-def test_free_bits_are_rounding(settler):
-    wanted, steps = offsets(0.01), STEPS
-    levels = settler.levels(wanted, FRAMES, steps, same, 0.0, ANYWHERE)
-    assert (levels == np.rint(wanted / steps)).all()
-
-
 def test_bits_that_cost_are_saved(settler):
     wanted, steps = offsets(0.01), STEPS
     sizes, errors = [], []
@@ -87,12 +81,3 @@ def test_heights_make_good_what_is_left_along_axes_that_are_not_the_surfaces_own
     )]  # fmt: skip
     plain, settled = (np.abs((in_frames(FRAMES[:, :3], frames) * error).sum(axis=1)).mean() for error in errors)
     assert settled < 0.7 * plain
-
-
-def test_slides_keep_heights_and_follow_their_steps(settler):
-    wanted, steps = offsets(0.01), STEPS
-    levels = settler.levels(wanted, FRAMES, steps, same, 0.001, ANYWHERE)
-    finer = steps * (1, 0.25, 0.25)
-    slides = settler.levels(wanted, FRAMES, steps, lambda _: finer, 0.001, ANYWHERE)
-    assert (slides[:, 0] == levels[:, 0]).all()
-    assert np.abs((finer * slides - wanted)[:, 1:]).mean() < 0.7 * np.abs((steps * levels - wanted)[:, 1:]).mean()

@@ -81,11 +81,6 @@ def test_a_mesh_that_was_made_on_a_grid_is_sent_on_it_where_blocks_would_be_refu
     assert len(decode(stream, limits=Limits.service()).positions) == 8000
 
 
-def test_the_default_allows_wide_dictionaries():
-    stream = encode(torus(60, 50), encode_options(bits=12, keep=0.4, block_size=500, key_interval=0))
-    assert len(decode(stream, limits=DEFAULT_LIMITS).positions) == 3000
-
-
 def test_asking_what_changed_is_not_work_of_the_stream():
     """However often a host asks, the verdict is the same; where answers take too long, the end makes vertices final."""
     mesh = patch(60, 60)

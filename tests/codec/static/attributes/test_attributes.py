@@ -211,13 +211,6 @@ def test_angles_of_normals_are_kept(degrees):
     assert degrees / 8 < off.max() <= degrees + 1e-3
 
 
-def test_attributes_can_be_left_out():
-    mesh = dressed(torus())
-    encoder = Encoder(mesh, replace(QUICK, attributes={"*": "none", "uv": "10bits"}))
-    assert [attribute.name for attribute in decode(encoder.encode()).attributes] == ["uv"]
-    assert "left out: color, normal, heat, group, wild" in encoder.notes
-
-
 def smooth_normals(mesh: TriangleMesh) -> np.ndarray:
     a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
     found = np.zeros_like(mesh.positions)
@@ -415,12 +408,6 @@ def test_seams_that_two_share_are_sent_once():
     assert [bool(p.seams) for p in declared] == [False, True, True, False, False, False, False]
     encoder = Encoder(mesh, QUICK)
     assert max(compared(mesh, decode(encoder.encode()), encoder).values()) < 0.006
-
-
-def test_meshes_without_attributes_are_as_they_were():
-    assert encode(torus(), QUICK) == encode(
-        replace(dressed(torus()), metadata={}), replace(QUICK, attributes={"*": "none"})
-    )
 
 
 @pytest.mark.parametrize(("kind", "value"), [("theta_deg", 3.0), ("size", 20000.0)])
