@@ -149,8 +149,7 @@ NB_MODULE(_kernels, m) {
           "moved"_a, "levels"_a, "counts"_a, Unlocked());
     m.def("count_folds", checked<&count_folds>, "positions"_a, "flaps"_a, Unlocked());
     m.def("unfold_levels", checked<&unfold_levels>, "wanted"_a, "reach"_a, "moved"_a, "levels"_a, "directions"_a,
-        "flaps"_a, "starts"_a, "members"_a, "most"_a, "creases"_a, "wrong"_a, "open"_a,
-        Unlocked());
+        "flaps"_a, "starts"_a, "members"_a, "most"_a, "wrong"_a, "open"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
-          "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "creases"_a, "open"_a, Unlocked());
+          "starts"_a, "members"_a, "bends"_a, "rates"_a, "open"_a, Unlocked());
 }

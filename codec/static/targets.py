@@ -135,9 +135,6 @@ UNITS = {
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
-SLACK_OF_LOOK = 0.05
-"""The same of blocks whose pictures are drawn: an eighth of the time for a quarter of a percent of bytes. Of grids,
-pictures say less of the steps beside, and more tries pay."""
 STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
 STRIDE, NEAREST = 2.0, 0.1
 """Between two tries, in the logarithm; and where both sides of a bound are known, the part of what is between them that

@@ -15,13 +15,12 @@ from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate, turned
+from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import admit, blended, encode_blocks, patience
 from bsm.codec.static.ways.grid import encode_layer
@@ -150,16 +149,10 @@ are worth."""
 BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
-UNSEEN_RATIO = 2.0
-"""How much coarser levels in the plane are than those along the normal, where it is flat: for distances alone."""
-PULLED, STEADY, NEAR = 0.12, 0.3, 16.0
-"""Where a look is asked for, what a bit is worth at a look of 1, over the mean cost of an error of one step along the
-normal, and the power of the look that it goes with; and how far a vertex may be brought from its place, in steps of the
-layer."""
-MENDED_ASIDE = 3.0  # or so many of its own steps in the plane, which are wide where the surface is flat
+ALIKE = 2.0  # the same as `RATIO`, where errors in all directions count alike
+PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 ROOM = 1.8  # of steps that are within reach: their diagonal over the reach
 FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
-BLUNT = 0.8  # about the step of a layer over that of a grid of the same look
 
 
 @dataclass(frozen=True, eq=False)
@@ -285,16 +278,18 @@ class Plain:
 
 
 class Refined:
-    """Blocks and a layer of refinement, by the step of the refinement."""
+    """Blocks and a layer of refinement, by its step; levels are settled for their bits, or shaped for normals."""
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, look: float) -> None:
-        self._prepared, self._bounds, self._look = prepared, bounds, look
+    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True) -> None:
+        self._prepared, self._bounds, self._settled = prepared, bounds, settled
         self._spectral = Spectral(prepared, options, WIDEST)
-        self.least, self.most = FINEST_LAYER, COARSEST
+        # Half a diagonal of steps is within the least reach, so that all vertices can be.
+        reach = ROOM * float(bounds.reaches.min())
+        self.least, self.most = FINEST_LAYER, max(min(COARSEST, reach / math.sqrt(3.0)), FINEST_LAYER)
 
     @cached_property
     def first(self) -> float:
-        return self._bounds.first_step * (1.0 if self._settler is None else BLUNT)
+        return self._bounds.first_step
 
     def at(self, step: float) -> Candidate:
         return self._begun if math.isclose(step, self.first) else self._made(step)
@@ -305,17 +300,12 @@ class Refined:
 
     def _made(self, step: float) -> Candidate:
         base = self._base
-        if self._settler is not None:
-            found = self._leveled(step, base, *self._evened(step, self._settler))
+        if self._settled:
+            found = self._leveled(step, base, *self._evened(step))
             many = self._bounds.measures.shaper.folded(found.positions) > FOLDED * len(self._prepared.mesh.faces)
             return found if many else turned(found) or found
-        if self._bounds.contract.angle < ANY_ANGLE:
-            layer = Layer(single(step), RATIO)
-            levels = self._shaped(base, layer)
-        else:
-            layer = Layer(single(step), UNSEEN_RATIO)
-            heights = base.wanted(base.expected_steps(layer))[0]
-            levels = base.wanted(base.known_steps(layer, heights))[0]
+        layer = Layer(single(step), RATIO)
+        levels = self._shaped(base, layer)
         return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))
 
     def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Candidate:
@@ -323,28 +313,29 @@ class Refined:
 
         def unfold() -> Candidate | None:
             directions = base.wanted(known)[1].reshape(-1, 9)
-            reach = np.minimum(self._bounds.reaches, np.maximum(MENDED * layer.step, MENDED_ASIDE * known.max(axis=1)))
-            other = self._bounds.measures.shaper.unfold(positions, levels, directions, reach)
+            other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(known))
             return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
 
-        evened = self._settler is not None
-        return Candidate(step, positions, partial(base.refined, layer, levels, positions), unfold, evened)
+        return Candidate(step, positions, partial(base.refined, layer, levels, positions), unfold, self._settled)
 
-    def _evened(self, step: float, settler: Settler) -> tuple[Layer, Levels, Matrix]:
+    def _near(self, steps: Matrix) -> Matrix:
+        """How far vertices may be brought from their places by steps, shape (n, 3)."""
+        return np.asarray(np.minimum(self._bounds.reaches, SPIKE * steps.max(axis=1)))
+
+    def _evened(self, step: float) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
         base, reaches = self._base, self._bounds.reaches
-        # Half a diagonal of steps is within the least reach, so that all vertices can be.
         room = (ROOM * float(reaches.min()) / step) ** 2 - 1.0
         ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self._most_ratio)
-        layer, worth = Layer(single(step), ratio), PULLED * self._look**STEADY
-        steps, known, near = base.expected_steps(layer), partial(base.known_steps, layer), NEAR * layer.step
-        levels = settler.levels(base.offsets, base.frames, steps, known, worth, np.minimum(reaches, near))
+        layer = Layer(single(step), ratio)
+        steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
+        levels = self._settler.levels(base.offsets, base.frames, steps, known, PULLED, self._near(steps))
         return layer, *base.within(reaches, layer, levels)
 
     @property
     def _most_ratio(self) -> float:
         """How much coarser levels in the plane may be: the visual error counts errors in all directions."""
-        return RATIO if self._bounds.contract.visual == math.inf else UNSEEN_RATIO
+        return RATIO if self._bounds.contract.visual == math.inf else ALIKE
 
     @cached_property
     def _base(self) -> RefinementBase:
@@ -355,17 +346,12 @@ class Refined:
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""
         shaper = self._bounds.measures.shaper
-        aim = Aim(layer.step / shaper.character.mean_edge, min(float(self._bounds.reaches.max()), NEAR * layer.step), 6)
+        aim = Aim(layer.step / shaper.character.mean_edge, float(self._bounds.reaches.max()))
         heights = shaper.levels(base.positions, *base.wanted(base.expected_steps(layer)), aim)
         wanted, directions = base.wanted(base.known_steps(layer, heights))
         wanted[:, 0] = heights[:, 0]
         return shaper.levels(base.positions, wanted, directions, aim)
 
     @cached_property
-    def _settler(self) -> Settler | None:
-        """None: nothing is asked of pictures."""
-        return (
-            None
-            if self._look == math.inf
-            else Settler(self._prepared.positions, self._prepared.mesh.faces, self._prepared.graph)
-        )
+    def _settler(self) -> Settler:
+        return Settler(self._prepared.positions, self._prepared.mesh.faces, self._prepared.graph)

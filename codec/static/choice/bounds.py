@@ -24,7 +24,7 @@ COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 """Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
 MARGIN = 1e-9  # of a bound on distances, for what rounding may add
-MENDED = 4.0  # steps that a vertex may be off where folds are mended: farther ones stand out as spikes
+SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther ones stand out as spikes
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512."""
@@ -84,7 +84,7 @@ class Candidate:
     positions: Matrix
     make: Callable[[], Draft]
     unfold: Callable[[], "Candidate | None"] = lambda: None
-    evened: bool = False  # whether another search than that for the step keeps the bounds that all vertices count in
+    settled: bool = False  # whether levels are kept within reach, whatever the step is
 
     @cached_property
     def draft(self) -> Draft:
@@ -113,7 +113,7 @@ class Bounds:
     def excess(self, candidate: Candidate) -> float:
         """The logarithm of the largest share of a bound that depends on the step."""
         farther, angle, visual, look = self._shares(candidate.positions)
-        shares = (angle, look) if candidate.evened and max(farther, visual) <= 1.0 else (farther, angle, visual, look)
+        shares = (angle, visual, look) if candidate.settled and farther <= 1.0 else (farther, angle, visual, look)
         self.measures.near.by(TRY)
         return math.log(max(*shares, LEAST))
 
@@ -137,12 +137,6 @@ class Bounds:
         """How good positions are where as good ones as possible are wanted: less is better."""
         metric = self.measures.look
         return self.measures.original.angle(positions) if metric is None else metric.distance(self._decoded(positions))
-
-    @cached_property
-    def rough_step(self) -> float:
-        """A step at which normals are about as wrong as they may be, in BSM units."""
-        angle = min(self.contract.angle, ANGLE_OF_LOOK * self.contract.look)
-        return self.measures.shaper.character.step_of(angle, COARSEST)
 
     @cached_property
     def first_step(self) -> float:

@@ -16,7 +16,7 @@ from bsm.bitstream.fields.grid import find_lattice, ordered
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
-from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate, turned
+from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
 from bsm.codec.static.choice.shaping import SAMPLE, Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
@@ -134,7 +134,6 @@ def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int)
     return Grid(origin, step, tuple(int(value) for value in points.max(axis=0)), lattice), points
 
 
-NEAR_PLACE = 3.0  # how far shaping may bring a vertex from its place, in cells, where bounds are wide
 FINEST_BITS = 16  # along the longest side of the finest grid on which a mesh may have been made
 
 
@@ -197,7 +196,7 @@ class Gridded:
         held = single(max(step, self.least) * unit)
         places = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
-            reach = min(float(self._bounds.reaches.min()), NEAR_PLACE * step)
+            reach = min(float(self._bounds.reaches.min()), SPIKE * step)
             aim = Aim(self._worth * step / self._shaper.character.mean_edge, reach, 3)
             places = self._shaper.places(places, self._low, held / unit, aim)
         candidate = self._placed(held, places)
@@ -212,7 +211,7 @@ class Gridded:
 
         def unfold() -> Candidate | None:
             cell = held / self._prepared.units.scale
-            directions, reach = cell * np.eye(3).reshape(1, 9), np.minimum(self._bounds.reaches, MENDED * cell)
+            directions, reach = cell * np.eye(3).reshape(1, 9), np.minimum(self._bounds.reaches, SPIKE * cell)
             turned = self._shaper.unfold(candidate.positions, places, directions, reach)
             return None if turned is None else self._placed(held, turned)
 

@@ -16,9 +16,8 @@ from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
-from bsm.codec.static.targets import SLACK, SLACK_OF_LOOK, STEEPEST, TRIES, Contract, secant
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
-SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 QUICK_TRIES = 3  # steps of each way, where encoding shall be quick
 
 
@@ -61,12 +60,10 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
-        grid = Gridded(self._prepared, bounds)
-        kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
-        for way in self._ways(bounds, contract.look):
+        made = Gridded(self._prepared, bounds).made()
+        kept = [candidate for candidate in made if bounds.keeps(candidate.positions)]
+        for way in self._ways(bounds):
             least = min((candidate.draft.size for candidate in kept), default=math.inf)
-            if isinstance(way, Gridded) and kept and SHAPED * grid.begun.draft.size > least:
-                break
             found = widest(way, bounds, least, tries=self._tries)
             kept += [] if found is None else [found]
         if not kept:
@@ -99,7 +96,7 @@ class Search:
         """Return the best stream of at most `most_bytes` that keeps a contract, or None."""
         bounds = Bounds(self._measures, contract)
         found = list(Gridded(self._prepared, bounds).made())
-        for way in self._ways(bounds, min(contract.look, 1.0)):
+        for way in self._ways(bounds):
             fitting: dict[float, Candidate] = {}
 
             def excess(fineness: float, way: Way = way, fitting: dict[float, Candidate] = fitting) -> float:
@@ -126,17 +123,14 @@ class Search:
         look = metric.look(self._prepared.units.into(draft.decoded))
         return f"look {look.distance:.3g}"
 
-    def _ways(self, bounds: Bounds, look: float) -> Iterator[Way]:
-        """Ways that may be smallest; blocks never are where a surface is flat but for sharp edges."""
+    def _ways(self, bounds: Bounds) -> Iterator[Way]:
+        """Ways that may be smallest."""
         prepared, options = self._prepared, self._options
-        seen = bounds.contract.look < math.inf
-        if (
-            prepared.has_low_frequencies
-            and not options.quick
-            and not (self._measures.shaper.character.is_model and seen)
-        ):
-            yield Refined(prepared, options, bounds, look)
-            if not seen:
+        if prepared.has_low_frequencies and not options.quick:
+            yield Refined(prepared, options, bounds)
+            if bounds.contract.angle < ANY_ANGLE:
+                yield Refined(prepared, options, bounds, settled=False)
+            if bounds.contract.look == math.inf:
                 yield Plain(prepared, options, bounds)
         yield from (Gridded(prepared, bounds, worth) for worth in (1.0, 0.0))
 
@@ -144,9 +138,7 @@ class Search:
 def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = TRIES) -> Candidate | None:
     """Return the smallest candidate found that keeps the bounds, or has few folds, at least; None if it would not be
     smaller than `most_bytes`."""
-    kept, slack = list[tuple[bool, Candidate]](), SLACK
-    if isinstance(way, Refined) and bounds.contract.look < math.inf:
-        slack = SLACK_OF_LOOK
+    kept = list[tuple[bool, Candidate]]()
 
     def at(step: float) -> float | None:
         candidate, sure = way.at(step), math.inf
@@ -156,11 +148,11 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
         over, folded = bounds.excess(candidate), bounds.folds(candidate.positions)
         if over <= 0.0 and bounds.keeps(candidate.positions):
             kept.append((folded, candidate))
-        over = max(over, slack) if folded else over  # a finer step has fewer folds
+        over = max(over, SLACK) if folded else over  # a finer step has fewer folds
         return over if over < sure else None
 
     with suppress(LimitError):  # blocks that decoders would refuse
-        fine = slack / 4.0 if tries > TRIES else slack
+        fine = SLACK / 4.0 if tries > TRIES else SLACK
         secant(at, min(max(way.first, way.least), way.most), way.least, way.most, tries, slack=fine)
     smallest = min(kept, key=lambda found: (found[0], found[1].draft.size), default=(False, None))[1]
     return None if smallest is None or smallest.draft.size >= most_bytes else smallest

@@ -30,7 +30,6 @@ SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and ov
 CREASED = (
     2.5  # what a crease costs that is in one of two pictures only, over an error of a step at its share of vertices
 )
-HALF_EDGE = 0.5  # how far a vertex may be brought from its place, over the mean length of its edges
 WITHIN = 8.0  # degrees, on both sides of the angle that makes a crease, in which bends are watched
 
 
@@ -69,7 +68,6 @@ class Settler:
         normals = in_frames(self._frames[:, 0], frames)
         levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)
         creases = self._creases._replace(costs=self._creases.costs * (CREASED * count / max(worth, 1e-300)))
-        reach = np.ascontiguousarray(np.minimum(reach, self._half_edges), np.float64)
         given, moved = np.ascontiguousarray(frames), np.empty((count, 3))
         rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
 
@@ -97,15 +95,6 @@ class Settler:
     @cached_property
     def _frames(self) -> Matrix:
         return local_frames(self._positions, self._faces).reshape(-1, 3, 3)
-
-    @cached_property
-    def _half_edges(self) -> Matrix:
-        """Half of the mean length of the edges of each vertex, shape (n,)."""
-        degrees = np.diff(self._graph.offsets)
-        rows = np.repeat(np.arange(len(degrees)), degrees)
-        edges = self._positions[rows] - self._positions[self._graph.neighbors]
-        sums = np.bincount(rows, np.sqrt(np.square(edges).sum(axis=1)), len(degrees))
-        return np.asarray(HALF_EDGE * sums / np.maximum(degrees, 1))
 
 
 def _bits(counts: Matrix) -> Matrix:

@@ -5,7 +5,7 @@
  * neighbor has moved. */
 #include "codec/static/choice/choice.h"
 
-enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
+enum { FAN = 32, LANES = 8 }; /* faces of one vertex that are looked at, and how many of them at once */
 enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
 #define FOLD 0.1   /* what a fold costs, over turning a face of mean area by a radian */
 
@@ -17,14 +17,6 @@ typedef struct {
     double unit, frame[3][3][FAN], edge[3][FAN];
     float normal[3][FAN], turn[3][3][FAN], weight[FAN];
 } Fan;
-
-typedef struct {
-    int count;
-    float by[3][MOVES]; /* steps in each direction */
-    float bent[MOVES];
-    double cost[MOVES];
-    int8_t code[MOVES];
-} Moves;
 
 INLINE double size(double x) { return x < 0.0 ? -x : x; }
 
@@ -113,26 +105,6 @@ INLINE double bent_by(const Fan *fan, int a, float by) {
     return sum;
 }
 
-/* The same of many moves, in three directions. */
-INLINE void bend(const Fan *fan, Moves *moves) {
-    for (int first = 0; first < moves->count; first += LANES) {
-        float sums[LANES] = {0.0f};
-        const float *by0 = moves->by[0] + first, *by1 = moves->by[1] + first, *by2 = moves->by[2] + first;
-        for (int k = 0; k < fan->count; k++) {
-            float at[3], turn[3][3], weight = fan->weight[k];
-            for (int i = 0; i < 3; i++) {
-                at[i] = fan->normal[i][k];
-                for (int a = 0; a < 3; a++) turn[a][i] = fan->turn[a][i][k];
-            }
-            for (int l = 0; l < LANES; l++)
-                sums[l] += weight * chord(at[0] + by0[l] * turn[0][0] + by1[l] * turn[1][0] + by2[l] * turn[2][0],
-                                          at[1] + by0[l] * turn[0][1] + by1[l] * turn[1][1] + by2[l] * turn[2][1],
-                                          at[2] + by0[l] * turn[0][2] + by1[l] * turn[1][2] + by2[l] * turn[2][2]);
-        }
-        for (int l = 0; l < LANES; l++) moves->bent[first + l] = sums[l];
-    }
-}
-
 INLINE double square(const double *a, const double *b) {
     return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
 }
@@ -207,76 +179,56 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
 
 /* Places on a grid (n x 3), `moved` their positions, kept in step. `flaps`: rows of four vertices, and `bends` the sum
  * of the first two places less that of the others; a vertex is in the flaps `members` / 2, on the second side where
- * odd. What a bend costs: `rates`. A vertex moves along at most `axes` axes at once. Returns how often one moved. */
+ * odd. What a bend costs: `rates`. Returns how often a vertex moved. */
 KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,
-                          ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes,
-                          Creases creases, Bytes open) {
+                          ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, Bytes open) {
     if (!fits(&wanted, moved, places, open) || places.columns != 3 || flaps.columns != 4 || bends.columns != 3 ||
-        bends.rows != flaps.rows || starts.size != places.rows + 1 || rates.size < 1 ||
-        !fits_creases(&creases, places.rows))
+        bends.rows != flaps.rows || starts.size != places.rows + 1 || rates.size < 1)
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
     double reach = aim.reach * aim.reach;
-    const double direction[3][3] = {{step, 0.0, 0.0}, {0.0, step, 0.0}, {0.0, 0.0, step}};
     int64_t moves = 0;
     Fan fan;
-    Moves tried = {0};
     for (int64_t v = 0; v < open.size; v++) open.data[v] = 1;
     for (int64_t sweep = 0; sweep < aim.sweeps; sweep++)
         for (int32_t v = 0; v < (int32_t)places.rows; v++) {
             if (!open.data[v]) continue;
             open.data[v] = 0;
             gather(&wanted, now_at, v, &fan);
-            double rate[3][3] = {{0.0}};
-            for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++) {
-                const int32_t *bend = bends.data + 3 * (int64_t)(members.data[i] >> 1);
-                int sign = members.data[i] & 1 ? -1 : 1;
-                for (int a = 0; a < 3; a++)
-                    for (int d = -1; d <= 1; d++) {
-                        int64_t value = (int64_t)bend[a] + sign * d;
-                        rate[a][d + 1] += rates.data[least(value < 0 ? -value : value, rates.size - 1)];
-                    }
-            }
-            double *at = moved.data + 3 * (int64_t)v;
+            double *at = moved.data + 3 * (int64_t)v, now = bent(&fan);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
-            double far = square(place, at);
-            double best = bent(&fan) + aim.worth * (rate[0][1] + rate[1][1] + rate[2][1]);
-            bool hangs = creases.starts.data[v + 1] > creases.starts.data[v];
-            if (hangs) best += wrong_creases(&creases, moved.data, v);
-            int pick = 13;
-            tried.count = 0;
-            for (int c = 0; c < 27; c++) {
-                int by[3] = {c % 3 - 1, c / 3 % 3 - 1, c / 9 - 1}, along = (by[0] != 0) + (by[1] != 0) + (by[2] != 0);
-                if (along == 0 || along > axes) continue;
-                double cost = aim.worth * (rate[0][by[0] + 1] + rate[1][by[1] + 1] + rate[2][by[2] + 1]);
-                if (cost >= best) continue;
-                double there[3] = {at[0] + step * by[0], at[1] + step * by[1], at[2] + step * by[2]};
-                double away = square(place, there);
-                if (away > reach && away > far) continue;
-                for (int a = 0; a < 3; a++) tried.by[a][tried.count] = (float)by[a];
-                tried.cost[tried.count] = cost;
-                tried.code[tried.count++] = (int8_t)c;
-            }
-            if (tried.count == 0) continue;
-            for (int a = 0; a < 3; a++) find_turn(&fan, a, direction[a]);
-            bend(&fan, &tried);
-            for (int i = 0; i < tried.count; i++) {
-                double cost = tried.cost[i] + tried.bent[i];
-                if (hangs && cost < best) {
-                    for (int a = 0; a < 3; a++) at[a] += step * (double)tried.by[a][i];
-                    cost += wrong_creases(&creases, moved.data, v);
-                    for (int a = 0; a < 3; a++) at[a] -= step * (double)tried.by[a][i];
+            bool any = false;
+            for (int a = 0; a < 3; a++) {
+                double rate[3] = {0.0}, direction[3] = {0.0}, stay = at[a], far = square(place, at), best, then = now;
+                for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++)
+                    for (int d = -1; d <= 1; d++) {
+                        int64_t bend = bends.data[3 * (int64_t)(members.data[i] >> 1) + a];
+                        bend += members.data[i] & 1 ? -d : d;
+                        rate[d + 1] += rates.data[least(bend < 0 ? -bend : bend, rates.size - 1)];
+                    }
+                best = now + aim.worth * rate[1];
+                direction[a] = step;
+                find_turn(&fan, a, direction);
+                int pick = 0;
+                for (int by = -1; by <= 1; by += 2) {
+                    at[a] = stay + by * step;
+                    double away = square(place, at), cost = aim.worth * rate[by + 1];
+                    if ((away > reach && away > far) || cost >= best) continue;
+                    double turned = bent_by(&fan, a, (float)by);
+                    if (cost + turned < best) best = cost + turned, then = turned, pick = by;
                 }
-                if (cost < best) best = cost, pick = tried.code[i];
+                at[a] = stay + pick * step;
+                if (!pick) continue;
+                any = true, now = then, places.data[3 * (int64_t)v + a] += pick;
+                for (int i = 0; i < 3; i++)
+                    for (int k = 0; k < fan.padded; k++) fan.normal[i][k] += (float)pick * fan.turn[a][i][k];
+                for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++)
+                    bends.data[3 * (int64_t)(members.data[i] >> 1) + a] += members.data[i] & 1 ? -pick : pick;
             }
-            if (pick == 13) continue;
-            int by[3] = {pick % 3 - 1, pick / 3 % 3 - 1, pick / 9 - 1};
-            for (int a = 0; a < 3; a++) at[a] += step * by[a], places.data[3 * (int64_t)v + a] += by[a];
-            for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++)
-                for (int a = 0; a < 3; a++)
-                    bends.data[3 * (int64_t)(members.data[i] >> 1) + a] += (members.data[i] & 1 ? -1 : 1) * by[a];
-            moves++;
-            open_around(&wanted, v, open);
+            if (any) {
+                moves++;
+                open_around(&wanted, v, open);
+            }
         }
     return moves;
 }
@@ -348,11 +300,11 @@ INLINE int wrong_around(const Edges *edges, const double *positions, int32_t v, 
  * than there were. `moved` is kept in step. No vertex ends up farther from its place than its `reach`, unless it was.
  * `flaps` as in `shape_grid`; `wrong` is scratch. Returns how often one moved. */
 KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
-                             ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most,
-                             Creases creases, Bytes wrong, Bytes open) {
+                             ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Bytes wrong,
+                             Bytes open) {
     if (!fits(&wanted, moved, levels, open) || levels.columns != 3 || directions.columns != 9
         || reach.size != levels.rows || (directions.rows != levels.rows && directions.rows != 1) || flaps.columns != 4
-        || starts.size != levels.rows + 1 || wrong.size != flaps.rows || !fits_creases(&creases, levels.rows))
+        || starts.size != levels.rows + 1 || wrong.size != flaps.rows)
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
     Edges edges = {flaps, starts, members, {wrong.data, wrong.size}};
@@ -385,7 +337,7 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
             double *at = moved.data + 3 * (int64_t)v;
             gather(&wanted, now_at, v, &fan);
             int folds = wrong_around(&edges, moved.data, v, at);
-            bool any = folds > 0, hangs = creases.starts.data[v + 1] > creases.starts.data[v];
+            bool any = folds > 0;
             for (int k = 0; k < fan.count; k++) any |= is_over(fan.normal[0][k], fan.normal[1][k], fan.normal[2][k]);
             if (!any) continue;
             const double *direction = directions.data + (directions.rows == 1 ? 0 : 9 * (int64_t)v);
@@ -407,9 +359,6 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
                     if (then >= best) continue;
                     int wrong_then = wrong_around(&edges, moved.data, v, there);
                     then += over * wrong_then;
-                    for (int a = 0; a < 3; a++) at[a] = there[a];
-                    if (hangs) then += wrong_creases(&creases, moved.data, v);
-                    for (int a = 0; a < 3; a++) at[a] = stay[a];
                     if (then >= best) continue;
                     best = then, folds = wrong_then;
                     for (int a = 0; a < 3; a++) pick[a] = move[a];

@@ -15,13 +15,9 @@ from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.metrics import LOST, Original
-from bsm.codec.static.choice.settling import PULL, Creases, creases_of
+from bsm.codec.static.choice.settling import PULL
 
-SAMPLE = 1 << 11  # flaps, faces and edges that the character of a surface is measured on
-SHARP = 0.4  # of the mean angle between faces beside each other: with a median below it, a surface has sharp edges
-UNEVEN = 0.33
-"""Of this mean, a third quartile below which nearly all of it is flat; of the mean area of a face, a median below which
-a few faces are most of the surface."""
+SAMPLE = 1 << 11  # faces and edges that the character of a surface is measured on
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
 
@@ -29,9 +25,8 @@ RATES = np.log1p(np.arange(4096.0))
 class Character:
     """Measures of a surface."""
 
-    def __init__(self, original: Original, flaps: Indices) -> None:
+    def __init__(self, original: Original) -> None:
         self._original = original
-        self._flaps = flaps[:: max(1, len(flaps) // SAMPLE)]
         self._low: Matrix = box_around(original.positions)[0]
 
     @cached_property
@@ -62,20 +57,6 @@ class Character:
         return step
 
     @cached_property
-    def is_sharp(self) -> bool:
-        """Whether the surface is flat nearly everywhere, and bent at few edges: as models are, and scans are not."""
-        return bool(len(self._dihedrals) == 0 or np.median(self._dihedrals) < SHARP * self._dihedrals.mean())
-
-    @cached_property
-    def is_model(self) -> bool:
-        """Whether it is sharp and no scan at all: nearly all flat, or most of it a few large faces."""
-        if not self.is_sharp or len(self._dihedrals) == 0:
-            return False
-        weights = self._original.weights
-        flat = np.quantile(self._dihedrals, 0.75) < UNEVEN * self._dihedrals.mean()
-        return bool(flat or np.median(weights) < UNEVEN * weights.mean())
-
-    @cached_property
     def _faces(self) -> tuple[Matrix, Indices, Matrix, Matrix]:
         """Faces, drawn by their weight: corners from the lower corner of the mesh on, and what goes with these."""
         original = self._original
@@ -85,15 +66,6 @@ class Character:
         corners = original.positions[original.faces[chosen]].reshape(-1, 3) - self._low
         faces = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
         return corners, faces, original.normals[chosen], np.full(count, 1.0 / count)
-
-    @cached_property
-    def _dihedrals(self) -> Matrix:
-        """Angles between faces beside each other, of some flaps."""
-        some = self._original.positions[self._flaps]
-        edge = some[:, 1] - some[:, 0]
-        first, second = np.cross(edge, some[:, 2] - some[:, 0]), np.cross(some[:, 3] - some[:, 0], edge)
-        across = np.cross(first, second)
-        return np.asarray(np.arctan2(np.sqrt((across * across).sum(axis=1)), (first * second).sum(axis=1)))
 
 
 class Aim(NamedTuple):
@@ -120,7 +92,7 @@ class Shaper:
 
     @cached_property
     def character(self) -> Character:
-        return Character(self._original, self._flaps[0])
+        return Character(self._original)
 
     def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
         """Levels along fixed directions."""
@@ -138,15 +110,15 @@ class Shaper:
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
         moved = np.ascontiguousarray(chosen * step + origin)
         _kernels.shape_grid(
-            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members, bends, RATES, 2,
-            self._creases, self._open,
+            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members, bends, RATES,
+            self._open,
         )  # fmt: skip
         return chosen
 
     def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
         """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: few are folded."""
         chosen, most = np.array(levels, np.int32, order="C"), self.most_folded - self.folded(self._original.positions)
-        given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most, self._creases
+        given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most
         wrong = np.empty(len(self._flaps[0]), np.uint8)
         return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong, self._open) else None
 
@@ -161,10 +133,6 @@ class Shaper:
 
     def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
         return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps
-
-    @cached_property
-    def _creases(self) -> Creases:
-        return creases_of(self._original.positions, self._original.faces)
 
     @cached_property
     def _flaps(self) -> tuple[Indices, Indices, Indices]:

@@ -42,12 +42,6 @@ def test_a_step_bends_as_much_as_it_should() -> None:
         assert Original(mesh.positions, mesh.faces).angle(places) == pytest.approx(angle, rel=0.15)
 
 
-def test_kinds_of_surfaces_differ() -> None:
-    assert character_of(box(64, 20)).is_model
-    assert not character_of(torus(60, 40)).is_sharp
-    assert not character_of(curved(patch(40, 40))).is_model
-
-
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
 def test_the_grid_that_a_model_was_made_on_is_found(preset: str) -> None:
     mesh = box(255, 24)

@@ -58,8 +58,8 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, lis
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(list(everything(*_asked(mesh, options))))):
 
-        def size(search: Search, bounds: Bounds, look: float, alone: int = alone) -> Iterator[Way]:
-            yield from (way for number, way in enumerate(everything(search, bounds, look)) if number == alone)
+        def size(search: Search, bounds: Bounds, alone: int = alone) -> Iterator[Way]:
+            yield from (way for number, way in enumerate(everything(search, bounds)) if number == alone)
 
         monkeypatch.setattr(Search, "_ways", size)
         found.append(Encoder(mesh, options).draft().size)
@@ -67,11 +67,11 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, lis
     return found[0], found[1:]
 
 
-def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, float]:
+def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds]:
     encoder, contract = Encoder(mesh, options), options.promise
     assert contract is not None
     search = encoder._input.search(contract, None)
-    return search, Bounds(search._measures, contract), contract.look
+    return search, Bounds(search._measures, contract)
 
 
 @pytest.mark.parametrize(("mesh", "rough"), [(torus(40, 24), 0.0), (patch(24, 24), 0.002)], ids=["torus", "patch"])
