@@ -1,4 +1,4 @@
-"""How much alike two meshes look: a distance, up to 1 they look the same on a screen (`spec/look.md`)."""
+"""The look distance of two meshes: at 1 they look the same on a screen (`spec/look.md`)."""
 
 from __future__ import annotations
 
@@ -57,7 +57,8 @@ class Look:
     Attributes
     ----------
     distance : float
-        0: the pictures are equal; up to 1: the meshes look the same. Steps twice as wide about double it.
+        The look distance. 0: the pictures are equal; 1: the meshes look the same at a glance. Steps twice as wide
+        about double it.
     unlike : float
         Root mean square difference of shades, which counts less where shades vary; mean over all sides.
     gone : float

@@ -637,7 +637,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
 
 
 def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
-    """Compare two meshes in pictures; up to a distance of 1 they look the same. Their faces may differ.
+    """Measure the look distance of two meshes; at 1 they look the same in smooth shading. Their faces may differ.
 
     Parameters
     ----------
@@ -649,7 +649,7 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     Returns
     -------
     Look
-        `distance` and its parts: `unlike` (mean difference of shades) and `gone` (largest difference).
+        `distance`, the look distance, and its parts: `unlike` (mean difference of shades) and `gone` (the largest).
 
     Raises
     ------

@@ -84,7 +84,7 @@ class BSM_OT_export(bpy.types.Operator, ExportHelper):
         default=0.0,
         min=0.0,
         soft_max=3.0,
-        description="How far it may look from the original; the same up to 1; 0 is what the preset promises",
+        description="Largest look distance from the original; at 1, both look the same; 0: the preset's promise",
     )
 
     @classmethod

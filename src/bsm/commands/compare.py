@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--permutation", metavar="FILE.npy", help="the file that encode wrote: vertex p[j] of A is vertex j of B")
     surface = "for meshes, also print the mean normal difference, the rms error in mean edges, the Hausdorff distance"
     add("--surface", action="store_true", help=surface)
-    alike = "also measure the look distance; up to 1, both look the same in smooth shading. The faces may differ. "
+    alike = "also measure the look distance; at 1, both look the same in smooth shading. The faces may differ. "
     add("--look", action="store_true", help=f"{alike}A sequence is compared frame by frame")
     drawn = "draw both and their difference, from the side where it is largest (implies --look); for sequences, "
     add("--picture", metavar="FILE.png", help=f"{drawn}a curve of the error of each frame")
@@ -76,13 +76,13 @@ EXPLAINED = {
     "hausdorff": "largest distance between the surfaces",
     "surface_distance": "mean distance between the surfaces",
     "hausdorff_relative": "the largest, as a fraction of the diagonal",
-    "look": "look distance; up to 1, both look the same in smooth shading",
+    "look": "look distance; at 1, both look the same in smooth shading",
     "look_flat": "the same in flat shading",
     "look_checker": "the same with the texture coordinates of a checkerboard",
     "look_colors": "the same in vertex colors",
     "kg": "error of Karni and Gotsman, percent",
     "flicker": "error of accelerations, percent of the accelerations of the original",
-    "look_worst": "look distance of the worst frame; up to 1, both look the same in smooth shading",
+    "look_worst": "look distance of the worst frame; at 1, both look the same in smooth shading",
     "look_mean": "mean look distance",
     "unlike_worst": "largest mean difference of shades of a frame",
     "bpvf_total": "bits per vertex and frame of the whole file",
@@ -119,7 +119,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         except MeshError:
             if seen is None:
                 raise
-            console.note("the meshes have different faces: only their look is compared")
+            console.note("the meshes have different faces: only their look distance is measured")
             compared = {}
     attributes = compared.pop("attributes", {})
     if args.json:
@@ -338,7 +338,7 @@ def _of_frames(original: Positions, decoded: Positions) -> list[dict[str, float]
 
 
 def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
-    """How frames look, the worst and the mean of those of which something is seen; see `codec.look`."""
+    """Return the look distances of the worst frame and the mean of all visible frames; see `codec.look`."""
     from bsm.codec.look.measure import LookMetric
 
     found = []

@@ -76,7 +76,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
     add("--for", dest="goal", choices=GOALS, default=GOALS[0], help=goal)
     add("--strength", type=float, default=1.0, metavar="S", help="fraction of every movement, 0 to 1 (default 1)")
-    add("--look", action="store_true", help="print how far the result looks from the input, as bsm compare --look does")
+    add("--look", action="store_true", help="print the look distance between the input and the result")
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "Without these options, bsm chooses everything by the noise of the mesh, or of the first frame.\n"
@@ -167,7 +167,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     more: dict[str, Any] = {"moved": {"vertices": touched, "mean": mean, "farthest": farthest}}
     if args.look:
         seen = look(mesh, moved)
-        console.note(f"looks      {seen.distance:.2g} from the input (the same up to 1)")
+        console.note(f"look       {seen.distance:.2g} from the input (at 1, both look the same)")
         more["look"] = asdict(seen)
     if same:
         file = copied(args.input, mesh, args.output)
@@ -190,7 +190,7 @@ def _denoise_sequence(
     from bsm.codec.denoise import FrameDenoiser
 
     if args.look:
-        raise OptionError("--look compares single meshes; leave it out for a sequence")
+        raise OptionError("--look is for single meshes; leave it out for a sequence")
     first = next(source.frames)
     begin = time.perf_counter()
     denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, strength=args.strength, force=args.force)

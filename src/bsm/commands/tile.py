@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--format", choices=("ply", "stl", "npz", "obj"), help="format of the input (default: by its name or content)")
     largest = "largest number of triangles of a tile (default 2^19)"
     add("--triangles", type=int, default=1 << 19, metavar="N", help=largest)
-    cell = "cell of the grid of all tiles (default: a power of two, chosen by the look)"
+    cell = "cell of the grid of all tiles (default: a power of two, by the look distance)"
     add("--grid-cell", type=float, metavar="H", help=cell)
     add("--grid-origin", type=numbers(3), metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
     add("--finest", action="store_true", help="write only the finest level")

@@ -74,9 +74,9 @@ export function factsOf({ layers, main, facts }: Content, length: number, frames
     const { look, farthest, theta, seconds, promised = {}, draco } = facts;
     const looks = look === undefined ? "" : promised.look ? `look ${look.toFixed(2)} of ${promised.look}` : `look ${look.toFixed(2)}`;
     const rows: Row[] = [];
-    if (look !== undefined) rows.push(["Look", looks.slice(5), promised.look ? "promised; up to 1 it looks alike" : "up to 1 it looks alike"]);
-    if (farthest !== undefined) rows.push(["Farthest vertex", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
-    if (theta !== undefined) rows.push(["Normals", `${theta.toFixed(1)}°`, "off on average"]);
+    if (look !== undefined) rows.push(["Look distance", looks.slice(5), `${promised.look ? "promised; " : ""}at 1, both look the same`]);
+    if (farthest !== undefined) rows.push(["Vertex error", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
+    if (theta !== undefined) rows.push(["Normal error", `${theta.toFixed(1)}°`, "on average"]);
     if (draco) rows.push(["Draco at this look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
     if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
     if (took !== undefined) rows.push(["Decoded here in", spent(took)]);
