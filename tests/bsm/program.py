@@ -1,6 +1,7 @@
 """The program: in this process, or as a user runs it, in one of its own."""
 
 import io
+import json
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
@@ -32,3 +33,10 @@ def process(*arguments, **keywords):
     """The same in a process of its own."""
     words = [sys.executable, "-m", "bsm", *map(str, arguments)]
     return subprocess.run(words, capture_output=True, timeout=120, cwd=ROOT, check=False, **keywords)
+
+
+def run_json(*arguments):
+    """The JSON that a command prints, which ends well."""
+    done = bsm(*arguments, "--json")
+    assert done.returncode == 0, done.stderr.decode()
+    return json.loads(done.stdout)

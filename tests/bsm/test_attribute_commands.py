@@ -1,7 +1,6 @@
 """Whole assets through `bsm encode`, `decode`, `info` and `compare`: what they had comes back."""
 
 import base64
-import json
 
 import numpy as np
 import pytest
@@ -11,6 +10,7 @@ from bsm import Attribute, TriangleMesh
 from bsm.cli import main
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.files.test_file_attributes import attribute, dressed, png
+from tests.bsm.program import run_json
 from tests.bsm.test_libraries import painted
 from tests.shapes import tetrahedron, torus
 
@@ -18,17 +18,12 @@ GRID = ("--grid", "12")
 """Of tests that are about what goes along with the shape."""
 
 
-def run_json(capsys, *words):
-    assert main([*map(str, words), "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
-
-
 def notes(capsys, *words):
     assert main([*map(str, words)]) == 0
     return capsys.readouterr().err
 
 
-def test_everything_comes_back(tmp_path, capsys):
+def test_everything_comes_back(tmp_path):
     write_mesh(tmp_path / "a.obj", painted())
     (tmp_path / "a.npz").write_bytes(b"")
     bsm.save(painted(), tmp_path / "a.npz")
@@ -37,7 +32,7 @@ def test_everything_comes_back(tmp_path, capsys):
         assert main([*map(str, words), "--meta", "author=me=you", "--meta", "name="]) == 0
         for target in ("b.obj", "b.ply", "b.npz"):
             assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-fq"]) == 0
-            errors = run_json(capsys, "compare", tmp_path / source, tmp_path / target)["attributes"]
+            errors = run_json("compare", tmp_path / source, tmp_path / target)["attributes"]
             assert errors["texcoord"]["max_error"] < 2e-4
             if source == "a.npz":
                 assert (errors["label"] is None) == (target == "b.obj")
@@ -47,13 +42,13 @@ def test_everything_comes_back(tmp_path, capsys):
             assert metadata["image.0.data"] == png()
 
 
-def test_python_compares_as_the_command_does(tmp_path, capsys):
+def test_python_compares_as_the_command_does(tmp_path):
     bsm.save(painted(), tmp_path / "a.npz")
     bsm.save(painted(), tmp_path / "a.bsm", attributes={"label": "none"}, grid=12)
     bsm.save(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.ply")
     for other in ("a.bsm", "b.ply"):
         found = bsm.compare(tmp_path / "a.npz", tmp_path / other)
-        result = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / other)
+        result = run_json("compare", tmp_path / "a.npz", tmp_path / other)
         assert found.max_error_relative == result["max_error_relative"] > 0
         assert found.attributes["label"] is result["attributes"]["label"] is None
         assert 0 < found.attributes["texcoord"].max_error == result["attributes"]["texcoord"]["max_error"] < 2e-4
@@ -62,7 +57,7 @@ def test_python_compares_as_the_command_does(tmp_path, capsys):
 
 def test_info_shows_metadata(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994}, grid=12)
-    info = run_json(capsys, "info", tmp_path / "a.bsm")
+    info = run_json("info", tmp_path / "a.bsm")
     entries = info["metadata"]
     assert info["bytes"]["metadata"] > len(png()) and info["bytes"]["framing"] < 250
     assert (entries["name"], entries["year"], base64.b64decode(entries["image.0.data"])) == ("ring", 1994, png())
@@ -87,12 +82,12 @@ def test_metadata_that_say_nothing(tmp_path, text, capsys):
     assert "--meta takes NAME=TEXT" in capsys.readouterr().err
 
 
-def test_metadata_of_a_sequence(tmp_path, capsys):
+def test_metadata_of_a_sequence(tmp_path):
     mesh = torus(12, 9)
     np.savez(tmp_path / "s.npz", positions=np.array([mesh.positions] * 3), faces=mesh.faces)
     words = ("encode", tmp_path / "s.npz", "-o", tmp_path / "s.bsm", "-q", "--meta", "name=Ring", "--set", "step=0.01")
     assert main([*map(str, words)]) == 0
-    assert run_json(capsys, "info", tmp_path / "s.bsm")["metadata"] == {"name": "Ring"}
+    assert run_json("info", tmp_path / "s.bsm")["metadata"] == {"name": "Ring"}
     with bsm.SequenceDecoder() as decoder:
         decoder.receive_data(bsm.encode_sequence([mesh.positions] * 2, mesh.faces, metadata={"a": 1}, step=0.01))
         while not isinstance(decoder.next_event(), bsm.Signal):
@@ -104,7 +99,7 @@ def test_what_a_format_cannot_hold_is_reported(tmp_path, capsys):
     bsm.save(dressed(), tmp_path / "a.bsm", grid=12)
     printed = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
     assert "off cannot hold" in printed and all(name in printed for name in ("texcoord", "height", "label", "material"))
-    assert run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
+    assert run_json("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
 
 
 def test_a_part_of_a_stream_has_metadata_and_says_which_values_it_has_not(tmp_path, capsys):
@@ -126,7 +121,7 @@ def test_an_undamaged_stream_has_computed_normals_where_damage_is_tolerated(tmp_
     assert np.array_equal(found.values, expected.values)
 
 
-def test_what_lies_beside_is_not_overwritten_unasked(tmp_path, capsys):
+def test_what_lies_beside_is_not_overwritten_unasked(tmp_path):
     bsm.save(painted(), tmp_path / "a.bsm", grid=12)
     (tmp_path / "a.0.png").write_bytes(b"mine")
     assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "a.obj")]) != 0
@@ -158,7 +153,7 @@ def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     mesh = dressed()
     write_mesh(tmp_path / "a.npz", mesh)
     write_mesh(tmp_path / "b.off", mesh)
-    errors = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / "b.off")["attributes"]
+    errors = run_json("compare", tmp_path / "a.npz", tmp_path / "b.off")["attributes"]
     assert errors["texcoord"] is None and errors["color"]["max_error"] == 0 and errors["normal"]["max_angle_deg"] == 0
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "b.off")]) == 0
     assert "texcoord: missing\n" in capsys.readouterr().out
@@ -175,7 +170,7 @@ def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
         ("Duck.glb", {"normal": 4.0, "texcoord": 1.5e-3}),
     ],
 )
-def test_real_assets(meshes, name, bounds, tmp_path, capsys):
+def test_real_assets(meshes, name, bounds, tmp_path):
     """With the default preset: positions within 1 % of the diagonal, attributes within what the encoder says."""
     if name.endswith(".glb"):
         pytest.importorskip("trimesh")
@@ -185,7 +180,7 @@ def test_real_assets(meshes, name, bounds, tmp_path, capsys):
     for target in ("a.bsm", "b.ply", "b.npz"):
         if target != "a.bsm":
             assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-q"]) == 0
-        found = run_json(capsys, "compare", source, tmp_path / target)
+        found = run_json("compare", source, tmp_path / target)
         assert found["max_error_relative"] <= 0.01
         assert set(found["attributes"]) == set(bounds)
         for attribute_name, bound in bounds.items():

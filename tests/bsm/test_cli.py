@@ -1,6 +1,5 @@
 """The command line: words that a user types, and their results."""
 
-import json
 import subprocess
 import sys
 from dataclasses import MISSING, fields
@@ -14,7 +13,7 @@ from bsm.commands.flags import ENCODE_FLAGS, SETTINGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
-from tests.bsm.program import ROOT, bsm, process
+from tests.bsm.program import ROOT, bsm, process, run_json
 from tests.shapes import torus
 
 SMALL = ["--set", "block-size=150", "--threads", "1", "--set", "step=0.004"]
@@ -32,12 +31,6 @@ def folder(tmp_path_factory, mesh):
     write_mesh(folder / "sample.ply", mesh)
     assert main(["encode", str(folder / "sample.ply"), "-q", "--permutation", str(folder / "order.npy"), *SMALL]) == 0
     return folder
-
-
-def run_json(capsys, *arguments):
-    """Run in this process; the JSON it prints."""
-    assert main([*map(str, arguments), "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
 
 
 # ------------------------------------------------------------------------------------------------------- round trips
@@ -59,7 +52,7 @@ def test_encode_and_decode_name_their_outputs(folder, tmp_path, capsys):
 
 
 def test_info_adds_up(folder, capsys, mesh):
-    info = run_json(capsys, "info", folder / "sample.bsm")
+    info = run_json("info", folder / "sample.bsm")
     assert (info["vertices"], info["faces"]) == (len(mesh.positions), len(mesh.faces))
     assert len(info["coefficients"]) == info["blocks"] > 1
     sizes = info["bytes"]
@@ -87,36 +80,36 @@ def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, e
     assert expected in text and absent not in text
 
 
-def test_the_papers_rate_counts_every_coefficient(folder, tmp_path, capsys):
+def test_the_papers_rate_counts_every_coefficient(folder, tmp_path):
     options = ["--set", "bits=12", "--set", "coefficients=15", *SMALL]
     main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options])
-    info = run_json(capsys, "info", tmp_path / "a.bsm")
+    info = run_json("info", tmp_path / "a.bsm")
     assert info["coefficients"] == [15] * info["blocks"]
     assert info["bpv_paper"] == pytest.approx(3 * 12 * 15 * info["blocks"] / info["vertices"])
 
 
-def test_compare_takes_streams_files_and_permutations(folder, tmp_path, capsys, mesh):
-    stream = run_json(capsys, "compare", folder / "sample.ply", folder / "sample.bsm")
+def test_compare_takes_streams_files_and_permutations(folder, tmp_path, mesh):
+    stream = run_json("compare", folder / "sample.ply", folder / "sample.bsm")
     main(["decode", str(folder / "sample.bsm"), "-q", "-o", str(tmp_path / "a.npz")])
-    file = run_json(capsys, "compare", folder / "sample.ply", tmp_path / "a.npz")
+    file = run_json("compare", folder / "sample.ply", tmp_path / "a.npz")
     assert file == stream
     order = ["--permutation", str(folder / "order.npy")]
-    assert run_json(capsys, "compare", folder / "sample.ply", folder / "sample.bsm", *order) == stream
+    assert run_json("compare", folder / "sample.ply", folder / "sample.bsm", *order) == stream
     main(["decode", str(folder / "sample.bsm"), "-q", "-o", str(tmp_path / "b.npz"), *order])
     ordered = read_mesh(tmp_path / "b.npz").mesh
     distance = np.linalg.norm(ordered.positions - mesh.positions, axis=1)
     assert distance.max() == pytest.approx(stream["max_error"], rel=1e-5)
     assert stream["max_error_relative"] < 0.05
-    same = run_json(capsys, "compare", folder / "sample.ply", folder / "sample.ply")
+    same = run_json("compare", folder / "sample.ply", folder / "sample.ply")
     assert same["rms"] == same["theta_deg"] == 0
     assert same["nmsve_db"] is None
 
 
-def test_some_blocks_are_a_part_of_the_mesh(folder, tmp_path, capsys):
-    blocks = run_json(capsys, "info", folder / "sample.bsm")["blocks"]
-    whole = run_json(capsys, "decode", folder / "sample.bsm", "-o", tmp_path / "all.ply")
+def test_some_blocks_are_a_part_of_the_mesh(folder, tmp_path):
+    blocks = run_json("info", folder / "sample.bsm")["blocks"]
+    whole = run_json("decode", folder / "sample.bsm", "-o", tmp_path / "all.ply")
     faces = [
-        run_json(capsys, "decode", folder / "sample.bsm", "-o", tmp_path / f"{count}.ply", "--blocks", count)["faces"]
+        run_json("decode", folder / "sample.bsm", "-o", tmp_path / f"{count}.ply", "--blocks", count)["faces"]
         for count in range(1, blocks + 2)
     ]
     assert faces == sorted(faces)
@@ -142,10 +135,10 @@ def test_pipes(folder, mesh):
     assert b"[" not in decoded.stderr, "no progress bar without a terminal"
 
 
-def test_the_demo_draws_a_picture_without_a_library(tmp_path, capsys, monkeypatch):
+def test_the_demo_draws_a_picture_without_a_library(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     folder = tmp_path / "new" / "folder"
-    result = run_json(capsys, "demo", "-o", folder, "--vertices", "900")
+    result = run_json("demo", "-o", folder, "--vertices", "900")
     assert {Path(path).name for path in result["written"]} == {"bsm_demo.bsm", "bsm_demo.png"}
     assert (folder / "bsm_demo.png").read_bytes().startswith(b"\x89PNG")
     assert main(["verify", str(folder / "bsm_demo.bsm"), "-q"]) == 0

@@ -36,17 +36,6 @@ def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
     assert "\nb: forged" not in printed.out + printed.err
 
 
-def test_a_terminal_that_does_not_know_its_size_shows_what_goes_on():
-    pty = pytest.importorskip("pty")
-    pytest.importorskip("tqdm")
-    ours, theirs = pty.openpty()
-    work = "import time; from bsm.console import Console\nwith Console().progress('encoding'): time.sleep(1.2)"
-    subprocess.run([sys.executable, "-c", work], stderr=theirs, check=True)
-    os.close(theirs)
-    assert b"encoding: 00:0" in os.read(ours, 1 << 12)
-    os.close(ours)
-
-
 def test_time_is_reported_where_nothing_else_is():
     """From the first second on, and with what is left from when a share was known."""
     pty = pytest.importorskip("pty")

@@ -30,7 +30,6 @@ from bsm.evaluation.curve import (
     table,
 )
 from bsm.files.mesh import write_mesh
-from bsm.options import encode_options
 from tests.shapes import patch, torus
 
 POINT_KEYS = {
@@ -121,11 +120,6 @@ class TestCodecs:
         with pytest.raises(MeshError, match="different triangles"):
             align(flipped)
 
-    def test_settings_tell_what_differs_from_the_defaults(self):
-        step = EncodeOptions().first_step
-        assert Spectral(encode_options(power=4, threads=1)).settings == {"step": step, "power": 4, "threads": 1}
-        assert Spectral(encode_options(bits=9)).settings == {"bits": 9}
-
 
 class TestResults:
     def test_schema(self):
@@ -141,11 +135,6 @@ class TestResults:
         coarse, fine = result["points"]
         assert coarse["bytes"]["total"] < fine["bytes"]["total"]
         assert coarse["nmsve_db"] > fine["nmsve_db"]
-
-    def test_isolated_vertices_are_left_out(self):
-        mesh = patch(20, 25)
-        padded = TriangleMesh(np.concatenate([mesh.positions, [[9.0, 9, 9]]]), mesh.faces)
-        assert run_curve(tiny_curve(), padded, "patch")["mesh"]["vertices"] == 500
 
     def test_another_schema_is_refused(self, tmp_path):
         (tmp_path / "a.b.json").write_text('{"schema": 0}')

@@ -474,7 +474,7 @@ def test_whatever_a_tree_holds_is_an_error_of_ours(tmp_path):
     tried = refused = 0
     path = tmp_path / "wrong.glb"
     for number, place in enumerate(placed(tree)):
-        for value in WRONG[number % 8 :: 8]:
+        for value in WRONG[number % 16 :: 16]:
             wrong = copy.deepcopy(tree)
             node = wrong
             for key in place[:-1]:
@@ -488,7 +488,7 @@ def test_whatever_a_tree_holds_is_an_error_of_ours(tmp_path):
                 compress(document, {"grid": 4, "quick": True})
             except bsm.BsmError:
                 refused += 1
-    assert tried > 300 and refused > tried / 5
+    assert tried > 150 and refused > tried / 5
 
 
 def test_bytes_that_are_used_again_and_again_are_counted(tmp_path):

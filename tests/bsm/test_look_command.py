@@ -1,6 +1,5 @@
 """`bsm.look` and `bsm compare --look`: the same answer, pictures on request, and sentences where there is none."""
 
-import json
 import sys
 
 import numpy as np
@@ -10,6 +9,7 @@ import bsm
 from bsm.cli import main
 from bsm.codec.look.measure import LookMetric
 from bsm.files.mesh import read_mesh
+from tests.bsm.program import run_json
 from tests.shapes import tetrahedron, torus
 
 
@@ -22,15 +22,9 @@ def files(tmp_path):
     return tmp_path
 
 
-def run_json(capsys, *words):
-    capsys.readouterr()
-    assert main(["compare", *map(str, words), "--json", "-q"]) == 0
-    return json.loads(capsys.readouterr().out)
-
-
 def test_the_command_says_what_python_says(files, capsys):
     seen = bsm.look(files / "a.ply", files / "b.bsm")
-    found = run_json(capsys, files / "a.ply", files / "b.bsm", "--look")
+    found = run_json("compare", files / "a.ply", files / "b.bsm", "--look")
     original, decoded = (read_mesh(files / "a.ply").mesh, bsm.decode(files / "b.bsm"))
     assert found["look"] == {
         "distance": seen.distance,
@@ -40,7 +34,7 @@ def test_the_command_says_what_python_says(files, capsys):
     }
     assert seen.distance > 0
     assert found["theta_deg"] <= 4
-    assert "look" not in run_json(capsys, files / "a.ply", files / "b.bsm")
+    assert "look" not in run_json("compare", files / "a.ply", files / "b.bsm")
     assert main(["compare", str(files / "a.ply"), str(files / "b.bsm"), "--look"]) == 0
     assert (found["folded_before"], found["folded_after"]) == (0, 0)
     lines = capsys.readouterr().out.splitlines()[-2:]
@@ -48,17 +42,17 @@ def test_the_command_says_what_python_says(files, capsys):
     assert lines[1].startswith("look_flat          ")
 
 
-def test_meshes_of_other_faces_are_looked_at(files, capsys):
-    found = run_json(capsys, files / "a.ply", files / "other.off", "--look")
+def test_meshes_of_other_faces_are_looked_at(files):
+    found = run_json("compare", files / "a.ply", files / "other.off", "--look")
     assert list(found) == ["look"]
     assert found["look"]["distance"] > 1
     assert main(["compare", str(files / "a.ply"), str(files / "other.off")]) == 3
 
 
-def test_a_picture_shows_both_and_the_difference(files, capsys):
+def test_a_picture_shows_both_and_the_difference(files):
     image = pytest.importorskip("PIL.Image")
     target = files / "seen.png"
-    run_json(capsys, files / "a.ply", files / "b.bsm", "--picture", target)
+    run_json("compare", files / "a.ply", files / "b.bsm", "--picture", target)
     with image.open(target) as picture:
         assert picture.size == (3 * 512, 512)
         shades = np.asarray(picture)
@@ -103,5 +97,5 @@ def test_triangles_without_area_and_vertices_at_one_place_are_counted_beyond_the
     assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply"), "-q"]) == 0
     line = capsys.readouterr().out.splitlines()[0]
     assert line.endswith("; 2 triangles flattened by rounding; 1 vertex merged by rounding")
-    found = run_json(capsys, tmp_path / "a.ply", tmp_path / "b.ply")
+    found = run_json("compare", tmp_path / "a.ply", tmp_path / "b.ply")
     assert (found["flattened"], found["merged"]) == (2, 1)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.evaluation.sample import knot
-from bsm.pictures import bounds_of, render, view_matrix
+from bsm.pictures import render, view_matrix
 
 
 def test_the_sample_is_a_closed_oriented_torus():
@@ -16,11 +16,6 @@ def test_the_sample_is_a_closed_oriented_torus():
     corners = mesh.positions[mesh.faces]
     volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
     assert volume > 0, "the faces look outwards"
-
-
-def test_the_sample_is_the_same_every_time():
-    assert np.array_equal(knot(500).positions, knot(500).positions)
-    assert not np.array_equal(knot(500, seed=2).positions, knot(500).positions)
 
 
 def test_the_nearest_face_is_drawn():
@@ -35,12 +30,3 @@ def test_the_nearest_face_is_drawn():
         assert blue > 0.3
         assert red == green == 0
     assert image[0, 0] == pytest.approx([1, 1, 1])
-
-
-def test_bounds_hold_the_mesh():
-    mesh = knot(500)
-    image = render(mesh.positions, mesh.faces, 64)
-    frame = np.concatenate([image[0], image[-1], image[:, 0], image[:, -1]])
-    assert (frame == 1).all()
-    assert (image < 1).any(axis=2).mean() > 0.2
-    assert bounds_of(mesh.positions)[1] > 0

@@ -13,6 +13,7 @@ from bsm.files.formats.npz import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Loops, Wanted
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from tests.bsm.program import run_json
 from tests.motion import bending
 from tests.shapes import torus
 
@@ -33,30 +34,24 @@ def bsm(*words):
     return main([str(word) for word in words])
 
 
-def result(capsys, *words):
-    capsys.readouterr()
-    assert bsm(*words, "--json") == 0
-    return json.loads(capsys.readouterr().out)
-
-
 @pytest.mark.parametrize("kind", ["npz", "npy", "obj", "ply"])
-def test_there_and_back_in_every_form(npz, tmp_path, capsys, kind):
+def test_there_and_back_in_every_form(npz, tmp_path, kind):
     stream, back = tmp_path / "a.bsm", tmp_path / (f"back.{kind}" if kind in ("npz", "npy") else "back")
-    encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4, *QUICK)
+    encoded = run_json("encode", npz, "-o", stream, "--gop", 4, *QUICK)
     assert encoded["frames"] == FRAMES and encoded["bytes"] == stream.stat().st_size
-    decoded = result(capsys, "decode", stream, "-o", back, *([] if back.suffix else ["--format", kind]))
+    decoded = run_json("decode", stream, "-o", back, *([] if back.suffix else ["--format", kind]))
     assert decoded["frames"] == FRAMES
-    direct, through = result(capsys, "compare", npz, stream), result(capsys, "compare", npz, back)
+    direct, through = run_json("compare", npz, stream), run_json("compare", npz, back)
     assert through["kg"] == pytest.approx(direct["kg"], rel=1e-4) and 0 < direct["kg"] < 1
     assert direct["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
     # What was decoded is a sequence again.
-    assert result(capsys, "encode", back, "-o", tmp_path / "again.bsm", *QUICK)["frames"] == FRAMES
+    assert run_json("encode", back, "-o", tmp_path / "again.bsm", *QUICK)["frames"] == FRAMES
 
 
 def test_info_and_verify(npz, tmp_path, capsys):
     stream = tmp_path / "a.bsm"
-    encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25, "--preset", "near-lossless")
-    info = result(capsys, "info", stream)
+    encoded = run_json("encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25, "--preset", "near-lossless")
+    info = run_json("info", stream)
     assert info["frames"] == FRAMES and info["metadata"]["frame_rate"] == 25
     lengths = [gop["frames"] for gop in info["gops"]]
     assert max(lengths) <= 4 and sum(lengths) == FRAMES
@@ -71,7 +66,7 @@ def test_info_and_verify(npz, tmp_path, capsys):
     assert bsm("verify", stream) != 0
 
 
-def test_some_frames_only(npz, tmp_path, capsys):
+def test_some_frames_only(npz, tmp_path):
     stream, whole, part = tmp_path / "a.bsm", tmp_path / "whole.npz", tmp_path / "part.npz"
     assert bsm("encode", npz, "-o", stream, "--gop", 2, *QUICK) == 0
     assert bsm("decode", stream, "-o", whole) == 0
@@ -85,7 +80,7 @@ def test_some_frames_only(npz, tmp_path, capsys):
 def test_tolerant_decoding_names_what_is_lost(npz, tmp_path, capsys):
     stream, part = tmp_path / "a.bsm", tmp_path / "part.npz"
     assert bsm("encode", npz, "-o", stream, "--gop", 2, *QUICK) == 0
-    gop = next(gop for gop in result(capsys, "info", stream)["gops"] if gop["first"] == 2)
+    gop = next(gop for gop in run_json("info", stream)["gops"] if gop["first"] == 2)
     broken = bytearray(stream.read_bytes())
     broken[gop["offset"] + 20] ^= 1
     stream.write_bytes(broken)
@@ -204,13 +199,13 @@ def test_a_field_that_is_not_finite_is_refused_with_its_frame(tmp_path, capsys):
     assert not (tmp_path / "x.bsm").exists()
 
 
-def test_permutation_restores_the_order(npz, tmp_path, capsys):
+def test_permutation_restores_the_order(npz, tmp_path):
     stream, order, back = (tmp_path / name for name in ("a.bsm", "order.npy", "back.npz"))
     assert bsm("encode", npz, "-o", stream, "--permutation", order, *QUICK) == 0
     assert bsm("decode", stream, "-o", back, "--permutation", order) == 0
     original, decoded = np.load(npz), np.load(back)
     assert np.abs(original["positions"] - decoded["positions"]).max() < 0.04
-    assert result(capsys, "compare", npz, stream, "--permutation", order)["kg"] < 1
+    assert run_json("compare", npz, stream, "--permutation", order)["kg"] < 1
 
 
 @pytest.mark.parametrize("more", [(), ("-q",)], ids=["loud", "quiet"])
@@ -367,7 +362,7 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
         == 0
     )
     assert "heat" in capsys.readouterr().err
-    assert result(capsys, "info", tmp_path / "ply.bsm")["attributes"][0]["name"] == "color"
+    assert run_json("info", tmp_path / "ply.bsm")["attributes"][0]["name"] == "color"
 
 
 def descriptions_of(frames):

@@ -9,11 +9,7 @@ import pytest
 from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, decode, encode
 from bsm._engine import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
-from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.threads import ordered_map
 from bsm.options import encode_options
 from tests.shapes import patch
@@ -59,23 +55,6 @@ def test_threads_change_neither_bytes_nor_positions(start):
     once = decode(data, threads=1).positions
     for threads in (2, 7):
         assert np.array_equal(decode(data, threads=threads).positions, once)
-
-
-def test_dictionaries_are_computed_without_the_interpreter_lock():
-    """While one thread is inside the kernel, another one gets on in Python."""
-    mesh = patch(45, 45)
-    graph = graph_of_faces(mesh.faces, 2025)
-    factor = factorize(laplacian_of(grow_blocks(graph, derive_partition(graph, 1), 2025).block(0)), 0.1)
-    start = first_columns(2025, 200, noisy=False)
-    orthogonal_iteration(factor, start[:, :2].copy(), power=1, iterations=1)
-    running = threading.Thread(target=orthogonal_iteration, args=(factor, start), kwargs={"power": 9, "iterations": 4})
-    running.start()
-    steps = 0
-    while running.is_alive():
-        steps += 1
-        time.sleep(0.0005)
-    running.join()
-    assert steps > 3
 
 
 def test_threads_that_share_a_decoder_take_turns():

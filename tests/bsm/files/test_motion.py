@@ -30,6 +30,7 @@ from bsm.files.motion.frames import Shared, Wanted, painted_like
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
 from bsm.gltf.write import _Scene
+from tests.bsm.test_gltf import glb
 from tests.motion import animators_own, bending
 from tests.shapes import torus
 
@@ -627,13 +628,6 @@ def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
 # ---------------------------------------------------------------------------------------------------------------- glTF
 
 
-def glb_of(tree, binary=b""):
-    text = json.dumps(tree).encode()
-    text += b" " * (-len(text) % 4)
-    chunk = struct.pack("<II", len(binary), 0x004E4942) + binary
-    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(chunk), len(text), 0x4E4F534A) + text + chunk
-
-
 def parsed(data):
     size = int.from_bytes(data[12:16], "little")
     return json.loads(data[20 : 20 + size]), data[28 + size :]
@@ -651,27 +645,30 @@ def test_what_is_no_moving_gltf(tmp_path, capsys):
     assert frames_of(MOVING / "skinned.glb", animation="ArmatureAction")[0].count == 25
 
 
+HOSTILE = (-1, 1 << 40, 2.5, "x", None, [], {}, [[]])
+
+
 def test_hostile_gltf_gives_errors_of_ours(tmp_path):
     """Whatever stands anywhere in the tree; and bytes that are not there."""
     tree, binary = parsed((MOVING / "skinned.glb").read_bytes())
     path = tmp_path / "a.glb"
     refused = 0
-    for place in list(leaves(tree)):
-        for wrong in (-1, 1 << 40, 2.5, "x", None, [], {}, [[]]):
+    for number, place in enumerate(leaves(json.loads(json.dumps(tree)))):
+        for wrong in HOSTILE[number % 3 :: 3]:
             spoiled = json.loads(json.dumps(tree))
             where = spoiled
             for key in place[:-1]:
                 where = where[key]
             where[place[-1]] = wrong
-            path.write_bytes(glb_of(spoiled, binary))
+            path.write_bytes(glb(spoiled, binary))
             try:
                 for _, frame in zip(range(2), read_gltf(str(path), Wanted()).frames):
                     assert np.isfinite(frame).all()
             except BsmError:
                 refused += 1
-    assert refused > 300
+    assert refused > 100
     for size in range(0, len(binary), 997):
-        path.write_bytes(glb_of(tree, binary[:size]))
+        path.write_bytes(glb(tree, binary[:size]))
         with pytest.raises(TruncatedError):
             frames_of(path)
     whole = (MOVING / "skinned.glb").read_bytes()
@@ -692,7 +689,7 @@ def leaves(tree, place=()):
 def test_a_node_below_itself_ends(tmp_path):
     tree, binary = parsed((MOVING / "morphing.glb").read_bytes())
     tree["nodes"][0]["children"] = [0]
-    (tmp_path / "a.glb").write_bytes(glb_of(tree, binary))
+    (tmp_path / "a.glb").write_bytes(glb(tree, binary))
     with pytest.raises(FormatError, match="two places"):
         frames_of(tmp_path / "a.glb")
 
@@ -701,17 +698,17 @@ def test_bytes_that_are_used_many_times_are_bounded(tmp_path):
     tree, binary = parsed((MOVING / "morphing.glb").read_bytes())
     moving = next(node for node in tree["nodes"] if "mesh" in node)
     many = json.loads(json.dumps(tree))
-    many["nodes"] += [moving] * 200_000
+    many["nodes"] += [moving] * 2000
     many["scenes"][0]["nodes"] = list(range(len(many["nodes"])))
-    (tmp_path / "a.glb").write_bytes(glb_of(many, binary))
+    (tmp_path / "a.glb").write_bytes(glb(many, binary))
     with pytest.raises(LimitError, match="vertices"):
-        frames_of(tmp_path / "a.glb")
+        open_sequence(str(tmp_path / "a.glb"), limits=Limits(vertices=100_000), wanted=Wanted())
     zeros = json.loads(json.dumps(tree))
     zeros["accessors"].append({"componentType": 5126, "type": "VEC3", "count": 1 << 23})
     primitive = zeros["meshes"][0]["primitives"][0]
     primitive["attributes"]["POSITION"] = len(zeros["accessors"]) - 1
     primitive["targets"] = [{"POSITION": len(zeros["accessors"]) - 1}] * 50
-    (tmp_path / "a.glb").write_bytes(glb_of(zeros, binary))
+    (tmp_path / "a.glb").write_bytes(glb(zeros, binary))
     with pytest.raises(LimitError, match=r"meshes of this glTF"):
         frames_of(tmp_path / "a.glb")
 

@@ -12,7 +12,6 @@ from bsm import (
     FrameEvent,
     HeaderEvent,
     LossEvent,
-    MeshError,
     OptionError,
     SequenceDecoder,
     SequenceEncoder,
@@ -101,26 +100,6 @@ def test_a_promise_holds_in_every_run():
     for error, frame in zip(errors, frames, strict=True):
         first = next(mesh for mesh in frames if len(mesh.positions) == len(frame.positions))
         assert error <= 0.004 * np.linalg.norm(np.ptp(first.positions, axis=0))
-
-
-def test_decoding_begins_at_any_frame():
-    data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
-    whole = frames_in(moving_events_of(data))
-    for start in (3, 5, 9, 14):
-        some = frames_in(moving_events_of(data, start=start))
-        assert list(some) == list(range(start, 15))
-        assert all(np.array_equal(some[k].positions, whole[k].positions) for k in some)
-
-
-def test_faces_may_not_change_unless_that_is_asked_for():
-    frames = meshes((10, 3), (7, 2))
-    with pytest.raises(MeshError, match="frame 3 has other faces than the one before: 42 vertices where there were 60"):
-        encoded(frames, runs=False)
-    with pytest.raises(MeshError, match="--runs"):
-        encoded(frames, runs=False)
-    flipped = [frames[0], replace(frames[1], faces=frames[1].faces[:, [1, 2, 0]])]
-    with pytest.raises(MeshError, match=r"frame 1 .* face 0 is"):
-        encoded(flipped, runs=False)
 
 
 def test_a_target_is_for_frames_that_share_their_faces():

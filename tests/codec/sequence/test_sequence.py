@@ -7,10 +7,8 @@ from bsm import (
     END_OF_STREAM,
     NEED_DATA,
     BsmError,
-    ConnectivityEvent,
     CorruptError,
     EndEvent,
-    HeaderEvent,
     LimitError,
     Limits,
     LossEvent,
@@ -73,21 +71,6 @@ def test_rigid_motion_costs_little_more_than_its_basis():
     static = len(encoded(positions[:1], faces)[0])
     assert compare_sequences(original, decode_sequence(data)[0], faces).kg < 0.2
     assert len(data) - static < 40 * 12 * 3  # 12 numbers move it, and a frame of it alone takes a thousand bytes
-
-
-@pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("pieces", [1, 7, 1000])
-def test_events_do_not_depend_on_how_bytes_are_cut(way, pieces):
-    positions, faces = bending(11)
-    data, _ = encoded(positions, faces, step=0.01, **way)
-    whole = moving_events_of(data)
-    assert [type(event) for event in whole[:2]] == [HeaderEvent, ConnectivityEvent]
-    assert isinstance(whole[-1], EndEvent)
-    assert [event.index for event in whole[2:-1]] == list(range(11))
-    cut = moving_events_of(data, [data[i : i + pieces] for i in range(0, len(data), pieces)])
-    assert [type(event) for event in cut] == [type(event) for event in whole]
-    for a, b in zip(whole[2:-1], cut[2:-1], strict=True):
-        assert np.array_equal(a.positions, b.positions)
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -222,15 +205,6 @@ def test_the_beginning_must_be_whole():
         broken[offset] ^= 0xFF
         with pytest.raises(BsmError):
             moving_events_of(bytes(broken), tolerant=True)
-
-
-@pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("start", [0, 3, 8, 13, 19, 20, 99])
-def test_seeking(way, start):
-    positions, faces = bending(20)
-    data, _ = encoded(positions, faces, **way)
-    found = frames_in(moving_events_of(data, start=start))
-    assert_same(found, decode_sequence(data)[0], set(range(start, 20)))
 
 
 def test_a_frame_of_another_shape_or_not_finite_is_named():

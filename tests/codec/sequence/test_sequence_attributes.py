@@ -7,7 +7,6 @@ from bsm import (
     END_OF_STREAM,
     Attribute,
     AttributeEvent,
-    BsmError,
     FrameEvent,
     LossEvent,
     OptionError,
@@ -17,9 +16,7 @@ from bsm import (
     decode_sequence,
 )
 from bsm.api import encode_sequence
-from bsm.bitstream.container import packets
 from tests.shapes import torus
-from tests.streams import packets_of, without
 
 MESH = torus(24, 16)
 FRAMES = np.array([MESH.positions * [1, 1, 1 + 0.1 * k] for k in range(6)])
@@ -58,27 +55,6 @@ def test_they_come_back_before_the_second_frame():
     assert np.abs(found["uv"].values[found["uv"].indices] - wanted).max() <= 0.51 * np.ptp(wanted) / 4095
     positions, faces = decode_sequence(stream)
     assert positions.shape == FRAMES.shape and (faces == MESH.faces).all()
-
-
-def test_they_cost_once():
-    bare = [len(encode_sequence(FRAMES[:count], MESH.faces, SequenceOptions())) for count in (3, 6)]
-    full = [
-        len(encode_sequence(FRAMES[:count], MESH.faces, SequenceOptions(), mesh_attributes=with_attributes()))
-        for count in (3, 6)
-    ]
-    assert abs((full[0] - bare[0]) - (full[1] - bare[1])) <= 4
-
-
-def test_what_is_lost_of_one_spoils_none_before_it():
-    stream = encode_sequence(FRAMES, MESH.faces, SequenceOptions(), mesh_attributes=with_attributes())
-    values = [packet for packet, *_ in packets_of(stream) if isinstance(packet, packets.Values)]
-    for which, packet in enumerate(values):
-        broken = without(stream, packets.Values, which, "changed")
-        found, frames, losses, _ = decoded(broken, tolerant=True)
-        assert frames == 6 and losses == 1
-        assert set(found) == {attribute.name for attribute in with_attributes()[: packet.attribute]}
-        with pytest.raises(BsmError):
-            decoded(broken)
 
 
 def test_normals_cannot_be_recomputed():

@@ -63,13 +63,6 @@ def test_the_faces_come_back_under_the_new_numbers():
     assert np.logical_or.reduce([(t == expected).all(axis=1) for t in turned]).all()
 
 
-def test_quality_follows_the_step_and_the_number_of_coefficients():
-    mesh = torus()
-    coarse = round_trip(mesh, **{**SMALL, "step": 0.01})[2]
-    fine = round_trip(mesh, **{**SMALL, "step": 0.0005, "keep": 0.8})[2]
-    assert fine.rms < coarse.rms / 3 and fine.theta_deg < coarse.theta_deg / 2
-
-
 def test_a_step_finer_than_levels_can_hold_is_refused():
     with pytest.raises(OptionError):
         encode(torus(), EncodeOptions(**{**SMALL, "step": 1e-8}))

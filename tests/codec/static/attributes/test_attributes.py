@@ -330,27 +330,6 @@ def test_what_makes_no_sense_is_refused(asked, error):
         encode(dressed(torus()), replace(QUICK, attributes=asked))
 
 
-def test_values_come_as_events():
-    mesh = dressed(torus())
-    stream = encode(mesh, replace(QUICK, keep_order=True))
-    whole = {attribute.name: attribute for attribute in decode(stream).attributes}
-    seen: dict[str, np.ndarray] = {}
-    with Decoder() as decoder:
-        decoder.receive_data(stream)
-        decoder.receive_eof()
-        while not isinstance(event := decoder.next_event(), EndEvent):
-            if isinstance(event, AttributeEvent):
-                rows = seen.setdefault(event.name, np.full_like(whole[event.name].values, 77))
-                rows[event.rows] = event.values
-                assert event.domain == whole[event.name].domain
-                if event.domain == "corner":
-                    assert (event.indices == whole[event.name].indices).all()
-        assert dict(decoder.metadata) == dict(mesh.metadata)
-    assert {name: values.tobytes() for name, values in seen.items()} == {
-        name: attribute.values.tobytes() for name, attribute in whole.items()
-    }
-
-
 def of_kind(stream: bytes, kind: type) -> list[Any]:
     return [packet for packet, *_ in packets_of(stream) if isinstance(packet, kind)]
 
