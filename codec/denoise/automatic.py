@@ -1,4 +1,4 @@
-"""Denoising that chooses its own settings, and leaves alone what it cannot improve."""
+"""Denoising that chooses its own settings, and does not change meshes that it cannot improve."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ alone is up to an eighth better, for normals and vertices."""
 LARGE, MOST_LARGE_MEMBERS = 100_000, 2  # from LARGE vertices on a blend has fewer members, to save time
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 HARMFUL = 0.95
-"""Where the error that is expected of the result exceeds this multiple of what it changes, nothing is handed out:
+"""If the expected error of the result exceeds this multiple of the change, the mesh is not changed:
 normals turned by less than their estimated error are no closer to the clean ones. Noise reads 0.15 to 0.7, the clean
 meshes that were taken for noisy 1.1 and 2.1."""
 DETAIL = 1.65
@@ -128,8 +128,8 @@ class AutomaticChoice:
     def seen(
         self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology
     ) -> AutomaticChoice:
-        """The choice with the angles of the whole mesh: what is not done of the full treatment is left, of its faults
-        that share is there."""
+        """Return the choice with the angles of the whole mesh: a partial treatment leaves the rest of the noise, and
+        has that share of the faults."""
         assert self.forecast is not None
         ends = (face_geometry(positions, topology.faces).normals for positions in (full, result))
         undone = np.degrees(2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(np.subtract(*ends), axis=1), 1.0)))
@@ -211,7 +211,7 @@ def choose(
         reason = f"{reason}, but any filter would cost more than it gains"
     elif expected > HARMFUL * rehearsal.changed(steps, share):
         steps, expected = (), untreated
-        reason = f"{reason}, but the result is expected to be as far off as what it changes"
+        reason = f"{reason}, but the expected error of the result is as large as the change"
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     choice = AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
@@ -253,8 +253,8 @@ def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tupl
 def treat(
     choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient, strength: float = 1.0
 ) -> tuple[Positions, AutomaticChoice]:
-    """Do to `noisy`, shape (n, 3), what was chosen, where there is noise and as far as the result may stand; and say
-    what of the choice was done, and what to expect if vertices go but a part of the way, `strength`."""
+    """Apply the choice to `noisy`, shape (n, 3), where there is noise and as far as the safety checks allow; return
+    the applied part of the choice, and the expected error if vertices move by a fraction, `strength`."""
     if not choice.steps:
         return noisy, choice
     patient.view, patient.bound = finding.view, finding.bound

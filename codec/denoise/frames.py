@@ -38,7 +38,7 @@ CHANGING = "noise that changes with the frames"
 
 
 class FrameDenoiser:
-    """Denoises frames that share their faces; what depends on the faces alone is computed once."""
+    """Denoises frames that share their faces; everything that depends only on the faces is computed once."""
 
     def __init__(
         self,

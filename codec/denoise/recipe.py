@@ -1,4 +1,4 @@
-"""Recipes, which can be run on any mesh: what the coarse mesh hands over, then iterations of a filter of normals."""
+"""Recipes for any mesh: the hand-over of the coarse mesh, then iterations of a filter of normals."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -103,7 +103,7 @@ class DenoiseOptions:
 
 @dataclass(frozen=True)
 class Recipe:
-    """What is done to the noisy mesh; how often the filter is repeated is not part of it."""
+    """The treatment of the noisy mesh, without the number of iterations."""
 
     hand_over: str
     keep: float
@@ -158,7 +158,7 @@ class Treatments:
         return learnt(self.noisy, self._topology)
 
     def mean(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
-        """The mean of what the steps make, shape (n, 3), with `share` of the learnt normals; any thread may ask."""
+        """Return the mean result of the steps, shape (n, 3), with `share` of the learnt normals; thread-safe."""
         for step in steps:
             if step not in self._results:
                 self._results[step] = next(islice(self.iterates(step.recipe), step.iterations, None))

@@ -29,7 +29,7 @@ MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
 PATIENCE = 3  # iterations behind the best one that are looked at
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01
-"""Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
+"""Members join while the error stays below this multiple: several recipes miss less detail than the guess."""
 LEARNT_SHARES = (0.0, 0.2, 0.4)
 """Of the learnt normals in the mean with those of the recipes; more of them costs up to two thirds on dodecahedra where
 it gains a fifteenth on a scan, and alone they are worse on half of the meshes tried."""
@@ -39,11 +39,11 @@ DISCREPANCY, MOST_DISCREPANT, DISCREPANCY_PASSES = 2.2, 60, 8
 """Noise of fused views is this much stronger than its fine level (a discrepancy principle, Morozov 1966): a guess that
 has lost less still has such noise, which looks like shape."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
-"""What is lost of a guess's roughness (a logarithm, within bounds), and how much more has been lost of the mesh."""
+"""The loss of a guess's roughness (a logarithm, within bounds), and the further loss of the mesh."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
 UNSURE, LEAST = {"correlated": 0.87, "grid": 0.87, "axis": 0.7, "impulses": 0.87}, 0.87
-"""Kinds whose rehearsal does not show whether anything is lost, as none does on few vertices; and the least that comes
-there, of what is expected."""
+"""Kinds whose rehearsal does not show losses, as none does on few vertices; and the least share of the expected noise
+that is found there."""
 MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
 OF_MIRRORED = 0.78  # share of a rehearsed error that comes, of mirrored noise: it has the guess's own mistakes
@@ -54,7 +54,7 @@ Progress = Callable[[str, float], None]
 
 
 def silent(stage: str, share: float) -> None:
-    """Nobody wants to know."""
+    """Not requested."""
 
 
 def shape(reference: Reference, positions: Positions) -> float:
@@ -87,7 +87,7 @@ def discrepant(
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Steps, the error of their mean in a rehearsal, and what it made of the noisy mesh there."""
+    """Steps, the error of their mean in a rehearsal, and its result for the noisy mesh there."""
 
     steps: tuple[Step, ...]
     error: float
@@ -155,8 +155,8 @@ class Rehearsal:
         return LEARNT_SHARES[best], float(errors[best]) / (winner.error or 1.0)
 
     def forecast(self, winner: Outcome, share: float, gain: float) -> Forecast:
-        """Angles to expect on the mesh that is rehearsed for. What is lost of the guess has been lost of the mesh, too:
-        the guess is what was left of it."""
+        """Angles to expect on the mesh of the rehearsal. The loss of the guess is also a loss of the mesh: the guess is
+        the mesh after it."""
         result = winner.result
         if share > 0.0:
             result = self._within(joined(result, self._treatments.learnt, share, self._topology), self.noisy)

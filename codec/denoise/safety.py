@@ -1,7 +1,7 @@
-"""Whether a result may stand: judged by what is known without the clean mesh.
+"""Checks of a result without the clean mesh.
 
-What was taken away has to be noise. So it is compared, window by window, with the noise that the finest frequencies
-of the input show there: where more has gone than was noise, shape has gone with it.
+Only noise may be removed. So the removed part is compared, window by window, with the noise that the finest frequencies
+of the input show there: where more than the noise is removed, shape is lost.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
 """Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
 NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.92, 5.0, 0.4
-"""Movement over noise where there is no detail; what is left undone for each unit more; and at most."""
+"""Movement over noise where there is no detail; the reduction for each unit more; and the largest reduction."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
@@ -40,7 +40,7 @@ class Verdict:
 
 
 def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> Verdict:
-    """Compare what was removed with what there was to remove."""
+    """Compare the removed part with the noise."""
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
     if finding.kind in ("cells", "steps"):

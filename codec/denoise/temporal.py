@@ -21,7 +21,7 @@ FEWEST_FRAMES = 8
 
 @dataclass(frozen=True, eq=False)
 class Steadied:
-    """Frames after the filter, and what it has to say about the noise."""
+    """Frames after the filter, and its estimate of the noise."""
 
     frames: Frames
     deviation: float

@@ -32,7 +32,7 @@ LARGEST = 1e100
 
 
 def beyond_one(first: Values) -> Matrix:
-    """What the values of the first frame, shape (n, d), have beyond those of vertex 0, which may be large."""
+    """Differences of the first frame's values, shape (n, d), from those of vertex 0, which may be large."""
     wide = first.astype(np.float64)
     return np.asarray(wide - wide[:1])
 
@@ -86,7 +86,7 @@ class Bound:
 
     @property
     def of_first(self) -> Quality:
-        """What is asked of the first frame, which all others differ from."""
+        """The quality of the first frame, from which all others are coded as differences."""
         assert self.amount is not None
         amount = self.amount if self._is_rms else FIRST_FRAME * self.amount
         return Quality("bound", amount) if amount > 0.0 else Quality("exact")
@@ -115,7 +115,7 @@ class Bound:
         return off if math.isfinite(off) else math.inf
 
     def between(self, decoded: Matrix, given: Matrix) -> float:
-        """How far decoded values, shape (k, c), are off the given ones, as a share of what is allowed."""
+        """Return the error of decoded values, shape (k, c), as a share of the bound."""
         apart = np.abs(decoded - given)
         most = float(apart.max(initial=0.0))
         if self._is_rms:
@@ -168,13 +168,13 @@ class MovingAttributeEncoder:
 
     @property
     def note(self) -> str:
-        """What has become of it."""
+        """The outcome."""
         if self.bound.amount is None:
             return self._carried.note
         return f"{self.name}: per vertex, moves, {self.bound} in every frame"
 
     def expected(self, values: Values) -> Expected:
-        """What a decoder must have in a frame whose values, shape (n, d), these are."""
+        """Return the values that a decoder must have for a frame of these values, shape (n, d)."""
         return Expected(self.number, self.first if self.bound.amount is None else values, self.bound)
 
     def begin(self, positions: GopEncoder, setting: Setting, number: int) -> None:
@@ -223,7 +223,7 @@ class MovingAttributeEncoder:
         return TargetError(f"{self.name!r} moves, and cannot be kept {self.bound}: {why}")
 
     def _attempt(self, encoder: GopEncoder, body: GopBody, values: Values) -> tuple[GopField, list[Matrix]]:
-        """A field, and what a decoder makes of it: the changes of each frame, shape (n, d)."""
+        """A field, and its decoded form: the changes of each frame, shape (n, d)."""
         wanted = values.astype(np.float64) - self.first
         try:
             if not body.method.has_basis:

@@ -26,7 +26,7 @@ class Part:
 
     @property
     def vertices(self) -> Indices:
-        """Vertex of the mesh behind each row, shape (n_i,)."""
+        """Vertex of the mesh for each row, shape (n_i,)."""
         return self.held.laplacian.block.vertices
 
     @property
@@ -53,7 +53,7 @@ class Part:
         return project(self.basis, values - self._extended(ends), self.width)
 
     def difference(self, wanted: Matrix, field: Matrix) -> Matrix:
-        """Coefficients, shape (c_i, m), of what a field is wanted to be here less what the parts before let expect."""
+        """Coefficients, shape (c_i, m), of a field less its prediction from the parts before."""
         return self.coefficients(wanted[self.vertices], field[self.around])
 
     def place(self, field: Matrix, difference: Matrix) -> None:
@@ -61,7 +61,7 @@ class Part:
         field[self.vertices] = reconstruct(self.basis, difference) + self._extended(field[self.around])
 
     def _extended(self, ends: Matrix) -> Matrix:
-        """Rows, shape (n_i, m), that continue a field, of which `ends`, shape (k_i, m), is what it is around."""
+        """Rows, shape (n_i, m), that continue a field from its values `ends`, shape (k_i, m), around the part."""
         return continued(self.factor, self.held.springs, self.held.pulls(ends))
 
 

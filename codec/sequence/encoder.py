@@ -151,7 +151,7 @@ class SequenceEncoder:
         Raises
         ------
         MeshError
-            If a frame is not finite or has another shape or other faces than the first, or there is no frame.
+            If a frame is not finite or has another shape or other faces than the first, or the sequence is empty.
         """
         if self.options.target is None:
             yield from self._chunks(frames, self.options, progress)
@@ -177,17 +177,17 @@ class SequenceEncoder:
         """
         target = self.options.target
         if target is None:
-            raise OptionError("there is no target to search for")
+            raise OptionError("no target to search for")
         finest = finest_step([_positions(frame) for frame in frames], self.options)
         first, rise = self.options.step, RISES.get(target.kind, 1.0)
         return search_step(lambda step: self.attempt(frames, step, progress), target, first, finest, rise)
 
     def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
-        """Encode frames, each of shape (n, 3), or meshes, with a given step, and see what the decoder will."""
+        """Encode frames, each of shape (n, 3), or meshes, with a given step, and compare the decoded ones."""
         shown: list[Positions] = []
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, shown))
         if len(self.run_starts) > 1:
-            raise MeshError("the faces change: there is no target for this")
+            raise MeshError("the faces change: targets need equal faces")
         decoded = np.array(shown)
         original = np.array([_positions(frame)[self.vertex_order] for frame in frames])
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, self._verifier.faces))
@@ -332,7 +332,7 @@ class SequenceEncoder:
     def _opened(
         self, run: JoinedRun, index: int, prepared: Prepared, first: FirstFrame, carried: tuple[PreparedAttribute, ...]
     ) -> Iterator[packets.Packet]:
-        """What comes before the GOPs of a run with a mesh of its own."""
+        """Return the sections before the GOPs of a run with its own mesh."""
         notes = (attribute.note for attribute in carried if not attribute.declaration.moves)
         order = (f"the order of vertices and faces takes {len(turn.data)} of the bytes" for turn in prepared.order)
         self.losses = tuple(dict.fromkeys((*self.losses, *run.joined.losses)))
@@ -345,7 +345,7 @@ class SequenceEncoder:
 
 @dataclass(frozen=True, eq=False)
 class OpenedMesh:
-    """A mesh that a run has had: the run that brought it, what was coded of it last, and what encodes what moves."""
+    """A mesh of earlier runs: the run that brought it, its last coded state, and the encoder of its motion."""
 
     run: int
     prepared: Prepared
@@ -363,7 +363,7 @@ class Meshes:
         self._known: dict[bytes, tuple[int, TriangleMesh]] = {}  # the run that brought a mesh, and that, by its faces
 
     def find(self, begun: JoinedRun) -> OpenedMesh | None:
-        """What is kept of the mesh of a run that begins; None: it is to be sent."""
+        """Return the kept mesh of a run that begins; None: the mesh must be sent."""
         run, before = self._known.get(_digest(begun), (-1, begun.given))
         opened = self._opened.get(run)
         if opened is not None:

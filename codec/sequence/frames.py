@@ -1,4 +1,4 @@
-"""The frames of a GOP, and which of them come again: what loops, stands still or turns back is coded once."""
+"""The frames of a GOP, and repeated frames: loops, still and reversed motion are coded once."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from bsm.codec.static.attributes.levels import Values
 from bsm.codec.static.preamble_encoding import Prepared
 
 SAME = 1 / 64, 1 / 4
-"""How far a frame that comes again may be off, in steps: the root mean square of coordinates, and each of them."""
+"""Largest difference of a repeated frame, in steps: the root mean square of coordinates, and each of them."""
 LOOKED_AT = 32  # coordinates that most frames differ in
 
 
@@ -38,7 +38,7 @@ class Group:
 
 
 def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:
-    """The next frames, shapes (n, 3 + ...), as many as a GOP may have; none behind the last."""
+    """Return the next frames, shapes (n, 3 + ...), as many as a GOP may have; none after the last."""
     widths = [attribute.components for attribute in moving]
     ends = np.cumsum([3, *widths])[:-1]
     found: list[list[Values]] = [[] for _ in moving]

@@ -40,7 +40,7 @@ class Inherited:
 
 
 def begin_part(track: Track, before: Inherited | None, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix]:
-    """What the components of a part follow from, which are `ends`, shape (k_i, r), around it."""
+    """Return the prediction of the components of a part from `ends`, shape (k_i, r), around it."""
     known, around = track.known[block], track.around[block]
     if before is not None:
         known = np.hstack((known, before.known[block]))
@@ -68,7 +68,7 @@ class FrameHistory:
         self.levels = [np.zeros((len(matrix), self._track.width * frames), np.int32) for matrix in self._track.known]
 
     def begin(self, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix, Matrix]:
-        """What a block's change follows from, where the frames are `ends`, shape (k_i, dT), around it."""
+        """Return the prediction of a block's change from the frames `ends`, shape (k_i, dT), around it."""
         kept, base, count = [frame[block] for frame in self._kept], self.base(block), len(ends)
         ages = [min(lag, len(kept) - 1) for lag in (0, *lags(self._track.kept))]
         known = [self._track.first[block], kept[0], *(kept[late] - kept[early] for late, early in pairwise(ages))]
@@ -94,7 +94,7 @@ class FrameHistory:
         return twin
 
     def commit(self, levels: list[Levels], coded: list[Matrix]) -> None:
-        """Make frames the latest: their levels, shapes (c_i, dT), and what they are as of `base`."""
+        """Make frames the latest: their levels, shapes (c_i, dT), and their values from `base` on."""
         self.levels = levels
         spectra = [part.reshape(len(part), len(self._cosines), self._track.width) for part in coded]
         latest = self._cosines[::-1][: self._track.kept]
@@ -113,13 +113,12 @@ if TYPE_CHECKING:
 
 OVERHEAD = 14  # bytes of a GOP besides its levels, about
 LIKE = 0.5
-"""Where frames that were kept are nearer than this, in squares and times what the latest one is, those to come start
-from them."""
+"""If kept frames are nearer than this, in squares and relative to the latest one, the next frames start from them."""
 
 
 @dataclass(frozen=True, eq=False)
 class LearntGop:
-    """Frames by a basis learnt from them: a field, what it costs, components, shape (n, r), and basis, (d, T, r)."""
+    """Frames by a basis learnt from them: a field, its cost, components, shape (n, r), and basis, (d, T, r)."""
 
     field: GopField
     cost: float
@@ -127,7 +126,7 @@ class LearntGop:
     basis: Matrix
 
     def frames(self, places: Order) -> Iterator[Matrix]:
-        """What the decoder makes of some of the frames, each of shape (n, d)."""
+        """Return some of the frames as decoded, each of shape (n, d)."""
         return temporal.frames_of(self.components, 0, self.basis[:, places])
 
 
@@ -150,7 +149,7 @@ class GopEncoder:
 
     @property
     def step(self) -> float:
-        """With which the next GOP is quantized; what is set becomes a single-precision number."""
+        """The step of the next GOP; it is rounded to single precision."""
         return self._step
 
     @step.setter

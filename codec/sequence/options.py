@@ -1,4 +1,4 @@
-"""What a user may choose when encoding a sequence."""
+"""Options for encoding a sequence."""
 
 import math
 from collections.abc import Mapping
@@ -32,7 +32,7 @@ RANGES: dict[str, tuple[float, float]] = {
 
 @dataclass(frozen=True)
 class Promise:
-    """What holds in every frame, checked on what is decoded."""
+    """Bounds of every frame, checked on the decoded result."""
 
     farthest: float
     look: float = math.inf

@@ -19,7 +19,7 @@ NOISE = 30.0
 half costs 0.3 %, twice saves 0.1 %."""
 AROUND = 30.0  # as many rows the vertices around a block count for, together, before its first row
 DENSE_ROWS = 16
-"""First rows of a block, each with weights of its own; behind them the weights are renewed every `RENEWAL` rows."""
+"""First rows of a block, each with its own weights; after them the weights are renewed every `RENEWAL` rows."""
 RENEWAL = 8
 RULES = (FORGETTING, RIDGE, NOISE, AROUND, DENSE_ROWS, RENEWAL)
 LARGEST_LEVEL = (1 << 23) - 1
@@ -39,7 +39,7 @@ class Loop:
         self._moments = np.zeros((known + min(targets, leading), known + targets))
 
     def begin(self, known: Matrix, field: Matrix, step: float) -> Loop:
-        """Learn, before the first row, from vertices around: what is known there, shape (m, k), and a field, (m, r)."""
+        """Learn, before the first row, from vertices around: known values there, shape (m, k), and a field, (m, r)."""
         if known.shape != (len(field), self._known) or field.shape[1] != self._moments.shape[1] - self._known:
             raise ValueError(f"{known.shape} known and {field.shape} columns, of {self._moments.shape[1]}")
         given = np.ascontiguousarray(known), np.ascontiguousarray(field)
@@ -106,6 +106,6 @@ class LevelWriter:
         return decoded
 
     def finish(self) -> bytes:
-        """The payload; the bank is as it is behind it."""
+        """Return the payload; the bank advances past it."""
         self._bank.slots[...], self._bank.weights[...] = self._ahead.slots, self._ahead.weights
         return finish_writing(self._coder)

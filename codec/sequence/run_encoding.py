@@ -40,7 +40,7 @@ TOGETHER = 4
 FINEST_STEP = 2e-5  # below, a search does not look
 
 PASSES, LATER = (0.5, 0.0015, 0.2), 0.35
-"""Of what is left of a search, the share of its next pass, of the first less for each frame; measured."""
+"""Share of the next pass in the rest of a search, smaller by this for each frame; measured."""
 SEARCH = 0.8  # of the time of a GOP; then frames in doubt are drawn
 BASIS, LEVELS = 0.6, 0.15  # of a pass, the shares of its basis and of its levels; the rest looks at frames
 
@@ -105,7 +105,7 @@ def encode_first_frame(
 
 @dataclass(frozen=True, eq=False)
 class EncodedGops:
-    """GOPs of some frames, with the encoder behind them; `learnt` are those with a basis."""
+    """GOPs of some frames, and the encoder after them; `learnt` are those with a basis."""
 
     first_frame: FirstFrame
     encoder: GopEncoder
@@ -114,7 +114,7 @@ class EncodedGops:
 
     @property
     def decoded(self) -> Positions:
-        """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
+        """The decoded frames, shape (T, n, 3), in BSM units; not kept, because they are large."""
         if self.encoder.latest is not None:
             return self.encoder.latest
         frames = np.empty((sum(body.frames for body in self.bodies), self.first_frame.setting.vertices, 3))
@@ -123,7 +123,7 @@ class EncodedGops:
         return frames
 
     def decoded_frames(self) -> Iterator[Matrix]:
-        """What the decoder makes of each of their frames, one after the other, each of shape (n, 3)."""
+        """Yield each decoded frame, shape (n, 3)."""
         if self.encoder.latest is not None:
             yield from self.encoder.latest
         for body, gop in zip(self.bodies, self.learnt):
@@ -231,7 +231,7 @@ def _encoded(
 
 @dataclass(frozen=True, eq=False)
 class _Learnt:
-    """GOPs with a basis, and the encoder behind them."""
+    """GOPs with a basis, and the encoder after them."""
 
     bodies: tuple[GopBody, ...]
     gops: tuple[LearntGop, ...]

@@ -57,7 +57,7 @@ class Candidate(Protocol):
 
     @property
     def decoded(self) -> Positions:
-        """What the decoder makes of them, shape (T, n, 3)."""
+        """The decoded frames, shape (T, n, 3)."""
 
 
 Found = TypeVar("Found", bound=Candidate)
@@ -181,7 +181,7 @@ class StepSearch:
         self._knots = sorted({*measured.small, *measured.drawn})
 
     def _look(self, index: int, decoded: Positions, most_pixels: int = MOST_PIXELS) -> float:
-        """Share of the bound; 0 for a frame of which nothing is seen. What comes again is looked at once."""
+        """Share of the bound; 0 for an invisible frame. Repeated frames are drawn once."""
         if self._looked[0] is not decoded:
             self._looked = decoded, {}
         twin, looked = int(self._twins[index]), self._looked[1]
@@ -215,7 +215,7 @@ class StepSearch:
 
 @dataclass(eq=False)
 class Measured:
-    """What is known of the frames of one attempt, in shares of their bounds."""
+    """Measurements of the frames of one attempt, as shares of their bounds."""
 
     farthest: float
     errors: Matrix
@@ -225,7 +225,7 @@ class Measured:
 
     @property
     def coarseness(self) -> float:
-        """How far what is seen in small pictures is off, in logarithms: half of the variance from scale to scale."""
+        """Error of the look in small pictures, in logarithms: half of the variance from scale to scale."""
         apart = np.diff([self.scales[index] for index in sorted(self.scales)])
         return max(COARSENESS, math.sqrt(float(np.mean(apart**2)) / 2.0)) if len(apart) else COARSENESS
 
@@ -236,12 +236,12 @@ class Measured:
 
     @property
     def shares(self) -> Matrix:
-        """Looks of all frames, shape (T,): of those not drawn what is expected."""
+        """Looks of all frames, shape (T,): measured if drawn, else expected."""
         return self._expected(0.0)
 
     @property
     def most(self) -> Matrix:
-        """What the looks may be, shape (T,)."""
+        """Upper estimates of the looks, shape (T,)."""
         return self._expected(DEVIATIONS)
 
     def may_settle_small(self, index: int) -> bool:

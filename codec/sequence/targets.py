@@ -1,4 +1,4 @@
-"""What a sequence is to reach: the targets of static meshes, over all of its frames."""
+"""Targets of a sequence: those of static meshes, over all frames."""
 
 import math
 from collections.abc import Sequence
@@ -87,7 +87,7 @@ class SequenceTarget(Target):
     Raises
     ------
     OptionError
-        If there is no such target.
+        If the target is unknown.
 
     Examples
     --------

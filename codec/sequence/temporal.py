@@ -84,7 +84,7 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
 
 
 def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> Matrix:
-    """What is free in a basis, shape (dT, r), d being `width`, as cosines over time in steps: shape (d, T, r)."""
+    """Free parameters of a basis, shape (dT, r), d being `width`, as cosines over time in steps: shape (d, T, r)."""
     rows, components = basis.shape
     cosines = time_cosines(rows // width).T @ basis.reshape(width, rows // width, components)
     free = free_of(cosines.transpose(1, 0, 2).reshape(rows, components)) / basis_steps(exponents)
@@ -104,7 +104,7 @@ def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
 
 
 def free_of(columns: Matrix) -> Matrix:
-    """What is free in columns, shape (n, r) with r <= n: zeros above the diagonal, and nothing negative on it."""
+    """Free parameters of columns, shape (n, r) with r <= n: zeros above the diagonal, none negative on it."""
     if not columns.size:
         return columns.copy()
     packed, factors = np.linalg.qr(columns, mode="raw")  # vectors are 1 on the diagonal, where lengths stand instead
@@ -117,7 +117,7 @@ def free_of(columns: Matrix) -> Matrix:
 
 
 def columns_of(free: Matrix) -> Matrix:
-    """Columns at right angles, shape (n, r), of what is free in them; zeros are columns of nothing."""
+    """Orthogonal columns, shape (n, r), from their free parameters; zeros give zero columns."""
     columns = np.array(free, order="C")
     _kernels.turn_columns(columns, np.empty(len(free)), np.empty(free.shape[1]))
     return columns

@@ -1,4 +1,4 @@
-"""What every GOP builds upon: the dictionaries, and of each of its fields what is known before its first frame."""
+"""The base of every GOP: the dictionaries, and the known state of each field before its first frame."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ KEPT, MOST_KEPT, LEAST_KEPT = 1 << 19, 64, 2
 LAGS = (1, 2, 3, 5, 8, 13, 21, 34)
 """How far before the latest frame those lie that help to predict the next ones, of those that are kept."""
 INHERITED = 24
-"""Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
+"""Components of a GOP that those of the next one are predicted from: motion is repeated in other mixtures."""
 SPARE = 4.0 * 2**20  # bytes that decoders keep no dictionary in, though they are granted
 TRACK_MEMORY = 40.0  # bytes of a number of a vertex in the first frame of an attribute that moves
 
@@ -63,7 +63,7 @@ class Bending:
         return cls(center, float(np.sqrt(sum_in_order(x + y + z) / len(positions) + SMALLEST)))
 
     def columns(self, positions: Matrix) -> Matrix:
-        """Positions, shape (m, 3), and behind them their squares and cubes about the part: shape (m, 19)."""
+        """Positions, shape (m, 3), followed by their squares and cubes about the part: shape (m, 19)."""
         own = (positions - self.center) / self.radius
         powers = [reduce(mul, own.T[list(axes)], factor * self.radius) for factor, axes in PRODUCTS]
         return np.column_stack([positions, *powers])
@@ -101,7 +101,7 @@ class Setting:
         return sum(part.memory for part in self.parts) + tracks
 
     def memory_for(self, body: GopBody) -> float:
-        """Bytes for decoding a GOP: one part after the other with levels, coefficients, and what becomes of them."""
+        """Bytes for decoding a GOP: one part after the other with levels, coefficients, and their products."""
         largest = max(len(part.vertices) for part in self.parts)
         making = max(part.making for part in self.parts)
         return gop_memory(self.vertices, body, self.around) + 48.0 * largest * _columns(body) + making + SPARE

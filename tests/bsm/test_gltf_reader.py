@@ -265,7 +265,7 @@ def test_images_that_are_elsewhere_are_named(tmp_path):
     found = read_mesh(tmp_path / "a.glb")
     assert "the image https://example.org/a.png was left out: it lies at an address" in found.notes
     notes = " ".join(found.notes)
-    assert "the image lost.png was left out: there is no such file beside the mesh" in notes
+    assert "the image lost.png was left out: no such file beside the mesh" in notes
     assert "the image ../secret.png was left out: it is not in the folder" in notes
     assert found.mesh.metadata["material.0.name"] == "m" and "material.0.baseColorTexture" not in found.mesh.metadata
 

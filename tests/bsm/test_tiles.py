@@ -435,12 +435,7 @@ def test_damage_is_reported(folder, tmp_path, harm):
     else:
         shard.write_bytes(data[:-5] if harm == "cut" else data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :])
     done = program("verify", tmp_path, text=True)
-    message = {
-        "changed": "is not what was written",
-        "cut": "there are",
-        "missing": "No such file",
-        "index": "the index",
-    }
+    message = {"changed": "differs from the index", "cut": "there are", "missing": "No such file", "index": "the index"}
     assert done.returncode in (4, 9, 12) and message[harm] in done.stderr and "00000.tiles" in done.stderr
     expected = {"missing": FileNotFoundError, "cut": TruncatedError}.get(harm, CorruptError)
     with pytest.raises(expected):

@@ -1,1 +1,1 @@
-"""Noise: made, found, and known for what it is."""
+"""Noise: synthesis, detection, and its kinds."""

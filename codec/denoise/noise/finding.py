@@ -1,4 +1,4 @@
-"""What is known about the noise of a mesh, and the evidence that it is concluded from."""
+"""The estimated noise of a mesh, and the evidence for it."""
 
 from __future__ import annotations
 

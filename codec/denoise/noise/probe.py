@@ -81,7 +81,7 @@ SHARE, BOUND = 0.6, 0.8416
 
 
 class Probe:
-    """Measures what is noise-like on the meshes of one connectivity."""
+    """Measures noise on the meshes of one connectivity."""
 
     def __init__(self, topology: Topology) -> None:
         self.topology = topology

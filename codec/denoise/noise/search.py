@@ -1,7 +1,7 @@
 """Whether a mesh is noisy, how much, and of what kind: all of it from the mesh itself.
 
 Noise does not know the shape. So it is as strong in one place as in another (or follows the direction of the surface,
-where a camera has put it, or covers some places and leaves others alone), it goes to both sides of the surface alike,
+where a camera has put it, or covers only some places), it goes to both sides of the surface alike,
 and no value has a preference. Detail and creases are strong in some places and weak in others. Only what looks like
 noise in all these ways is taken for noise: the answer for anything else is "none", and "unknown" for small meshes.
 """
@@ -54,12 +54,12 @@ FUSED_UNEVEN, NARROWER = 0.45, 0.97
 """Fused views of a real camera: how uneven their noise may be, and how much of it broader filters may see then."""
 MARCHED = 1.06
 """Mean edge, in steps of the lattice, that marching cubes do not reach: it is .94 to .97, of regular triangles 1.14."""
-SMOOTH_VIEW = "what a camera saw, without its noise"
+SMOOTH_VIEW = "the view of a camera, without its noise"
 NEARBY = 4  # rings about a vertex that decide whether it is in or out
 ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
 """Surfaces along an axis show nothing of rounding; so much of the mesh has to lie otherwise."""
 ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
-"""Rounding that is worth a treatment, in mean edges; how much of what is expected has to be there, creases included;
+"""Rounding that is worth a treatment, in mean edges; the least share of the expected evidence, creases included;
 and the largest share of vertices with nothing of it: shapes that were drawn on a grid have many."""
 ONE_CELL = 0.9  # share of the stairs of a binary volume, from which on all its walls are one cell thick
 HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # from here on normals are taken from a smoother version
@@ -278,7 +278,7 @@ def _otsu(ordered: Floats) -> float:
 
 
 AXIS_LEVEL, AXIS_ALONE, AXIS_EVEN = 0.1, 1.25, (0.55, 1.7)
-"""Noise along an axis, in mean edges; how much stronger than across; and beside the axis over what it is at its ends:
+"""Noise along an axis, in mean edges; how much stronger than across; and its ratio beside the axis to that at its ends:
 noise along normals reads 0 to 0.8 there, triangles that are longer one way 1.8 and more."""
 AXIS_MOST = 5.0  # deviations that a vertex has been moved by at most
 SNAP = 0.995  # cosine from which on it is an axis of the coordinates

@@ -1,7 +1,7 @@
 """How strong noise is, and more of it, to rehearse with.
 
-The random-walk Laplacian, applied four times, leaves little of a surface and most of the noise. What it leaves along
-the normals and across them is compared, by medians, with what it leaves of white noise on the same mesh.
+The random-walk Laplacian, applied four times, leaves little of a surface and most of the noise. The medians of the rest
+along the normals and across them are compared with those of white noise on the same mesh.
 """
 
 import math
@@ -18,7 +18,7 @@ from bsm.codec.geometry.metrics import mean_edge_length
 
 ORDER = 4
 IRREGULARITY = 0.15
-"""What irregular triangles alone leave across the normals, in mean edges: at most about this on the meshes tried."""
+"""Largest rest across the normals due to irregular triangles, in mean edges, on the meshes tried."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +62,8 @@ def _high_pass(values: Floats, topology: Topology) -> Floats:
 
 MOST_STEPS = 12
 WINDOWED, SHARED = 12, (0.5, 0.75)
-"""Averagings that make what the pixels of a camera's window share, and how strong that is beside what they do not, of
-cameras that measure depth and of those that match windows, which are known by their steps."""
+"""Averagings that make the noise shared by the pixels of a camera's window, and its strength relative to the rest, of
+cameras that measure depth and of those that match windows, which are recognized by their steps."""
 
 FUSED = ((1.05, 2.0), (8.0, 0.9))
 """Cells of fused views' noise, in mean edges, and its strength over fine levels: the field's, and what poses share."""

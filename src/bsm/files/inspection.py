@@ -36,7 +36,7 @@ class RunInfo:
 
 @dataclass(frozen=True)
 class AttributeInfo:
-    """An attribute: what it is, how many values it has, and its bytes, seams among them."""
+    """An attribute: its declaration, number of values, and bytes including seams."""
 
     name: str
     domain: str
@@ -51,7 +51,7 @@ class AttributeInfo:
 
 @dataclass(frozen=True)
 class StreamInfo:
-    """What a stream consists of, known without decoding it; sizes in bytes."""
+    """The contents of a stream, known without decoding it; sizes in bytes."""
 
     header: Header
     metadata: dict[str, MetadataValue]
@@ -79,7 +79,7 @@ class StreamInfo:
     @property
     def bpv_paper(self) -> float:
         """3 q_c c k / n, the paper's measure: c k as the sum over the blocks, n the vertices of the mesh; q_c is as
-        declared for packed coefficients, and for others what they take on average."""
+        declared for packed coefficients, and for others their average size."""
         bits, count = self.header.constants.bits, sum(self.coefficients)
         mean = 8 * self.sizes["coefficients"] / (3 * max(1, count))
         return 3 * (bits or mean) * count / self.header.vertices

@@ -1,8 +1,8 @@
 """Mesh files: OBJ, OFF, PLY, STL, VTP and npz by our own readers and writers, everything else through trimesh.
 
-Coordinates come from the file in double precision; vertices, faces and corners keep their order; what a file holds
-beside them becomes attributes and metadata; what was changed or left out on the way is named. Files are hostile until
-they are read: what claims more than it holds is refused before anything is allocated for it.
+Coordinates are in double precision; vertices, faces and corners keep their order; all other data becomes attributes and
+metadata; notes name changes and losses. Files may be hostile: a file that declares more than it contains is refused
+before anything is allocated for it.
 """
 
 import codecs
@@ -166,7 +166,7 @@ def save_written(
     overwrite_beside: bool | None = None,
     follow: bool = True,
 ) -> tuple[str, ...]:
-    """Write a mesh file, and before it what lies beside it; returns what is left out. Beside a pipe nothing can lie."""
+    """Write the files beside a mesh file, then the file; return the losses. A pipe has no files beside it."""
     beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
     replace_beside = overwrite if overwrite_beside is None else overwrite_beside
     refuse_to_overwrite(path, overwrite)

@@ -101,7 +101,7 @@ def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool, 
 
 @contextmanager
 def _signals_wait() -> Iterator[None]:
-    """Until what is made is held by who takes it away again; the main thread handles them, whichever they reach."""
+    """Hold signals until a new file has an owner that removes it; the main thread handles them."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -125,7 +125,7 @@ def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
 
 
 def own_name(path: str) -> str:
-    """Return the name that we use: - for standard input and output, and the path behind a `file://` URL."""
+    """Return the name that we use: - for standard input and output, and the path of a `file://` URL."""
     return without_scheme_of_files(_PIPES.get(path, path))
 
 
@@ -145,7 +145,7 @@ def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
 
 
 def _identity(path: str) -> tuple[int, int] | str | None:
-    """What is equal for one file under all its names; None: there is no such file, or it is a device."""
+    """Return a key that is equal for all names of a file; None if it does not exist or is a device."""
     if is_url(path):
         return path
     with suppress(OSError):
@@ -173,7 +173,7 @@ def _ignores_case(folder: str) -> bool:
 
 
 def _temporary(target: Path) -> tuple[int, str, int | None]:
-    """A new file beside `target`, and a handle that keeps it locked; what was left by writers that died is removed."""
+    """Make a temporary file beside `target`, with a handle that locks it; remove files of writers that died."""
     pattern = f".{target.name[:200]}."
     while True:
         handle, name = tempfile.mkstemp(prefix=pattern, suffix=_TEMPORARY, dir=target.parent)
@@ -215,7 +215,7 @@ def can_be_replaced(path: str | os.PathLike[str]) -> bool:
 
 @contextmanager
 def by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Let errors about a temporary file name what is wanted; those of a full disk name none by themselves."""
+    """Make errors about a temporary file name the target; errors of a full disk name no file."""
     try:
         yield
     except OSError as error:

@@ -74,7 +74,7 @@ def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[A
 
 
 class _Part:
-    """What is known of a mesh while its blocks arrive."""
+    """The known part of a mesh while its blocks arrive."""
 
     def __init__(self) -> None:
         self._faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)

@@ -38,7 +38,7 @@ def is_url(path: str | os.PathLike[str]) -> bool:
 
 
 def without_scheme_of_files(path: str) -> str:
-    """The path behind a `file://` URL; anything else as it is."""
+    """Return the path of a `file://` URL; other names unchanged."""
     if not path.startswith("file://"):
         return path
     from urllib.request import url2pathname  # which takes with it all that speaks HTTP
@@ -66,7 +66,7 @@ def file_beside(folder: Path, name: str) -> Path:
     if not inside:
         raise errors.FormatError("it is not in the folder of the mesh")
     if not is_file:
-        raise errors.FormatError("there is no such file beside the mesh")
+        raise errors.FormatError("no such file beside the mesh")
     return path
 
 
@@ -75,7 +75,7 @@ def inside(folder: str, name: str) -> str:
 
 
 def place_of(folder: str, name: str) -> str:
-    """Return where a file of a folder or URL is; `FormatError` for a link out of the folder and for what is no file."""
+    """Return where a file of a folder or URL is; `FormatError` for a link out of the folder, or if it is not a file."""
     path = inside(folder, name)
     if is_url(folder):
         return path
@@ -85,7 +85,7 @@ def place_of(folder: str, name: str) -> str:
 
 
 def expanded(url: str) -> list[str]:
-    """What a URL with ``*`` in it names, sorted; any other as it is."""
+    """Return the names that match a URL with ``*``, sorted; other URLs unchanged."""
     if "*" not in url:
         return [url]
     with _errors_of(url):
@@ -179,7 +179,7 @@ def state_of_remote(url: str) -> RemoteState | None:
 
 
 def remove(name: str) -> None:
-    """Remove a file, or what a URL names."""
+    """Remove a local file or the file of a URL."""
     if not is_url(name):
         os.unlink(name)
         return
@@ -213,7 +213,7 @@ def _path(url: str) -> str:
 
 
 def _system(url: str) -> tuple[Any, str]:
-    """The file system of fsspec behind a URL, and the path there."""
+    """Return the fsspec file system of a URL, and the path there."""
     scheme = _scheme(url)
     fsspec = errors.imported("fsspec", f"{scheme}:// needs fsspec", "remote")
     try:
@@ -311,7 +311,7 @@ class Input:
         self._held = b"".join(pieces)
 
     def _receive(self) -> bytes:
-        """What comes next, waiting for it if need be; nothing at the end."""
+        """Return the next bytes, waiting for them; empty at the end."""
         if self._file is None:
             if os.path.isdir(self.name):
                 raise errors.FormatError("this is a folder, not a file")
@@ -399,7 +399,7 @@ State = list[object]  # name, size and version of each file, as JSON gives it ba
 
 
 def files_behind(path: str) -> Iterator[str]:
-    """The files behind an input or output: itself, or what a folder or a pattern names, in order."""
+    """Return the files of an input or output: itself, or the files of a folder or pattern, in order."""
     if is_url(path):
         yield path
     elif os.path.isdir(path):
@@ -411,7 +411,7 @@ def files_behind(path: str) -> Iterator[str]:
 
 
 def state_of(path: str) -> State | None:
-    """Sizes and times of the files behind an input or output; None if unknown."""
+    """Return sizes and times of the files of an input or output; None if unknown."""
     found: State = []
     for file in files_behind(path):
         if is_url(file):
@@ -426,7 +426,7 @@ def state_of(path: str) -> State | None:
 
 
 def size_of(path: str) -> int | None:
-    """Bytes of the files behind an input or output; None for a pipe, and where a server does not say."""
+    """Return the bytes of the files of an input or output; None for a pipe, or if a server does not tell."""
     if is_url(path):
         state = state_of_remote(path)
         return state.size if state else None

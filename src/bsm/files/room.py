@@ -1,6 +1,6 @@
-"""Tables of numbers in text, and how much memory a mesh file may take before anything is made of what it holds.
+"""Tables of numbers in text, and the memory that a mesh file may take, checked before it is read.
 
-As a stream, a file may take what limits grant for its bytes and its vertices; what it inflates to counts, too.
+Like a stream, a file may take the memory that limits grant for its bytes and vertices, inflated bytes included.
 """
 
 import io

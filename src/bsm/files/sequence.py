@@ -2,7 +2,7 @@
 
 Forms: mesh files, one for each frame, in a folder, named by a pattern (``run/*.obj``, ``run/%04d.obj``) or one by one;
 an npz with `positions` of shape (T, n, 3) and `faces`; PC2 and MDD beside a mesh; animated glTF; USD; and, for live
-pipes, npy arrays one behind the other.
+pipes, npy arrays one after the other.
 """
 
 import os

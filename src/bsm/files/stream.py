@@ -84,7 +84,7 @@ class SequenceStream:
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:
-        """What the frame that was given last carries; before the first one, as far as they have come."""
+        """Attributes of the last frame; before the first frame, those that have arrived."""
         return self._decoder.attributes if self._present is None else self._present
 
     @property

@@ -233,7 +233,7 @@ def _texel(document: gltf.Document, bundle: Bundle, name: str) -> float:
 
 
 def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int, bool] | str:
-    """An attribute as a stream carries it, and the accessor of what is decoded; or why no stream does."""
+    """Return an attribute for a stream, and the accessor of the decoded values; or why it cannot be coded."""
     is_float = array.dtype == np.float32
     if is_float and not np.isfinite(array).all():
         return f"{name} has numbers that are not finite"
@@ -404,7 +404,7 @@ def named_by_others(node: Any, *, inside: bool = False) -> set[int]:
 
 
 def _renumber(tree: Tree, kind: str, stay: set[int], before: set[int], blank: Tree) -> None:
-    """Drop the entries of a kind that were referred to `before`, and are no more; some `stay` where they are."""
+    """Drop the entries of a kind that were referenced `before` and no longer are; some `stay` in their places."""
     entries: list[Tree] = tree.get(kind, [])
     places = list(references(tree, kind))
     kept = (
@@ -659,7 +659,7 @@ class _Rewritten(gltf.Growing):
                 names.append(extension)
 
     def finished(self) -> bytes:
-        """The .glb: what was replaced is gone, images that lay beside are in it, geometry of others is plain."""
+        """Return the .glb without replaced data, with external images inside, and with plain geometry elsewhere."""
         tree = self.tree
         for number, image in enumerate(tree.get("images", [])):
             data = self._document.bytes_of_image(number) if "uri" in image else None
@@ -717,7 +717,7 @@ class _Rewritten(gltf.Growing):
                     self._moved.add(accessor["bufferView"])
 
     def _place_views(self) -> None:
-        """Drop what was replaced, and put the bytes of the others into the new buffer."""
+        """Drop replaced views, and put the bytes of the others into the new buffer."""
         views: list[Tree] = self.tree.setdefault("bufferViews", [])
         used = {holder[key] for holder, key in references(self.tree, "bufferViews")}
         for number, view in enumerate(views[: len(self._document.items("bufferViews"))]):

@@ -55,9 +55,9 @@ class Document:
         try:
             tree = json.loads(text)
         except (ValueError, RecursionError) as error:
-            raise FormatError(f"this is no glTF: {error}") from error
+            raise FormatError(f"not a glTF: {error}") from error
         if not isinstance(tree, dict) or not isinstance(tree.get("asset"), dict):
-            raise FormatError("this is no glTF: it says nothing of itself as an asset")
+            raise FormatError("not a glTF: it has no asset")
         if not str(version := tree["asset"].get("version", "2.0")).startswith("2"):
             raise FormatError(f"this is glTF {str(version)[:20]}, and only glTF 2.0 is read; convert it first")
         self.tree: Tree = tree
@@ -67,7 +67,7 @@ class Document:
 
     @property
     def received(self) -> int:
-        """Bytes of the document, and of what was read so far that lies beside it."""
+        """Bytes of the document, and of the external files read so far."""
         return self._own + sum(map(len, self._resources.values()))
 
     @property
@@ -85,7 +85,7 @@ class Document:
     def items(self, name: str) -> list[Tree]:
         found = self.tree.get(name, [])
         if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
-            raise FormatError(f"the {name} of this glTF are no list of objects")
+            raise FormatError(f"the {name} of this glTF must be a list of objects")
         return found
 
     def item(self, name: str, index: object) -> Tree:
@@ -93,7 +93,7 @@ class Document:
         if not isinstance(found, list) or not isinstance(index, int) or not 0 <= index < len(found):
             raise FormatError(f"this glTF refers to number {index!r} of {len(self.items(name))} {name}")
         if not isinstance(entry := found[index], dict):
-            raise FormatError(f"number {index} of the {name} of this glTF is no object")
+            raise FormatError(f"number {index} of the {name} of this glTF must be an object")
         return entry
 
     def primitives(self) -> Iterator[Tree]:
@@ -160,7 +160,7 @@ class Document:
         data = self.buffer(view.get("buffer"))
         start, size = _count(view, "byteOffset"), _count(view, "byteLength")
         if start + size > len(data):
-            raise TruncatedError(f"bufferView {index} of this glTF ends behind the {len(data)} bytes of its buffer")
+            raise TruncatedError(f"bufferView {index} of this glTF ends after the {len(data)} bytes of its buffer")
         return data, start, size
 
     def numbers(self, index: object, *, whole: bool = False) -> Array:
@@ -279,7 +279,7 @@ def _chunks(data: bytes) -> tuple[bytes, bytes]:
         raise TruncatedError("a GLB begins with 20 bytes; this one ends before")
     _, version, length, size, kind = struct.unpack_from("<4sIIII", data)
     if version != 2 or kind != _JSON:
-        raise FormatError(f"this is no GLB of version 2 (version {version})")
+        raise FormatError(f"not a GLB of version 2 (version {version})")
     if len(data) < max(length, 20 + size):
         raise TruncatedError(f"this GLB should have {max(length, 20 + size)} bytes, not {len(data)}")
     start = 20 + size
@@ -303,7 +303,7 @@ class Growing:
         return len(entries) - 1
 
     def append(self, data: bytes) -> int:
-        """Where bytes begin that are put behind the others."""
+        """Append bytes to the buffer; return their offset."""
         start = self.size
         self.size += len(data) + -len(data) % 4
         if self.size > _MOST_BYTES:

@@ -47,7 +47,7 @@ class Curve:
             raise FormatError("a curve has a number that is not finite")
 
     def at(self, time: float) -> Doubles:
-        """The value at a time, shape (c,); before the first key and behind the last that of those."""
+        """The value at a time, shape (c,); before the first key and after the last, that of the key."""
         late = 1e-5 if self.way == "STEP" else 0.0  # in single precision a key may lie a little behind its frame
         after = int(np.searchsorted(self.times, time + late, side="right"))
         before, after = max(after - 1, 0), min(after, len(self.times) - 1)
@@ -385,7 +385,7 @@ class Scene:
             total = weights.sum(axis=1, keepdims=True)
             weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
             if joints.size and joints.max() >= len(skin.joints):
-                raise FormatError(f"a vertex of node {node} hangs on joint {joints.max()} of {len(skin.joints)}")
+                raise FormatError(f"a vertex of node {node} depends on joint {joints.max()} of {len(skin.joints)}")
         columns = self._columns(given, count)
         normals = np.zeros((0, count, 3))
         origin: Ints | None = None
@@ -496,7 +496,7 @@ _READ = (WEBP, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, 
 
 
 def _unread(document: Document) -> tuple[str, ...]:
-    """What a document holds and a mesh does not."""
+    """Return notes on data of a document that a mesh cannot hold."""
     tree = document.tree
     names = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
     found = [names[name] for name in names if tree.get(name)]
@@ -555,10 +555,10 @@ def _chosen(document: Document, wish: str) -> tuple[int, Tree]:
     if wish in names:
         return names.index(wish), animations[names.index(wish)]
     if not wish.isdecimal() and wish:
-        raise OptionError(f"there is no animation {wish}; there are {', '.join(filter(None, names)) or len(names)}")
+        raise OptionError(f"no animation {wish}; there are {', '.join(filter(None, names)) or len(names)}")
     number = int(wish or 0)
     if number >= len(animations):
-        raise OptionError(f"there is no animation {number}; there are {len(animations)}, counted from 0")
+        raise OptionError(f"no animation {number}; there are {len(animations)}, counted from 0")
     return number, animations[number]
 
 

@@ -124,7 +124,7 @@ class _Still(_Scene):
     def _material(
         self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
     ) -> int | None:
-        """Add a material; None if glTF can express nothing of it. `written` gets the names of what it expresses."""
+        """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
         found: Tree = {}
         surface: Tree = {}
         for name, value in formats.gltf_values(words).items():
@@ -185,8 +185,8 @@ def _unit(vectors: Doubles) -> Doubles:
 def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> Iterator[FrameWriter]:
     """Write a GLB in which each frame is a morph target; yields what takes frame after frame.
 
-    Between frames the weights of two targets cross, so that what is shown is the straight line between them, of colors
-    of vertices, too. Where faces change, other meshes take the place of those before, by their scale. Nothing but the
+    Between frames the weights of two targets cross, which interpolates positions and vertex colors linearly. Where
+    faces change, other meshes replace the previous ones, by their scale. Nothing but the
     first frame of a run is kept in memory; the targets wait in a file until their number is known.
     """
     with tempfile.TemporaryFile() as spool:
@@ -223,7 +223,7 @@ class _Run:
 
 
 class _Moving(_Still):
-    """The first frame of each run as a scene, and what the others add to it."""
+    """Make a scene of the first frame of each run; return it and the additions of other frames."""
 
     def __init__(self, file: IO[bytes], first: TriangleMesh, stem: str) -> None:
         self.frames, self._runs = 0, list[_Run]()

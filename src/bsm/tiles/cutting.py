@@ -154,7 +154,7 @@ class Plan(Root):
         return code << below, (code + 1) << below
 
     def nodes(self) -> list[str]:
-        """The names of all nodes, each behind those below it, and the fullest eighths first."""
+        """Return the names of all nodes, children before parents, and the fullest eighths first."""
         faces: Counter[str] = Counter()
         for leaf, (_, count) in self.leaves.items():
             faces.update({leaf[:size]: count for size in range(1, 1 + len(leaf))})

@@ -26,7 +26,7 @@ _SUM = re.compile(r"[0-9a-f]{64}")
 
 @dataclass(frozen=True)
 class Tile:
-    """What an index says of a tile: its node, where its bytes are, and what they hold."""
+    """The entry of a tile in an index: its node, the place of its bytes, and their contents."""
 
     name: str
     offset: int
@@ -54,7 +54,7 @@ class Manifest:
 
 
 def json_of(name: str, limits: Limits) -> Any:
-    """Return what a JSON file holds, of at most `limits.metadata_bytes`."""
+    """Return the contents of a JSON file of at most `limits.metadata_bytes`."""
     source = Input(name)
     data = source.peek(int(min(limits.metadata_bytes, _MOST)) + 1)
     source.close()
@@ -142,7 +142,7 @@ def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) ->
 def whole(value: Any, least: int = 0, most: int = _MOST) -> int:
     """Return a whole number within bounds."""
     if type(value) is not int or not least <= value <= most:
-        raise ValueError(f"{value!s:.40} is no whole number from {least} to {most}")
+        raise ValueError(f"{value!s:.40} is not a whole number from {least} to {most}")
     return value
 
 

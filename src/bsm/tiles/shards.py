@@ -278,7 +278,7 @@ class Tiles:
                 yield from ((shard, tile) for tile in self.index(shard))
 
     def index(self, shard: Facts) -> list[Tile]:
-        """What a shard says of its tiles."""
+        """Return the index of a shard."""
         if shard["file"] not in self._held:
             self._held[shard["file"]] = self._read_index(shard)
         return self._held[shard["file"]]
@@ -289,7 +289,7 @@ class Tiles:
         data = read_range(name, shard["size"] - size, size)
         index = data[: shard["index"]]
         if data[-FOOT:] != len(index).to_bytes(8, "little") + _END or sha256(index).hexdigest() != shard["sha256"]:
-            raise CorruptError(f"{name}: the index at the end of this shard is not what the manifest says was written")
+            raise CorruptError(f"{name}: the index at the end of this shard differs from the manifest")
         tiles = parse_index(name, index, shard, self.root)
         others = [held for file, held in [*self._held.items()] if file != shard["file"]]  # a thread may have been here
         if twice := {tile.name for tile in tiles} & {tile.name for held in others for tile in held}:
@@ -301,7 +301,7 @@ class Tiles:
         name = place_of(self.path, shard["file"])
         data = read_range(name, tile.offset, tile.size)
         if sha256(data).hexdigest() != tile.sha256:
-            raise CorruptError(f"{name}: tile {tile.name} is not what was written", offset=tile.offset)
+            raise CorruptError(f"{name}: tile {tile.name} differs from the index", offset=tile.offset)
         return data
 
     def decoded(self, shard: Facts, tile: Tile) -> tuple[Table, Faces]:
@@ -325,7 +325,7 @@ class Tiles:
         return np.column_stack(columns), mesh.faces
 
     def faults(self, decode: bool) -> Iterator[BsmError | OSError]:
-        """What is wrong, shard by shard and tile by tile."""
+        """Yield all faults, shard by shard and tile by tile."""
         for shard in self.manifest["shards"]:
             try:
                 tiles = self.index(shard)

@@ -89,7 +89,7 @@ def refuse_others(work: Path) -> None:
 
 
 def remove_made(work: Path) -> None:
-    """Remove what a run has made in a folder, and the folder if nothing else is in it."""
+    """Remove the files of a run from a folder, and the folder if it is then empty."""
     # The note comes last: without it, what is left would be that of others.
     for name in sorted(os.listdir(work), key=NOTE.__eq__) if work.is_dir() else ():
         if name != LOCK and _MADE.fullmatch(name):

@@ -64,7 +64,7 @@ def test_several_libraries_of_several_lines_and_with_spaces(tmp_path):
     images = images_in(read.mesh.metadata)
     assert [images[m["map_Kd"]][0] for m in words if "map_Kd" in m] == ["one.png", "two.png"]
     assert [note for note in read.notes if "materials" in note] == [
-        "the materials in away.mtl were left out: there is no such file beside the mesh"
+        "the materials in away.mtl were left out: no such file beside the mesh"
     ]
 
 

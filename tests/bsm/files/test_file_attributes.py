@@ -282,7 +282,7 @@ def test_an_off(head, behind, of_face, expected):
 
 
 @pytest.mark.parametrize(
-    ("behind", "of_face", "dropped"), [(" 7 8 9", "", "numbers behind the coordinates"), ("", " 5", "colors of faces")]
+    ("behind", "of_face", "dropped"), [(" 7 8 9", "", "numbers after the coordinates"), ("", " 5", "colors of faces")]
 )
 def test_what_an_off_loses(behind, of_face, dropped):
     rows = "".join(f"{row}{behind}\n" for row in ("0 0 0", "1 0 0", "1 1 0"))

@@ -638,9 +638,9 @@ def test_what_is_no_moving_gltf(tmp_path, capsys):
     write_mesh(tmp_path / "still.glb", torus(5, 4))
     assert bsm("encode", tmp_path / "still.glb", "--animation", 0, "-o", tmp_path / "a.bsm") == 3
     assert "still.glb: this glTF has no animation" in capsys.readouterr().err
-    with pytest.raises(OptionError, match="there is no animation 1"):
+    with pytest.raises(OptionError, match="no animation 1"):
         frames_of(MOVING / "skinned.glb", animation="1")
-    with pytest.raises(OptionError, match="there is no animation jump; there are ArmatureAction"):
+    with pytest.raises(OptionError, match="no animation jump; there are ArmatureAction"):
         frames_of(MOVING / "skinned.glb", animation="jump")
     assert frames_of(MOVING / "skinned.glb", animation="ArmatureAction")[0].count == 25
 

@@ -1,6 +1,6 @@
 """Materials and their images in a mesh's metadata, and in the library of an OBJ.
 
-The metadata "material.0.name", "material.0.Kd", ... hold what a file says of its material 0, in the file's own words:
+The metadata "material.0.name", "material.0.Kd", ... hold the properties of material 0, under the names of the file:
 those of MTL, or of glTF; numbers that belong together are a text of numbers. What refers to an image holds its number:
 the file's name is "image.0.name", its bytes are "image.0.data". Which face has which material is the attribute
 "material".
@@ -59,7 +59,7 @@ def without_materials(metadata: Metadata) -> Metadata:
 
 
 def kind_of_image(data: bytes) -> str | None:
-    """The suffix that an image's first bytes tell; None: it is no image that is known."""
+    """Return the suffix of an image by its first bytes; None for unknown formats."""
     return next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
 
 
@@ -92,7 +92,7 @@ def materials_in(metadata: Metadata) -> dict[int, Material]:
 
 
 def images_in(metadata: Metadata) -> dict[int, tuple[str, bytes]]:
-    """The name and the bytes of every image, by their numbers; empty is what is not known."""
+    """Return the name and the bytes of every image, by number; unknown ones are empty."""
     found: dict[int, tuple[str, bytes]] = {}
     for kind, number, name, value in _entries(metadata):
         if kind == "image":
@@ -217,7 +217,7 @@ def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], image
 
 
 def text_of(data: bytes) -> str:
-    """Return a name in UTF-8, or else in Latin-1, in which any bytes are a name, and others are another one."""
+    """Return a name in UTF-8, or else in Latin-1, which maps different bytes to different names."""
     try:
         return data.strip().decode()
     except UnicodeDecodeError:
@@ -314,7 +314,7 @@ _REMARK = re.compile(r"meta ([\w.-]{1,255}): (.+)")
 
 
 def remarks(metadata: Metadata, written: Iterable[str] = ()) -> tuple[list[str], tuple[str, ...]]:
-    """The lines that hold metadata, and the names of what they cannot hold."""
+    """Return the lines with metadata, and the names of entries that they cannot hold."""
     lines: list[str] = []
     left_out: list[str] = []
     room = _MOST_BYTES

@@ -1,8 +1,8 @@
 """npz: the arrays `positions` (of a mesh, or of a sequence of them) and `faces`, as numpy saves them.
 
 Attributes are arrays called "vertex/color", "face/material", "corner/texcoord" (with "corner/texcoord/indices"); arrays
-of other names are what their shape tells. What a name begins with tells the meaning. "metadata" is the UTF-8 of a JSON
-object, binary values as {"base64": ...} in it.
+of other names get their domain by their shape. The beginning of a name gives the meaning. "metadata" is JSON in UTF-8,
+with binary values as {"base64": ...}.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def read_header(file: IO[bytes]) -> tuple[tuple[int, ...], bool, Kind]:
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         shape, fortran, kind = read(file)
     except _NO_HEADER as error:
-        raise CorruptError(f"there is no legal npy header: {error}") from error
+        raise CorruptError(f"not a valid npy header: {error}") from error
     if kind.hasobject or kind.kind not in "iuf":
         raise MeshError(f"an array of {kind} does not hold numbers")
     if any(type(side) is not int or side < 0 for side in shape):  # True is an int to numpy
@@ -145,7 +145,7 @@ class NpzArray:
         return size_of(self.shape, self._kind)
 
     def whole(self) -> Array:
-        """All numbers; `LimitError` beyond 4 GiB. Nothing is allocated for what is only claimed."""
+        """All numbers; `LimitError` beyond 4 GiB. Memory is allocated only for bytes that are present."""
         size = self.size
         if size > _MAX_BYTES:
             raise LimitError(f"the array {self._name} takes {size} bytes; the limit is {_MAX_BYTES}")
@@ -200,7 +200,7 @@ def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
 
 
 def read_npz(data: bytes, limits: Limits) -> Polygons:
-    """Read the npz of a mesh; shapes are looked at before numbers are read, and what is of no use is not read."""
+    """Read the npz of a mesh; check shapes before reading numbers, and skip arrays that are not needed."""
     with opened_archive(io.BytesIO(data)) as archive:
         inflated = 0
         for name, bound in (("positions", "vertices"), ("faces", "faces")):
@@ -477,7 +477,7 @@ def _dressed(
 
 
 def read_pipe(given: Input, limits: Limits) -> Frames:
-    """npy arrays, one behind the other: faces, frame, frame, ..."""
+    """npy arrays, one after the other: faces, frame, frame, ..."""
     with ExitStack() as unread:
         unread.callback(given.close)
         faces = read_npy(given, "faces", limits)

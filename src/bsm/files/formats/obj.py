@@ -17,7 +17,7 @@ from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, 
 from bsm.files.room import Ints, Rows, as_integers, point_row, text_table
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
-"""What holds for all faces behind a keyword, and the keyword."""
+"""The value of a keyword for the faces after it, and the keyword."""
 _OF_CORNERS: dict[bytes, Literal["texcoord", "normal"]] = {b"vt": "texcoord", b"vn": "normal"}
 _NUMBERS = (b"v", b"vt", b"vn", b"f")
 _DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
@@ -118,7 +118,7 @@ class _References:
 def _corner_column(
     rows: list[bytes], name: Literal["texcoord", "normal"], written: Ints, indices: Ints
 ) -> tuple[list[Column], list[str]]:
-    """What the lines `vt` or `vn` hold, for the corners that have them."""
+    """Return the values of `vt` or `vn` lines, for the corners that have them."""
     present = written != 0
     if not present.any():
         return [], []
@@ -219,7 +219,7 @@ def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
 
 
 def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:
-    """What the materials (groups, ...) of the faces are called, by their numbers; nothing where none are known."""
+    """Return the names of the materials (groups, ...) of the faces, by number; empty if none are known."""
     names = materials.names_in(mesh.metadata, what)
     used = [0] if attribute is None else np.unique(attribute.values).tolist()
     if what == "material":  # a library may hold some that no face has

@@ -65,7 +65,7 @@ def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tupl
     if texcoords:
         found.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
         place += 2
-    return found, ["numbers behind the coordinates"] if (points.counts > place).any() else []
+    return found, ["numbers after the coordinates"] if (points.counts > place).any() else []
 
 
 def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
@@ -94,7 +94,7 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
 
 
 def _row(attributes: Sequence[Attribute | None]) -> tuple[str, list[Doubles | Ints]]:
-    """The format of what stands behind the coordinates or indices, and its columns."""
+    """Return the format of the numbers after the coordinates or indices, and their columns."""
     row, columns = "", []
     for attribute in filter(None, attributes):
         values = attribute.values

@@ -43,7 +43,7 @@ IMAGE = "TextureFile"  # a comment that begins so names an image; their numbers 
 
 @dataclass(frozen=True)
 class Property:
-    """One column of an element: a number, or a list of numbers behind its length (of the type `length`)."""
+    """One column of an element: a number, or a list of numbers after its length (of the type `length`)."""
 
     name: str
     type: str
@@ -73,7 +73,7 @@ class Header:
 
     @property
     def metadata(self) -> Metadata:
-        """What the comments say; images are those of materials."""
+        """Return the metadata in the comments; images are those of materials."""
         images = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
         found = parse_remarks(line for _, line in self.comments)
         for keyword in COMMENTS:
@@ -155,11 +155,11 @@ class Table(Protocol):
         """The property at a place, a number in each row, shape (count,)."""
 
     def lists(self, place: int) -> tuple[Ints, Array]:
-        """The property at a place, a list in each row: how long they are, and their items one behind the other."""
+        """Return a list property: the lengths of the lists, and all items in one array."""
 
 
 def tables_of(header: Header, body: bytes) -> dict[str, Table]:
-    """The elements of a file by their names; of a text, vertices and faces alone."""
+    """The elements of a file by their names; of a text file, only vertices and faces."""
     if header.order:
         tables: dict[str, Table] = {}
         offset = 0

@@ -1,4 +1,4 @@
-"""What mesh files hold: polygons over points, and columns of what these have; what becomes of it: a mesh."""
+"""The contents of mesh files, polygons with columns of attributes, and their conversion to a mesh."""
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -68,7 +68,7 @@ def attributes_of(
 def joined_columns(
     parts: Iterable[Iterable[Column]], rows: Sequence[Mapping[Domain, int]]
 ) -> tuple[list[Column], list[str]]:
-    """The columns of parts, one behind the other, and notes; `rows` is how many values of each domain a part has."""
+    """Return the concatenated columns of parts, and notes; `rows` is how many values of each domain a part has."""
     of_parts = [{(column.name, column.domain): column for column in columns} for columns in parts]
     found, notes = [], []
     for key in dict.fromkeys(key for columns in of_parts for key in columns):
@@ -94,7 +94,7 @@ def joined_columns(
 
 
 def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
-    """Normals, shape (n, 3), of what a matrix, or one for each of them, places; mirrors turn the faces, not these."""
+    """Transform normals, shape (n, 3), by one matrix or by one each; mirrors turn the faces, not the normals."""
     rows = np.swapaxes(linear, -1, -2)
     cofactors = np.stack([np.cross(rows[..., (i + 1) % 3, :], rows[..., (i + 2) % 3, :]) for i in range(3)], axis=-1)
     turned = (
@@ -113,7 +113,7 @@ def sorted_into_parts(names: Sequence[str], faces: Sequence[int]) -> tuple[list[
 
 
 def grouped(what: str, names: Sequence[str], of_face: Ints) -> tuple[list[Column], dict[str, str]]:
-    """The faces by the names of what they belong to: numbers if there are several, and the names as metadata."""
+    """Return the groups of faces: numbers if there are several groups, and their names as metadata."""
     changes, places = np.unique(of_face, return_inverse=True)
     used = [names[i] for i in changes.tolist()]
     numbers = {name: number for number, name in enumerate(dict.fromkeys(used))}
@@ -147,7 +147,7 @@ def color_column(values: Array, domain: Domain, *, written_whole: bool = False) 
 
 
 def named_column(name: str, values: Array, domain: Domain, meaning: Semantic | None = None) -> Column:
-    """Values as libraries name them, shape (k, c); None: their name tells what they mean."""
+    """Values as libraries name them, shape (k, c); None: their name gives their meaning."""
     lower = name.lower()
     if meaning is None:
         meaning = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else meaning_of(name)

@@ -1,7 +1,7 @@
 """VTP, VTK's XML of surfaces: polygons in one piece, with named values of points and cells, as ParaView shows them.
 
-Arrays are text, base64, or bytes behind the XML, compressed by zlib or not. What a file claims is held against its
-bytes and the limits before anything is made of it.
+Arrays are text, base64, or bytes after the XML, compressed by zlib or not. Declared sizes are checked against the bytes
+of the file and the limits before any array is allocated.
 """
 
 import base64
@@ -38,7 +38,7 @@ _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 
 @dataclass(eq=False)
 class _Array:
-    """A `DataArray` as it stands in the file: the element around it, what it says of itself, and its text."""
+    """A `DataArray` of the file: its parent element, attributes and text."""
 
     around: str
     attrs: dict[str, str]
@@ -46,7 +46,7 @@ class _Array:
 
 
 class _Document:
-    """What the XML of a file holds."""
+    """The contents of the XML of a file."""
 
     def __init__(self, text: bytes) -> None:
         self.tags: dict[str, dict[str, str]] = {}
@@ -91,7 +91,7 @@ class _Document:
 
 
 class _Numbers:
-    """Makes arrays of what a document holds, and counts what they become."""
+    """Makes arrays of a document, and counts their memory."""
 
     def __init__(self, document: _Document, behind: bytes, encoding: str, limits: Limits, size: int) -> None:
         file = document.tags.get("VTKFile", {})
@@ -262,7 +262,7 @@ def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> t
 
 
 def _metadata(document: _Document, numbers: _Numbers) -> tuple[Metadata, list[str]]:
-    """Field data: one text, one number, or bytes each; and the names of what is none of these."""
+    """Field data: one text, one number, or bytes each; and the names of all others."""
     found: dict[str, str | int | float | bytes] = {}
     dropped = []
     for array in (array for array in document.arrays if array.around == "FieldData"):
@@ -292,7 +292,7 @@ def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
 
 
 def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
-    """The VTP of a mesh, its arrays as bytes behind the XML; ParaView colors by the first number of vertices."""
+    """Return the VTP of a mesh, with arrays as bytes after the XML; ParaView colors by the first number of vertices."""
     mesh = split_by_attributes(mesh)
     kind = np.float32 if single_suffices(mesh.positions) else np.float64
     blocks: list[bytes] = []
@@ -339,7 +339,7 @@ def _quoted(name: str) -> str:
 
 
 def _active(mesh: TriangleMesh, domain: Domain) -> str:
-    """What is shown, of all values of a domain."""
+    """Return the attributes that viewers show, of all those of a domain."""
     chosen: dict[str, Attribute | None] = {"Scalars": first(mesh, "generic", (1,), domain)}
     if domain == "vertex":
         chosen["Normals"] = first(mesh, "normal", (3,), domain)

@@ -33,7 +33,7 @@ _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
 PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joined: for each triangle, and for each part
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
-"""What GLB files have behind a PNG or JPEG."""
+"""The padding after a PNG or JPEG in GLB files."""
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
 """Metadata that trimesh has added."""
 
@@ -48,7 +48,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     if kind in ("glb", "gltf"):
         raise OptionError("trimesh does not read glTF here: leave out the reader")
     if kind in _ARCHIVES:
-        raise FormatError(f".{kind} files hold files: unpack it, and read what is in it")
+        raise FormatError(f".{kind} files contain files: unpack it, and read its contents")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
     if kind not in trimesh.available_formats():
         complete = all(map(importlib.util.find_spec, ("lxml", "networkx", "collada")))
@@ -121,7 +121,7 @@ def polygons_of(mesh: Any) -> Polygons:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A mesh of trimesh, what it is called, and where it is placed."""
+    """A mesh of trimesh, its name, and its transform."""
 
     mesh: Any
     name: str

@@ -48,7 +48,7 @@ def frame_files(path: str) -> list[str]:
     found = [name for name in names if format_of_name(name)]
     if not found:
         known = ", ".join(WRITTEN_FORMATS)
-        raise FormatError(f"there are no mesh files in {path} ({known}); -r looks in the folders below, too")
+        raise FormatError(f"no mesh files in {path} ({known}); -r looks in the folders below, too")
     return in_order(found)
 
 
@@ -108,7 +108,7 @@ def look_like_frames(names: Sequence[str]) -> bool:
 
 
 def common_name(names: Sequence[str]) -> str:
-    """One name for many files: what they begin and end with."""
+    """Return one name for many files: their common beginning and end."""
     first, last = min(names), max(names)
     same = [letter == other for letter, other in zip(first, last)]
     head = len(same) if all(same) else same.index(False)

@@ -407,7 +407,7 @@ _DOMAINS: dict[str, Domain] = {"vertex": "vertex", "varying": "vertex", "uniform
 
 
 def _meant(name: str, kind: str, values: shapes.Array) -> tuple[str, shapes.Array, Semantic]:
-    """What a primvar is called here, its values, and what they mean."""
+    """The name of a primvar as an attribute, its values, and their meaning."""
     if kind.startswith(("color3", "color4")):
         model = shapes.color_column(values.astype(np.float64), "vertex")
         return "color" if name == "displayColor" else name, model.values, model.semantic
@@ -453,7 +453,7 @@ class _Stage:
             raise FormatError("this stage has no meshes" + "".join(f"; {note}" for note in self.notes))
 
     def _parts(self) -> Iterator[_Part]:
-        """The meshes that are seen, once for each instance; what they come to is bounded before it is made."""
+        """Yield the visible meshes, once for each instance; their total size is checked before they are made."""
         pxr, left = self.pxr, dict[str, list[str]]()
         shapes_of = dict[str, _Shape]()
         totals = dict.fromkeys(("vertices", "faces", "parts"), 0)
@@ -749,7 +749,7 @@ def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMes
 
 
 def _written(pxr: Any, mesh: Any, attribute: Attribute, time: float | None = None) -> bool:
-    """Write an attribute as a primvar, or what it is from a time on; whether that can be."""
+    """Write an attribute as a primvar, or its values at a time; return whether that is possible."""
     types, width = pxr.Sdf.ValueTypeNames, attribute.components
     values = attribute.values.astype(np.float32)
     name = pxr.Tf.MakeValidIdentifier(attribute.name)
