@@ -5,17 +5,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from bsm import (
-    PRESETS,
-    ArgumentError,
-    Contract,
-    DenoiseOptions,
-    EncodeOptions,
-    OptionError,
-    SequenceOptions,
-    SequenceTarget,
-    Target,
-)
+import bsm
 from bsm.codec.sequence.options import PROMISES, Promise
 from bsm.codec.static.options import BALANCED, changed
 from bsm.commands import flags
@@ -23,14 +13,14 @@ from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode
 
 
 def test_without_keywords_everything_is_the_default():
-    assert encode_options() == EncodeOptions()
-    assert sequence_options() == SequenceOptions(promise=PROMISES["balanced"])
+    assert encode_options() == bsm.EncodeOptions()
+    assert sequence_options() == bsm.SequenceOptions(promise=PROMISES["balanced"])
     assert denoise_options() is None
 
 
-@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("preset", bsm.PRESETS)
 def test_presets(preset):
-    assert encode_options(preset=preset) == PRESETS[preset]
+    assert encode_options(preset=preset) == bsm.PRESETS[preset]
 
 
 @pytest.mark.parametrize("preset", SEQUENCE_STEPS)
@@ -40,7 +30,7 @@ def test_presets_of_sequences(preset):
     assert low_delay.step == SEQUENCE_STEPS[preset] and low_delay.promise is None
     for other in ({"kg": 1}, {"step": 0.01}):
         assert sequence_options(**other).promise is None
-        with pytest.raises(OptionError, match=f"replaces the preset {preset}"):
+        with pytest.raises(bsm.OptionError, match=f"replaces the preset {preset}"):
             sequence_options(preset=preset, **other)
 
 
@@ -50,24 +40,24 @@ def test_bounds_of_sequences():
     assert sequence_options(preset="fine", look=2).promise == Promise(PROMISES["fine"].farthest, 2.0)
     assert sequence_options(max_error=0.001, low_delay=4).promise == Promise(0.001)
     for others in ({"kg": 1}, {"step": 0.01}):
-        with pytest.raises(OptionError):
+        with pytest.raises(bsm.OptionError):
             sequence_options(max_error=0.01, **others)
 
 
 def test_keywords_are_put_on_top_of_a_preset():
     options = encode_options(preset="fine", step=np.float32(0.5), block_size=np.int64(300), keep_order=True)
     assert (options.step, options.block_size, options.keep_order) == (0.5, 300, True)
-    assert options.paper == PRESETS["fine"].paper
+    assert options.paper == bsm.PRESETS["fine"].paper
     assert encode_options(doi=[1, 2]).paper.doi == (1.0, 2.0)
-    assert denoise_options(fine="bilateral-normal", iterations=3) == DenoiseOptions(
+    assert denoise_options(fine="bilateral-normal", iterations=3) == bsm.DenoiseOptions(
         fine="bilateral-normal", iterations=3
     )
 
 
 @pytest.mark.parametrize(("keyword", "kind"), TARGETS.items())
 def test_targets(keyword, kind):
-    assert encode_options(**{keyword: 7}).target == Target(kind, 7.0)
-    assert encode_options(target=Target(kind, 7.0)).target == Target(kind, 7.0)
+    assert encode_options(**{keyword: 7}).target == bsm.Target(kind, 7.0)
+    assert encode_options(target=bsm.Target(kind, 7.0)).target == bsm.Target(kind, 7.0)
 
 
 def test_the_command_line_has_the_same_targets():
@@ -77,11 +67,11 @@ def test_the_command_line_has_the_same_targets():
 
 def test_sequences():
     options = sequence_options(kg=0.1, low_delay=4, overlap=1.2)
-    assert options.target == SequenceTarget("kg", 0.1)
+    assert options.target == bsm.SequenceTarget("kg", 0.1)
     assert (options.low_delay, options.overlap) == (4, 1.2)
 
 
-@pytest.mark.parametrize("name", [field.name for field in fields(EncodeOptions)])
+@pytest.mark.parametrize("name", [field.name for field in fields(bsm.EncodeOptions)])
 def test_a_value_of_the_wrong_type_is_named(name):
     with pytest.raises(TypeError, match=f"{name} must be .*, not <object"):
         encode_options(**{name: object()})
@@ -90,18 +80,18 @@ def test_a_value_of_the_wrong_type_is_named(name):
 @pytest.mark.parametrize(
     ("keywords", "error", "words"),
     [
-        ({"stepp": 1}, ArgumentError, "did you mean step?"),
-        ({"thetta": 1}, ArgumentError, "did you mean theta?"),
-        ({"elephant": 1}, ArgumentError, "there are attributes, bits"),
-        ({"kg": 1}, ArgumentError, "kg is for sequences, not for a mesh"),
-        ({"bits": 2.5}, ArgumentError, "a whole number or None, not 2.5"),
-        ({"step": True}, ArgumentError, "a number or None, not True"),
-        ({"predict": 1}, ArgumentError, "True or False"),
-        ({"doi": (1, 2, 3)}, ArgumentError, "doi"),
-        ({"step": 2.0}, OptionError, "outside"),
-        ({"preset": "best"}, OptionError, "small, balanced, fine"),
-        ({"theta": 5, "size": 100}, OptionError, "give one target only"),
-        ({"theta": 5, "target": Target("bpv", 2)}, OptionError, "give one target only"),
+        ({"stepp": 1}, bsm.ArgumentError, "did you mean step?"),
+        ({"thetta": 1}, bsm.ArgumentError, "did you mean theta?"),
+        ({"elephant": 1}, bsm.ArgumentError, "there are attributes, bits"),
+        ({"kg": 1}, bsm.ArgumentError, "kg is for sequences, not for a mesh"),
+        ({"bits": 2.5}, bsm.ArgumentError, "a whole number or None, not 2.5"),
+        ({"step": True}, bsm.ArgumentError, "a number or None, not True"),
+        ({"predict": 1}, bsm.ArgumentError, "True or False"),
+        ({"doi": (1, 2, 3)}, bsm.ArgumentError, "doi"),
+        ({"step": 2.0}, bsm.OptionError, "outside"),
+        ({"preset": "best"}, bsm.OptionError, "small, balanced, fine"),
+        ({"theta": 5, "size": 100}, bsm.OptionError, "give one target only"),
+        ({"theta": 5, "target": bsm.Target("bpv", 2)}, bsm.OptionError, "give one target only"),
     ],
 )
 def test_what_is_refused(keywords, error, words):
@@ -111,27 +101,27 @@ def test_what_is_refused(keywords, error, words):
 
 def test_a_sequence_has_fewer_options():
     for name in ("power", "grid", "bpv"):
-        with pytest.raises(ArgumentError, match=f"^{name} is for single meshes, not for a sequence$"):
+        with pytest.raises(bsm.ArgumentError, match=f"^{name} is for single meshes, not for a sequence$"):
             sequence_options(**{name: 3})
 
 
 def test_a_largest_error_may_have_a_unit():
     assert encode_options(max_error="0.1%").contract == replace(BALANCED, farthest=0.001)
     assert encode_options(max_error="0.05mm").contract == replace(BALANCED, farthest=0.05, absolute=True)
-    assert encode_options(preset="none", max_error="0.002").contract == Contract(0.002)
+    assert encode_options(preset="none", max_error="0.002").contract == bsm.Contract(0.002)
     assert encode_options(max_error="0.002").contract == encode_options(max_error=0.002).contract
     assert encode_options(max_error=0.002).target is None
-    with pytest.raises(OptionError, match=r"at most 10% of .* a share of the diagonal"):
+    with pytest.raises(bsm.OptionError, match=r"at most 10% of .* a share of the diagonal"):
         encode_options(max_error=2)
-    with pytest.raises(ArgumentError, match="with a unit"):
+    with pytest.raises(bsm.ArgumentError, match="with a unit"):
         encode_options(max_error="wide")
     options = encode_options(max_error="1mm", theta=3)
     assert options.contract == replace(BALANCED, farthest=1.0, absolute=True)
-    assert options.target == Target("theta_deg", 3.0)
+    assert options.target == bsm.Target("theta_deg", 3.0)
 
 
 def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
-    fine = PRESETS["fine"].contract
+    fine = bsm.PRESETS["fine"].contract
     assert encode_options(preset="fine", theta=5).contract == fine
     assert encode_options(theta=5).promise == BALANCED
     assert encode_options(preset="none", theta=5).promise is None
@@ -139,13 +129,13 @@ def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
     assert encode_options(look=2, max_error=0.02).contract == replace(BALANCED, farthest=0.02, look=2.0)
     assert encode_options(preset="fine", look=2).contract == fine
     assert encode_options(preset="fine", look=0.3, max_error="5%").contract == replace(fine, look=0.3)
-    assert encode_options(preset="near-lossless", max_error="0.2%") == PRESETS["near-lossless"]
+    assert encode_options(preset="near-lossless", max_error="0.2%") == bsm.PRESETS["near-lossless"]
     for look in (0, -1.0, float("nan")):
-        with pytest.raises(OptionError, match="1 looks the same"):
+        with pytest.raises(bsm.OptionError, match="1 looks the same"):
             encode_options(look=look)
-    with pytest.raises(OptionError, match="a contract says all"):
-        encode_options(look=1, contract=Contract(0.1))
-    with pytest.raises(ArgumentError, match="look must be a number"):
+    with pytest.raises(bsm.OptionError, match="a contract says all"):
+        encode_options(look=1, contract=bsm.Contract(0.1))
+    with pytest.raises(bsm.ArgumentError, match="look must be a number"):
         encode_options(look="good")
 
 
@@ -154,20 +144,20 @@ def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
 )
 @pytest.mark.parametrize("preset", ["grid14", "lossless"])
 def test_a_preset_that_is_a_grid_excludes_what_would_change_it(preset, more):
-    with pytest.raises(OptionError, match=f"preset {preset} .* combined with {next(iter(more))}"):
+    with pytest.raises(bsm.OptionError, match=f"preset {preset} .* combined with {next(iter(more))}"):
         encode_options(preset=preset, **more)
 
 
 @pytest.mark.parametrize("fixed", [{"grid": 4}, {"grid_cell": 0.1}, {"step": 0.1}, {"coefficients": 5}, {"bits": 12}])
 def test_what_is_fixed_excludes_bounds(fixed):
-    for bound in ({"look": 2}, {"max_error": "1%"}, {"contract": Contract(0.1)}):
-        with pytest.raises(OptionError, match="fixes the output and cannot be combined with"):
+    for bound in ({"look": 2}, {"max_error": "1%"}, {"contract": bsm.Contract(0.1)}):
+        with pytest.raises(bsm.OptionError, match="fixes the output and cannot be combined with"):
             encode_options(**fixed, **bound)
     assert encode_options(**fixed).promise is None and encode_options(preset="none", **fixed).promise is None
 
 
 def test_a_grid_excludes_a_preset_that_promises_a_look():
-    with pytest.raises(OptionError, match=r"grid fixes .* combined with the preset fine"):
+    with pytest.raises(bsm.OptionError, match=r"grid fixes .* combined with the preset fine"):
         encode_options(preset="fine", grid=4)
 
 
@@ -177,7 +167,7 @@ def test_quick_is_another_name_of_an_effort() -> None:
     assert changed(encode_options(quick=True), effort="best").effort == "best"
     assert sequence_options(effort="quick") == sequence_options(quick=True)
     for keywords in ({"effort": "best", "quick": True}, {"effort": "more"}):
-        with pytest.raises(OptionError, match="effort"):
+        with pytest.raises(bsm.OptionError, match="effort"):
             encode_options(**keywords)
 
 
@@ -185,5 +175,5 @@ def test_quick_sequences_search_for_nothing() -> None:
     assert sequence_options().promise is not None and sequence_options(quick=False).promise is not None
     assert sequence_options(quick=True).promise is None and sequence_options(quick=True, preset="fine").step < 0.002
     for keywords in ({"look": 1.0}, {"kg": 0.1}):
-        with pytest.raises(OptionError, match="does not search for a step"):
+        with pytest.raises(bsm.OptionError, match="does not search for a step"):
             sequence_options(quick=True, **keywords)

@@ -14,16 +14,6 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import (
-    ArgumentError,
-    Attribute,
-    CorruptError,
-    FormatError,
-    OptionError,
-    TriangleMesh,
-    TruncatedError,
-    UnsupportedError,
-)
 from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.commands import tile as command
 from bsm.files.mesh import read_mesh, write_mesh
@@ -40,7 +30,7 @@ CELL = 2.0**-14
 @pytest.fixture(scope="module")
 def mesh():
     made = curved(torus(80, 60))
-    return TriangleMesh(made.positions.astype(np.float32), made.faces)  # which every format holds to the bit
+    return bsm.TriangleMesh(made.positions.astype(np.float32), made.faces)  # which every format holds to the bit
 
 
 @pytest.fixture(scope="module")
@@ -90,7 +80,7 @@ def test_a_grid_too_coarse_makes_tiles_that_are_read(mesh, tmp_path):
 
 def test_vertices_that_no_face_uses_say_nothing_of_the_grid(mesh, tmp_path):
     far = 1e4 + np.random.default_rng(0).random((20_000, 3))
-    write_mesh(tmp_path / "mesh.ply", TriangleMesh(np.concatenate([mesh.positions, far]), mesh.faces))
+    write_mesh(tmp_path / "mesh.ply", bsm.TriangleMesh(np.concatenate([mesh.positions, far]), mesh.faces))
     tile(tmp_path / "mesh.ply", tmp_path / "out")
     assert bsm.open_tiles(str(tmp_path / "out")).lattice.cell < 0.01
 
@@ -168,12 +158,12 @@ def test_a_region_in_python(mesh, folder):
     assert 0 < len(part.faces) < len(mesh.faces)
     corners = part.positions[part.faces]
     assert (corners.max(axis=1) >= 0).all()
-    with pytest.raises(OptionError, match="no part of the mesh"):
+    with pytest.raises(bsm.OptionError, match="no part of the mesh"):
         tiles.region((8, 8, 8), high)
     for wrong in (("abc", "def"), ((0, 0, 0), (1, 1)), (low, high, "a"), (low, high, None)):
-        with pytest.raises(ArgumentError):
+        with pytest.raises(bsm.ArgumentError):
             tiles.region(*wrong)
-    with pytest.raises(ArgumentError):
+    with pytest.raises(bsm.ArgumentError):
         tiles.region(low, high, level="finest")
 
 
@@ -187,9 +177,9 @@ def test_untile_of_a_box_and_of_a_level(folder, tmp_path):
 def test_colors_and_normals_go_along(mesh, tmp_path, suffix):
     color = (np.abs(mesh.positions) * 90).astype(np.uint8)
     normal = (mesh.positions / np.linalg.norm(mesh.positions, axis=1, keepdims=True)).astype(np.float32)
-    dressed = [Attribute("color", color, "vertex", "color")]
-    dressed += [] if suffix == "obj" else [Attribute("normal", normal, "vertex", "normal")]
-    output = made(TriangleMesh(mesh.positions, mesh.faces, dressed), tmp_path / "out", suffix=suffix)
+    dressed = [bsm.Attribute("color", color, "vertex", "color")]
+    dressed += [] if suffix == "obj" else [bsm.Attribute("normal", normal, "vertex", "normal")]
+    output = made(bsm.TriangleMesh(mesh.positions, mesh.faces, dressed), tmp_path / "out", suffix=suffix)
     assert program("untile", output, "-o", tmp_path / "back.ply").returncode == 0
     back = bsm.load(tmp_path / "back.ply")
     assert same(bsm.load(tmp_path / f"mesh.{suffix}"), back) and len(back.positions) == len(mesh.positions)
@@ -209,7 +199,7 @@ def test_colors_and_normals_go_along(mesh, tmp_path, suffix):
 def test_vertices_that_differ_in_color_alone_stay_apart(tmp_path):
     positions = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 0), (1, 1, 0)], float)
     color = np.array([(1, 2, 3)] * 4 + [(9, 9, 9)] * 2, np.uint8)
-    square = TriangleMesh(positions, [(0, 1, 2), (4, 5, 3)], [Attribute("color", color, "vertex", "color")])
+    square = bsm.TriangleMesh(positions, [(0, 1, 2), (4, 5, 3)], [bsm.Attribute("color", color, "vertex", "color")])
     write_mesh(tmp_path / "a.ply", square)
     tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 1)
     found = bsm.open_tiles(str(tmp_path / "out")).region((0, 0, 0), (1, 1, 1))
@@ -219,8 +209,8 @@ def test_vertices_that_differ_in_color_alone_stay_apart(tmp_path):
 
 @pytest.mark.parametrize("suffix", ["ply", "npz", "obj"])
 def test_textures_are_refused(mesh, tmp_path, suffix):
-    texture = Attribute("texcoord", mesh.positions[:, :2], "vertex", "texcoord")
-    write_mesh(tmp_path / f"a.{suffix}", TriangleMesh(mesh.positions, mesh.faces, [texture]))
+    texture = bsm.Attribute("texcoord", mesh.positions[:, :2], "vertex", "texcoord")
+    write_mesh(tmp_path / f"a.{suffix}", bsm.TriangleMesh(mesh.positions, mesh.faces, [texture]))
     done = program("tile", tmp_path / f"a.{suffix}", "-o", tmp_path / "out", text=True)
     assert done.returncode == 5 and "has a texture" in done.stderr and done.stderr.count("\n") == 1
 
@@ -275,7 +265,7 @@ def test_contents_that_are_compressed(folder, tmp_path, content):
             primitive = next(plain.primitives())
             corners = plain.array(primitive["indices"]).reshape(-1, 3).astype(np.int32)
             positions = plain.array(primitive["attributes"]["POSITION"]).astype(float)
-            assert same(bsm.decode(coded.view(stream)), TriangleMesh(positions, corners))
+            assert same(bsm.decode(coded.view(stream)), bsm.TriangleMesh(positions, corners))
 
 
 def test_contents_that_cannot_be_made(folder, tmp_path, monkeypatch):
@@ -437,7 +427,7 @@ def test_damage_is_reported(folder, tmp_path, harm):
     done = program("verify", tmp_path, text=True)
     message = {"changed": "differs from the index", "cut": "there are", "missing": "No such file", "index": "the index"}
     assert done.returncode in (4, 9, 12) and message[harm] in done.stderr and "00000.tiles" in done.stderr
-    expected = {"missing": FileNotFoundError, "cut": TruncatedError}.get(harm, CorruptError)
+    expected = {"missing": FileNotFoundError, "cut": bsm.TruncatedError}.get(harm, bsm.CorruptError)
     with pytest.raises(expected):
         bsm.open_tiles(str(tmp_path)).region((-9, -9, -9), (9, 9, 9))
 
@@ -479,7 +469,7 @@ def test_a_manifest_that_makes_no_sense(folder, tmp_path, change):
     (tmp_path / "manifest.json").write_text(
         json.dumps({**json.loads((folder / "manifest.json").read_text()), **change})
     )
-    with pytest.raises(FormatError, match="manifest"):
+    with pytest.raises(bsm.FormatError, match="manifest"):
         bsm.open_tiles(str(tmp_path))
 
 
@@ -491,7 +481,7 @@ def test_tiles_of_another_format_are_refused_by_their_manifest(folder, tmp_path)
         done = program(what, tmp_path, text=True)
         assert done.returncode == 5 and "version 0 of the format" in done.stderr and "source again" in done.stderr
     (tmp_path / "manifest.json").write_text(json.dumps({**manifest, "stream": 2}))
-    with pytest.raises(UnsupportedError, match="a later release"):
+    with pytest.raises(bsm.UnsupportedError, match="a later release"):
         bsm.open_tiles(str(tmp_path))
 
 
@@ -520,7 +510,7 @@ def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, message, code):
 
 def test_grids_that_cannot_be_stored_exactly(mesh, tmp_path):
     source = tmp_path / "mesh.npz"
-    write_mesh(source, TriangleMesh(mesh.positions + 1e6, mesh.faces))
+    write_mesh(source, bsm.TriangleMesh(mesh.positions + 1e6, mesh.faces))
     done = program("tile", source, "-o", tmp_path / "out", "--grid-cell", "0.001", text=True)
     assert done.returncode == 2 and "a power of two does" in done.stderr
     power = done.stderr.rsplit("--grid-cell ", 1)[1].strip()
@@ -533,7 +523,9 @@ def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path):
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
     printed = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
     assert "left out: normal; tiles have faces, positions" in printed
-    write_mesh(tmp_path / "b.ply", TriangleMesh(np.eye(3), np.array([[0, 1, 2]]), metadata={"comment": "by a scanner"}))
+    write_mesh(
+        tmp_path / "b.ply", bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 2]]), metadata={"comment": "by a scanner"})
+    )
     printed = tile(tmp_path / "b.ply", tmp_path / "commented", "--grid-cell", 1).stderr
     assert "left out: lines of comment; tiles have" in printed
 
@@ -541,7 +533,7 @@ def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path):
 def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces(tmp_path):
     large, cells = torus(240, 200), list[float]()
     for name, order in ("in", np.arange(96000)), ("out", np.random.default_rng(4).permutation(96000)):
-        write_mesh(tmp_path / f"{name}.ply", TriangleMesh(large.positions, large.faces[order]))
+        write_mesh(tmp_path / f"{name}.ply", bsm.TriangleMesh(large.positions, large.faces[order]))
         tile(tmp_path / f"{name}.ply", tmp_path / name)
         cells.append(bsm.open_tiles(str(tmp_path / name)).lattice.cell)
     assert cells[0] == cells[1] and np.log2(cells[0]) % 1 == 0 and 1e-5 < cells[0] < 0.1

@@ -9,17 +9,6 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import (
-    ArgumentError,
-    Attribute,
-    BsmError,
-    Decoder,
-    EncodeOptions,
-    Limits,
-    MeshError,
-    OptionError,
-    SequenceDecoder,
-)
 from tools.vectors.meshes import torus
 
 
@@ -87,27 +76,30 @@ CALLS = {
     "progress": lambda wrong: bsm.encode(torus(5, 5), grid=8, progress=wrong) if wrong is not print else None,
     "encode_many progress": lambda wrong: bsm.encode_many(["missing.obj"], progress=wrong),
     "open_tiles": lambda wrong: bsm.open_tiles(wrong),
-    "Decoder limits": lambda wrong: Decoder(wrong),
-    "Decoder threads": lambda wrong: Decoder(threads=wrong),
-    "Decoder layers": lambda wrong: Decoder(layers=wrong),
-    "SequenceDecoder limits": lambda wrong: SequenceDecoder(wrong),
-    "SequenceDecoder threads": lambda wrong: SequenceDecoder(threads=wrong),
-    "SequenceDecoder start": lambda wrong: SequenceDecoder(start=wrong),
-    "receive_data": lambda wrong: Decoder().receive_data(wrong),
+    "Decoder limits": lambda wrong: bsm.Decoder(wrong),
+    "Decoder threads": lambda wrong: bsm.Decoder(threads=wrong),
+    "Decoder layers": lambda wrong: bsm.Decoder(layers=wrong),
+    "SequenceDecoder limits": lambda wrong: bsm.SequenceDecoder(wrong),
+    "SequenceDecoder threads": lambda wrong: bsm.SequenceDecoder(threads=wrong),
+    "SequenceDecoder start": lambda wrong: bsm.SequenceDecoder(start=wrong),
+    "receive_data": lambda wrong: bsm.Decoder().receive_data(wrong),
     "encode_many": lambda wrong: bsm.encode_many(wrong),
     "encode_many into": lambda wrong: bsm.encode_many(["missing.obj"], wrong),
     "encode_many report": lambda wrong: bsm.encode_many(["missing.obj"], report=wrong),
     "encode_many jobs": lambda wrong: bsm.encode_many(["missing.obj"], jobs=wrong) if wrong != 5 else None,
     "mesh attributes": lambda wrong: bsm.TriangleMesh(*arrays(), wrong),
     "mesh metadata": lambda wrong: bsm.TriangleMesh(*arrays(), (), wrong),
-    "attribute name": lambda wrong: Attribute(wrong, np.ones(3)),
-    "attribute values": lambda wrong: Attribute("a", wrong),
-    "attribute domain": lambda wrong: Attribute("a", np.ones(3), wrong),
-    "attribute indices": lambda wrong: Attribute("a", np.ones(3), "corner", "generic", wrong),
-    **{f"Limits {field.name}": (lambda wrong, name=field.name: Limits(**{name: wrong})) for field in fields(Limits)},
+    "attribute name": lambda wrong: bsm.Attribute(wrong, np.ones(3)),
+    "attribute values": lambda wrong: bsm.Attribute("a", wrong),
+    "attribute domain": lambda wrong: bsm.Attribute("a", np.ones(3), wrong),
+    "attribute indices": lambda wrong: bsm.Attribute("a", np.ones(3), "corner", "generic", wrong),
     **{
-        f"EncodeOptions {field.name}": (lambda wrong, name=field.name: EncodeOptions(**{name: wrong}))
-        for field in fields(EncodeOptions)
+        f"Limits {field.name}": (lambda wrong, name=field.name: bsm.Limits(**{name: wrong}))
+        for field in fields(bsm.Limits)
+    },
+    **{
+        f"EncodeOptions {field.name}": (lambda wrong, name=field.name: bsm.EncodeOptions(**{name: wrong}))
+        for field in fields(bsm.EncodeOptions)
     },
 }
 
@@ -123,7 +115,7 @@ def test_wrong_arguments_end_in_our_errors(name, tmp_path, monkeypatch):
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 CALLS[name](wrong)
-        except (BsmError, OSError):
+        except (bsm.BsmError, OSError):
             pass
         except Exception as error:
             foreign.append(f"{wrong!r}: {type(error).__name__}: {error}")
@@ -132,17 +124,17 @@ def test_wrong_arguments_end_in_our_errors(name, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("value", [math.nan, -1, -math.inf])
 def test_limits_that_bound_nothing_are_refused(value):
-    for field in fields(Limits):
-        with pytest.raises(OptionError, match=field.name):
-            Limits(**{field.name: value})
+    for field in fields(bsm.Limits):
+        with pytest.raises(bsm.OptionError, match=field.name):
+            bsm.Limits(**{field.name: value})
 
 
 def test_jobs_are_a_number_from_0_on():
-    with pytest.raises(OptionError, match="jobs"):
+    with pytest.raises(bsm.OptionError, match="jobs"):
         bsm.encode_many(["missing.obj"], jobs=-3)
 
 
-@pytest.mark.parametrize(("threads", "error"), [(0, OptionError), (-1, OptionError), ("2", ArgumentError)])
+@pytest.mark.parametrize(("threads", "error"), [(0, bsm.OptionError), (-1, bsm.OptionError), ("2", bsm.ArgumentError)])
 def test_threads_are_a_number_above_0(threads, error):
     with pytest.raises(error, match="threads"):
         bsm.decode(stream(), threads=threads)
@@ -152,7 +144,7 @@ def test_threads_are_a_number_above_0(threads, error):
 def test_metadata_that_would_not_come_back_are_refused(metadata):
     positions, faces = arrays()
     for call, given in ((bsm.encode, (positions, faces)), (bsm.encode_frames, [(positions, faces)])):
-        with pytest.raises(OptionError, match="metadata 'a"):
+        with pytest.raises(bsm.OptionError, match="metadata 'a"):
             call(given, metadata=metadata)
     kept = {"a": "b\0c", "b": (1 << 63) - 1, "c": np.float64(2), "d": np.int64(3)}
     assert bsm.decode(bsm.encode((positions, faces), grid=8, metadata=kept)).metadata == kept
@@ -162,16 +154,16 @@ def test_metadata_that_would_not_come_back_are_refused(metadata):
 
 def test_numbers_too_large_for_any_float():
     for call in (bsm.encode, lambda mesh: bsm.encode_sequence([mesh[0]], mesh[1])):
-        with pytest.raises(MeshError, match="not an array of numbers"):
+        with pytest.raises(bsm.MeshError, match="not an array of numbers"):
             call(([[10**400, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
 
 
 @pytest.mark.parametrize("start", [-1, 1 << 70])
 def test_frames_are_counted_from_0(start):
-    with pytest.raises(OptionError, match="start"):
-        SequenceDecoder(start=start)
+    with pytest.raises(bsm.OptionError, match="start"):
+        bsm.SequenceDecoder(start=start)
 
 
 def test_an_unknown_goal_of_denoising_is_refused():
-    with pytest.raises(OptionError, match="no goal 'typo'; choose one of shading"):
+    with pytest.raises(bsm.OptionError, match="no goal 'typo'; choose one of shading"):
         bsm.denoise(torus(5, 5), goal="typo")

@@ -8,15 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm import (
-    OptionError,
-    SequenceEncoder,
-    SequenceOptions,
-    TargetError,
-    TriangleMesh,
-    VerificationError,
-    decode_sequence,
-)
+import bsm
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.step_search import StepSearch, shading_error
@@ -28,16 +20,16 @@ def kept(
     positions: np.ndarray, faces: np.ndarray, promise: Promise, **changes: int
 ) -> tuple[int, np.ndarray, np.ndarray, np.ndarray]:
     """Bytes, the frames in the decoder's order, what is decoded, and the faces."""
-    options = SequenceOptions(block_size=100, promise=promise, threads=1, **changes)
-    encoder = SequenceEncoder(faces, options, len(positions))
+    options = bsm.SequenceOptions(block_size=100, promise=promise, threads=1, **changes)
+    encoder = bsm.SequenceEncoder(faces, options, len(positions))
     data = b"".join(encoder.chunks(positions))
-    decoded, found = decode_sequence(data, threads=1)
+    decoded, found = bsm.decode_sequence(data, threads=1)
     return len(data), positions[:, encoder.vertex_order], decoded, found
 
 
 def looks(original: np.ndarray, decoded: np.ndarray, faces: np.ndarray) -> list[float]:
     pairs = zip(original, decoded, strict=True)
-    return [LookMetric(TriangleMesh(a, faces), threads=1).look(b).moving for a, b in pairs]
+    return [LookMetric(bsm.TriangleMesh(a, faces), threads=1).look(b).moving for a, b in pairs]
 
 
 def farthest(original: np.ndarray, decoded: np.ndarray) -> float:
@@ -67,8 +59,8 @@ def test_no_vertex_is_farther_off_than_reported(absolute: bool) -> None:
 def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     positions, faces = bending(6)
     positions[5] += 0.004 * np.random.default_rng(0).standard_normal(positions[5].shape)
-    options = SequenceOptions(block_size=100, promise=Promise(0.002, look), threads=1, low_delay=1, gop=4)
-    encoder = SequenceEncoder(faces, options, len(positions))
+    options = bsm.SequenceOptions(block_size=100, promise=Promise(0.002, look), threads=1, low_delay=1, gop=4)
+    encoder = bsm.SequenceEncoder(faces, options, len(positions))
     given: list[int] = []
 
     def coming() -> Iterator[np.ndarray]:
@@ -81,7 +73,7 @@ def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
         data += chunk
         sent.append(given[-1])
     assert set(sent) == set(range(6))  # each frame is out before the next one comes
-    decoded, found = decode_sequence(data, threads=1)
+    decoded, found = bsm.decode_sequence(data, threads=1)
     original = positions[:, encoder.vertex_order]
     assert 0.0014 < farthest(original, decoded) <= 0.002
     assert max(looks(original, decoded, found)) <= look
@@ -93,16 +85,16 @@ def test_a_search_that_takes_a_step_too_coarse_is_caught(
     promise: Promise, low_delay: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(StepSearch, "run", lambda search, encode, first, finest: encode(0.04, None, 1))
-    with pytest.raises(VerificationError, match=r"is off by|has look"):
+    with pytest.raises(bsm.VerificationError, match=r"is off by|has look"):
         kept(*bending(4), promise, low_delay=low_delay)
 
 
 @pytest.mark.parametrize("changes", [{}, {"keep_order": True}, {"step": 0.01, "promise": None}])
 def test_the_encoder_reports_errors_of_decoded_frames(changes: dict[str, Any]) -> None:
     positions, faces = bending(7)
-    chosen = SequenceOptions(**{"block_size": 100, "promise": Promise(0.01, 1.0), "threads": 1, "gop": 4} | changes)
-    encoder = SequenceEncoder(faces, chosen, 7)
-    decoded, found = decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
+    chosen = bsm.SequenceOptions(**{"block_size": 100, "promise": Promise(0.01, 1.0), "threads": 1, "gop": 4} | changes)
+    encoder = bsm.SequenceEncoder(faces, chosen, 7)
+    decoded, found = bsm.decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
     original = positions[:, encoder.vertex_order]
     assert encoder.kg == pytest.approx(compare_sequences(original, decoded, found).kg, rel=1e-9)
     wrong = [shading_error(*pair, found) for pair in zip(original, decoded, strict=True)]
@@ -131,8 +123,8 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
 def test_the_progress_of_a_search_grows_to_the_whole(promise: Promise | None) -> None:
     positions, faces = bending(6)
     reports: list[float] = []
-    options = SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)
-    chunks = SequenceEncoder(faces, options, 6).chunks(positions, lambda done, count: reports.append(done / count))
+    options = bsm.SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)
+    chunks = bsm.SequenceEncoder(faces, options, 6).chunks(positions, lambda done, count: reports.append(done / count))
     assert b"".join(chunks)
     assert reports[0] < 0.4 and reports[-1] == max(reports) == 1.0 and len(set(reports)) > 3
     assert promise or reports == sorted(reports)  # frames in doubt may be more than a search let expect
@@ -146,10 +138,10 @@ def test_frames_of_which_nothing_is_seen_are_no_obstacle() -> None:
 
 
 def test_what_cannot_be_kept_is_an_error() -> None:
-    with pytest.raises(TargetError, match="cannot be kept"):
+    with pytest.raises(bsm.TargetError, match="cannot be kept"):
         kept(*bending(3), Promise(1e-9))
     for bounds in ((0.0, 1.0), (0.01, 0.0), (float("inf"), 1.0)):
-        with pytest.raises(OptionError, match="bounds"):
+        with pytest.raises(bsm.OptionError, match="bounds"):
             Promise(*bounds)
 
 

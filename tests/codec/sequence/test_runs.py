@@ -5,21 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import (
-    Attribute,
-    ConnectivityEvent,
-    CorruptError,
-    FrameEvent,
-    HeaderEvent,
-    LossEvent,
-    OptionError,
-    SequenceDecoder,
-    SequenceEncoder,
-    SequenceOptions,
-    SequenceTarget,
-    Signal,
-    TriangleMesh,
-)
+import bsm
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
 from bsm.bitstream.container.wire import FrameType, write_preamble
@@ -43,21 +29,21 @@ def meshes(*pieces):
 
 
 def encoded(frames, **options):
-    chosen = SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
-    encoder = SequenceEncoder(frames[0].faces, chosen, len(frames))
+    chosen = bsm.SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
+    encoder = bsm.SequenceEncoder(frames[0].faces, chosen, len(frames))
     return encoder, list(encoder.chunks(frames))
 
 
 def restored(frames, **options):
     """What comes back of each frame as it is decoded, and its distance to the original."""
-    chosen = SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
-    encoder = SequenceEncoder(frames[0].faces, chosen, len(frames))
+    chosen = bsm.SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
+    encoder = bsm.SequenceEncoder(frames[0].faces, chosen, len(frames))
     found = []
-    with SequenceDecoder(threads=1) as decoder:
+    with bsm.SequenceDecoder(threads=1) as decoder:
         for chunk in encoder.chunks(frames):
             decoder.receive_data(chunk)
-            while not isinstance(event := decoder.next_event(), Signal):
-                if isinstance(event, FrameEvent):
+            while not isinstance(event := decoder.next_event(), bsm.Signal):
+                if isinstance(event, bsm.FrameEvent):
                     own = frames[event.index]
                     inverse = np.argsort(encoder.vertex_order)
                     assert np.array_equal(
@@ -103,10 +89,10 @@ def test_a_promise_holds_in_every_run():
 
 
 def test_a_target_is_for_frames_that_share_their_faces():
-    with pytest.raises(OptionError, match="the faces change at frame 3"):
-        encoded(meshes((10, 3), (7, 2)), target=SequenceTarget("kg", 0.5))
+    with pytest.raises(bsm.OptionError, match="the faces change at frame 3"):
+        encoded(meshes((10, 3), (7, 2)), target=bsm.SequenceTarget("kg", 0.5))
     same = meshes((10, 3))
-    assert frames_in(moving_events_of(b"".join(encoded(same, target=SequenceTarget("kg", 5.0))[1])))
+    assert frames_in(moving_events_of(b"".join(encoded(same, target=bsm.SequenceTarget("kg", 5.0))[1])))
 
 
 # ---------------------------------------------------------------------------------------------------- loss and joining
@@ -134,7 +120,7 @@ def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
     for number in range(1, len(frames)):
         events = moving_events_of(damaged(data, number), tolerant=True)
         found = frames_in(events)
-        lost = {k for event in events if isinstance(event, LossEvent) and event.frames for k in event.frames}
+        lost = {k for event in events if isinstance(event, bsm.LossEvent) and event.frames for k in event.frames}
         assert found.keys() | lost == set(range(15)) and not found.keys() & lost
         assert all(np.array_equal(found[k].positions, whole[k].positions) for k in found)
         assert all(np.array_equal(found[k].faces, whole[k].faces) for k in found)
@@ -149,7 +135,7 @@ def test_a_first_run_that_is_lost_is_an_error_only_if_it_is_all():
     found = frames_in(moving_events_of(damaged(data, 1), tolerant=True))
     assert list(found) == [3, 4]
     alone = b"".join(encoded(frames[:3])[1])
-    with pytest.raises(CorruptError):
+    with pytest.raises(bsm.CorruptError):
         moving_events_of(damaged(alone, 1), tolerant=True)
 
 
@@ -158,13 +144,13 @@ def test_late_joiners_begin_at_a_run_with_a_mesh():
     whole = frames_in(moving_events_of(data))
     headers = [offset for packet, offset, _ in packets_of(data) if isinstance(packet, Header)]
     later = write_preamble() + data[headers[1] :]
-    with pytest.raises(CorruptError, match="begins within a sequence"):
+    with pytest.raises(bsm.CorruptError, match="begins within a sequence"):
         moving_events_of(later)
     events = moving_events_of(later, tolerant=True)
     found = frames_in(events)
     assert list(found) == [5, 6, 7, 12, 13, 14]  # frames 8 to 11 have the mesh of run 0
     assert all(np.array_equal(found[k].positions, whole[k].positions) for k in found)
-    lost = [event.frames for event in events if isinstance(event, LossEvent)]
+    lost = [event.frames for event in events if isinstance(event, bsm.LossEvent)]
     assert lost == [range(0, 5), range(8, 12)]
 
 
@@ -174,12 +160,12 @@ def test_late_joiners_begin_at_a_run_with_a_mesh():
 def test_what_meshes_take_does_not_grow_with_their_number():
     def kept(count):
         frames = meshes(*((3 + k % 40, 1) for k in range(count)))
-        encoder = SequenceEncoder(
-            frames[0].faces, SequenceOptions(step=0.02, threads=1, block_size=30, runs=True), len(frames)
+        encoder = bsm.SequenceEncoder(
+            frames[0].faces, bsm.SequenceOptions(step=0.02, threads=1, block_size=30, runs=True), len(frames)
         )
-        decoder = SequenceDecoder(threads=1)
+        decoder = bsm.SequenceDecoder(threads=1)
         decoder.receive_data(b"".join(encoder.chunks(frames)))
-        while not isinstance(decoder.next_event(), Signal):
+        while not isinstance(decoder.next_event(), bsm.Signal):
             pass
         *_, present, _, memory = decoder._open.state()
         return memory, present
@@ -191,19 +177,19 @@ def test_what_meshes_take_does_not_grow_with_their_number():
 @pytest.mark.parametrize("way", WAYS)
 def test_the_encoder_counts_what_decoders_keep(way, monkeypatch):
     counted = []
-    own = SequenceEncoder._run
+    own = bsm.SequenceEncoder._run
 
     def noted(self, run, index, meshes, options, tell):
         yield from own(self, run, index, meshes, options, tell)
         counted.append((meshes.kept.memory, meshes.kept.vertices))
 
-    monkeypatch.setattr(SequenceEncoder, "_run", noted)
+    monkeypatch.setattr(bsm.SequenceEncoder, "_run", noted)
     data = b"".join(encoded(meshes(*PIECES), **way)[1])
     seen = []
-    with SequenceDecoder(threads=1) as decoder:
+    with bsm.SequenceDecoder(threads=1) as decoder:
         decoder.receive_data(data)
-        while not isinstance(event := decoder.next_event(), Signal):
-            if isinstance(event, HeaderEvent):
+        while not isinstance(event := decoder.next_event(), bsm.Signal):
+            if isinstance(event, bsm.HeaderEvent):
                 *_, vertices, _, memory = decoder._open.state()
                 seen.append((memory, vertices))
     for (own_memory, own_vertices), (memory, vertices) in zip(counted[:-1], seen[1:], strict=True):
@@ -218,30 +204,30 @@ def test_unwelded_frames_of_many_components_and_flat_ones():
     rng = np.random.default_rng(3)
     soup = np.arange(60, dtype=np.int32).reshape(20, 3)
     points = rng.normal(size=(60, 3))
-    tetra = TriangleMesh(rng.normal(size=(4, 3)), [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
+    tetra = bsm.TriangleMesh(rng.normal(size=(4, 3)), [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
     flat = replace(tetra, positions=np.zeros((4, 3)))
-    twice = TriangleMesh(rng.normal(size=(5, 3)), [[0, 1, 2], [0, 1, 2], [2, 1, 0], [0, 0, 3]])
+    twice = bsm.TriangleMesh(rng.normal(size=(5, 3)), [[0, 1, 2], [0, 1, 2], [2, 1, 0], [0, 0, 3]])
     frames = [
-        TriangleMesh(points, soup),
-        TriangleMesh(points * 1.1, soup),
+        bsm.TriangleMesh(points, soup),
+        bsm.TriangleMesh(points * 1.1, soup),
         tetra,
         flat,
         twice,
         replace(twice, positions=twice.positions + 5.0),
-        TriangleMesh(points[::-1], soup),
+        bsm.TriangleMesh(points[::-1], soup),
     ]
-    chosen = SequenceOptions(step=0.003, threads=1, runs=True)
-    encoder = SequenceEncoder(soup, chosen, len(frames))
-    decoder = SequenceDecoder(threads=1)
+    chosen = bsm.SequenceOptions(step=0.003, threads=1, runs=True)
+    encoder = bsm.SequenceEncoder(soup, chosen, len(frames))
+    decoder = bsm.SequenceDecoder(threads=1)
     count = 0
     for chunk in encoder.chunks(frames):
         decoder.receive_data(chunk)
-        while not isinstance(event := decoder.next_event(), Signal):
-            if isinstance(event, FrameEvent):
+        while not isinstance(event := decoder.next_event(), bsm.Signal):
+            if isinstance(event, bsm.FrameEvent):
                 own = frames[event.index].positions[encoder.vertex_order]
                 assert np.abs(event.positions - own).max() < 0.1
                 count += 1
-            if isinstance(event, ConnectivityEvent):
+            if isinstance(event, bsm.ConnectivityEvent):
                 assert event.vertices == len(encoder.vertex_order)
     assert count == len(frames) and encoder.run_starts == [0, 2, 4, 6]
 
@@ -249,10 +235,10 @@ def test_unwelded_frames_of_many_components_and_flat_ones():
 def test_attributes_of_faces_that_change_in_a_run_are_reported() -> None:
     frames = meshes((10, 4))
     heats = [np.float32(t // 2) + np.zeros(len(frames[0].faces), np.float32) for t in range(4)]
-    hot = [replace(f, attributes=(Attribute("heat", heat, "face"),)) for f, heat in zip(frames, heats, strict=True)]
-    steady = [replace(frame, attributes=(Attribute("heat", heats[0], "face"),)) for frame in frames]
-    options = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
+    hot = [replace(f, attributes=(bsm.Attribute("heat", heat, "face"),)) for f, heat in zip(frames, heats, strict=True)]
+    steady = [replace(frame, attributes=(bsm.Attribute("heat", heats[0], "face"),)) for frame in frames]
+    options = bsm.SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
     for given, notes in ((hot, ["heat changes at frame 2, but stays as before"]), (steady, [])):
-        encoder = SequenceEncoder(frames[0].faces, options, 4, attributes=given[0].attributes)
+        encoder = bsm.SequenceEncoder(frames[0].faces, options, 4, attributes=given[0].attributes)
         assert b"".join(encoder.chunks(given))
         assert [note for note in encoder.notes if "changes" in note] == notes

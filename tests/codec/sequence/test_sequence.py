@@ -3,24 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from bsm import (
-    END_OF_STREAM,
-    NEED_DATA,
-    BsmError,
-    CorruptError,
-    EndEvent,
-    LimitError,
-    Limits,
-    LossEvent,
-    MeshError,
-    OptionError,
-    SequenceDecoder,
-    SequenceEncoder,
-    SequenceOptions,
-    SequenceTarget,
-    TargetError,
-    decode_sequence,
-)
+import bsm
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.limits import NAMED_LIMITS
@@ -34,12 +17,12 @@ WAYS: list[dict[str, int]] = [{}, {"low_delay": 1}, {"low_delay": 3}]
 
 
 def options(**changes):
-    return SequenceOptions(**{**SMALL, **changes})
+    return bsm.SequenceOptions(**{**SMALL, **changes})
 
 
 def encoded(positions, faces, **changes):
     """The stream, and the frames in the decoder's order of vertices."""
-    encoder = SequenceEncoder(faces, options(**changes), len(positions))
+    encoder = bsm.SequenceEncoder(faces, options(**changes), len(positions))
     data = b"".join(encoder.chunks(positions))
     return data, positions[:, encoder.vertex_order]
 
@@ -57,7 +40,7 @@ def diagonal(frame):
 def test_the_error_is_within_what_quantization_allows(way):
     positions, faces = bending(20)
     data, original = encoded(positions, faces, **way)
-    decoded, decoded_faces = decode_sequence(data)
+    decoded, decoded_faces = bsm.decode_sequence(data)
     assert decoded.shape == original.shape and decoded_faces.shape == faces.shape
     error = np.linalg.norm(decoded - original)
     # Every coefficient is off by 0.6 steps at the most; a learnt basis leaves a little of the motion out as well.
@@ -69,7 +52,7 @@ def test_rigid_motion_costs_little_more_than_its_basis():
     positions, faces = turning(40)
     data, original = encoded(positions, faces, gop=40)
     static = len(encoded(positions[:1], faces)[0])
-    assert compare_sequences(original, decode_sequence(data)[0], faces).kg < 0.2
+    assert compare_sequences(original, bsm.decode_sequence(data)[0], faces).kg < 0.2
     assert len(data) - static < 40 * 12 * 3  # 12 numbers move it, and a frame of it alone takes a thousand bytes
 
 
@@ -83,7 +66,7 @@ def test_chunks_come_as_frames_do(way):
             given.append(frame)
             yield frame
 
-    chunks = SequenceEncoder(faces, options(gop=4, **way)).chunks(source())
+    chunks = bsm.SequenceEncoder(faces, options(gop=4, **way)).chunks(source())
     seen = [len(given) for chunk in chunks if chunk[0] & 15 == 7]
     held = way.get("low_delay", 4)
     assert list(dict.fromkeys(seen)) == [*range(held, 10, held), 10]
@@ -98,14 +81,14 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
             yield positions[number % 8]
 
     def encode_all(count):
-        for _ in SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count)):
+        for _ in bsm.SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count)):
             pass
 
     def decode_all(count):
-        decoder = SequenceDecoder(threads=1)
-        chunks = SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count))
-        while (event := decoder.next_event()) is not END_OF_STREAM:
-            if event is NEED_DATA:
+        decoder = bsm.SequenceDecoder(threads=1)
+        chunks = bsm.SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count))
+        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+            if event is bsm.NEED_DATA:
                 chunk = next(chunks, b"")
                 decoder.receive_data(chunk) if chunk else decoder.receive_eof()
 
@@ -122,7 +105,7 @@ def test_frames_that_return_cost_next_to_nothing(together):
     sizes = np.array([size for _, _, size in gops_of(data)])
     half = len(sizes) // 2
     assert sizes[half + 1 :].sum() < 0.3 * sizes[1:half].sum()
-    assert np.abs(decode_sequence(data)[0] - original).max() < 0.02
+    assert np.abs(bsm.decode_sequence(data)[0] - original).max() < 0.02
 
 
 @pytest.mark.parametrize("way", [{}, *WAYS])
@@ -130,7 +113,7 @@ def test_frames_that_do_not_move_cost_next_to_nothing(way):
     mesh = torus(30, 16)
     still = np.repeat(mesh.positions[None], 16, axis=0)
     data, original = encoded(still, mesh.faces, gop=16, **way)
-    assert np.abs(decode_sequence(data)[0] - original).max() < 0.01
+    assert np.abs(bsm.decode_sequence(data)[0] - original).max() < 0.01
     assert len(data) - len(encoded(still[:1], mesh.faces)[0]) < 1000
 
 
@@ -141,7 +124,7 @@ def test_frames_that_do_not_move_cost_next_to_nothing(way):
 def test_odd_meshes(mesh, way):
     positions = np.array([mesh.positions * (1 + 0.1 * t) for t in range(5)])
     data, original = encoded(positions, mesh.faces, block_size=20, **way)
-    assert np.abs(decode_sequence(data)[0] - original).max() < 0.02 * diagonal(original[0])
+    assert np.abs(bsm.decode_sequence(data)[0] - original).max() < 0.02 * diagonal(original[0])
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -149,8 +132,8 @@ def test_motion_far_beyond_the_first_frame(way):
     positions, faces = bending(8)
     positions = positions + 300.0 * np.arange(8)[:, None, None]
     data, original = encoded(positions, faces, **way)
-    assert np.abs(decode_sequence(data)[0] - original).max() < 0.05
-    with pytest.raises(OptionError, match="too fine"):
+    assert np.abs(bsm.decode_sequence(data)[0] - original).max() < 0.05
+    with pytest.raises(bsm.OptionError, match="too fine"):
         encode_sequence(positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way))
 
 
@@ -160,7 +143,7 @@ def test_the_order_can_be_kept(way):
     shuffled = np.random.default_rng(1).permutation(len(positions[0]))
     positions, faces = positions[:, np.argsort(shuffled)], shuffled[faces][::-1]
     data = encode_sequence(positions, faces, options(keep_order=True, **way))
-    decoded, decoded_faces = decode_sequence(data)
+    decoded, decoded_faces = bsm.decode_sequence(data)
     assert np.array_equal(decoded_faces, faces)
     assert np.abs(decoded - positions).max() < 0.02
 
@@ -172,13 +155,13 @@ def test_a_lost_gop_costs_what_refers_to_it(how, index, behind):
     data, _ = encoded(positions, faces)
     assert [gop.data[0] for gop, *_ in gops_of(data)] == [0, 3, 3, 3, 0, 3]
     events = moving_events_of(without(data, Gop, index, how), tolerant=True)
-    lost = [event for event in events if isinstance(event, LossEvent)]
+    lost = [event for event in events if isinstance(event, bsm.LossEvent)]
     missing = range(8 * index, min(8 * behind, 45))
     assert [frame for event in lost for frame in event.frames] == list(missing) and lost[0].error.message
-    assert_same(frames_in(events), decode_sequence(data)[0], set(range(45)) - set(missing))
-    assert isinstance(events[-1], EndEvent)
-    with pytest.raises(CorruptError):
-        decode_sequence(without(data, Gop, index, how))
+    assert_same(frames_in(events), bsm.decode_sequence(data)[0], set(range(45)) - set(missing))
+    assert isinstance(events[-1], bsm.EndEvent)
+    with pytest.raises(bsm.CorruptError):
+        bsm.decode_sequence(without(data, Gop, index, how))
 
 
 @pytest.mark.parametrize("how", ["removed", "changed"])
@@ -186,15 +169,15 @@ def test_a_lost_frame_costs_what_refers_to_it(how):
     positions, faces = bending(20)
     data, _ = encoded(positions, faces, low_delay=1)
     events = moving_events_of(without(data, Gop, 5, how), tolerant=True)
-    assert sum(len(event.frames) for event in events if isinstance(event, LossEvent)) == 3  # frames 5, 6 and 7 of 8
-    assert_same(frames_in(events), decode_sequence(data)[0], set(range(20)) - {5, 6, 7})
+    assert sum(len(event.frames) for event in events if isinstance(event, bsm.LossEvent)) == 3  # frames 5, 6 and 7 of 8
+    assert_same(frames_in(events), bsm.decode_sequence(data)[0], set(range(20)) - {5, 6, 7})
 
 
 def test_losses_at_the_end_of_a_sequence_of_unknown_length():
     positions, faces = bending(16)
-    data = b"".join(SequenceEncoder(faces, options()).chunks(positions))
+    data = b"".join(bsm.SequenceEncoder(faces, options()).chunks(positions))
     events = moving_events_of(without(data, Gop, 1, "changed"), tolerant=True)
-    assert [(e.frames.start, len(e.frames)) for e in events if isinstance(e, LossEvent)] == [(8, 0)]
+    assert [(e.frames.start, len(e.frames)) for e in events if isinstance(e, bsm.LossEvent)] == [(8, 0)]
 
 
 def test_the_beginning_must_be_whole():
@@ -203,33 +186,33 @@ def test_the_beginning_must_be_whole():
     for offset in (40, 700, gops_of(data)[0][1] - 30):
         broken = bytearray(data)
         broken[offset] ^= 0xFF
-        with pytest.raises(BsmError):
+        with pytest.raises(bsm.BsmError):
             moving_events_of(bytes(broken), tolerant=True)
 
 
 def test_a_frame_of_another_shape_or_not_finite_is_named():
     positions, faces = bending(5)
-    with pytest.raises(MeshError, match="frame 3 "):
-        list(SequenceEncoder(faces, options()).chunks([*positions[:3], positions[3][:-1]]))
+    with pytest.raises(bsm.MeshError, match="frame 3 "):
+        list(bsm.SequenceEncoder(faces, options()).chunks([*positions[:3], positions[3][:-1]]))
     positions[2, 7, 1] = np.nan
-    with pytest.raises(MeshError, match="frame 2 "):
+    with pytest.raises(bsm.MeshError, match="frame 2 "):
         encode_sequence(positions, faces, options())
-    with pytest.raises(MeshError):
+    with pytest.raises(bsm.MeshError):
         encode_sequence(positions[:0], faces, options())
-    with pytest.raises(MeshError):
+    with pytest.raises(bsm.MeshError):
         encode_sequence(positions[0], faces, options())
-    with pytest.raises(OptionError, match="announced"):
-        list(SequenceEncoder(faces, options(), 7).chunks(bending(5)[0]))
+    with pytest.raises(bsm.OptionError, match="announced"):
+        list(bsm.SequenceEncoder(faces, options(), 7).chunks(bending(5)[0]))
 
 
 @pytest.mark.parametrize(("kind", "value"), [("kg", 0.2), ("theta_deg", 1.0), ("nmsve_db", -45.0), ("bpvf", 1.0)])
 def test_targets(kind, value):
     positions, faces = bending(12)
-    target = SequenceTarget(kind, value)
-    encoder = SequenceEncoder(faces, options(target=target), len(positions))
+    target = bsm.SequenceTarget(kind, value)
+    encoder = bsm.SequenceEncoder(faces, options(target=target), len(positions))
     data = b"".join(encoder.chunks(positions))
     assert encoder.notes == ()
-    decoded, decoded_faces = decode_sequence(data)
+    decoded, decoded_faces = bsm.decode_sequence(data)
     comparison = compare_sequences(positions[:, encoder.vertex_order], decoded, decoded_faces)
     reached = 8 * len(data) / decoded[..., 0].size if kind == "bpvf" else getattr(comparison, kind)
     assert value - (0.2 if kind == "nmsve_db" else 0.05 * value) <= reached <= value
@@ -237,21 +220,26 @@ def test_targets(kind, value):
 
 def test_a_target_that_cannot_be_met_is_an_error():
     positions, faces = bending(3)
-    encoder = SequenceEncoder(faces, options(target=SequenceTarget("bpvf", 0.01)), len(positions))
-    with pytest.raises(TargetError, match=r"0\.01 bits per vertex and frame at most cannot be reached"):
+    encoder = bsm.SequenceEncoder(faces, options(target=bsm.SequenceTarget("bpvf", 0.01)), len(positions))
+    with pytest.raises(bsm.TargetError, match=r"0\.01 bits per vertex and frame at most cannot be reached"):
         list(encoder.chunks(positions))
     for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
-        with pytest.raises(OptionError):
-            SequenceTarget(kind, value)
+        with pytest.raises(bsm.OptionError):
+            bsm.SequenceTarget(kind, value)
 
 
 def test_limits():
     positions, faces = bending(12)
     data, _ = encoded(positions, faces)
-    decode_sequence(data, limits=Limits(gop_frames=8, frames=12))
-    for limits in (Limits(gop_frames=7), Limits(frames=11), Limits(sequence_bytes=1e5), Limits(vertices=100)):
-        with pytest.raises(LimitError):
-            decode_sequence(data, limits=limits)
+    bsm.decode_sequence(data, limits=bsm.Limits(gop_frames=8, frames=12))
+    for limits in (
+        bsm.Limits(gop_frames=7),
+        bsm.Limits(frames=11),
+        bsm.Limits(sequence_bytes=1e5),
+        bsm.Limits(vertices=100),
+    ):
+        with pytest.raises(bsm.LimitError):
+            bsm.decode_sequence(data, limits=limits)
 
 
 @pytest.mark.slow
@@ -259,20 +247,20 @@ def test_limits():
 @pytest.mark.parametrize("threads", [1, 3])
 def test_dictionaries_without_room_are_made_for_every_gop(way, threads):
     data, _ = encoded(*bending(16, 60, 32), **way)
-    ample, _ = decode_sequence(data, threads=threads)
-    np.testing.assert_array_equal(decode_sequence(data, limits=least_memory(data), threads=threads)[0], ample)
+    ample, _ = bsm.decode_sequence(data, threads=threads)
+    np.testing.assert_array_equal(bsm.decode_sequence(data, limits=least_memory(data), threads=threads)[0], ample)
 
 
 def memory_of(size):
-    return Limits(memory=size, memory_per_vertex=0, memory_per_byte=0)
+    return bsm.Limits(memory=size, memory_per_vertex=0, memory_per_byte=0)
 
 
 def least_memory(data):
     """Limits of so little memory that hardly anything is kept, but the stream is decoded."""
     for size in range(4_000_000, 16_000_000, 1_000_000):
         try:
-            decode_sequence(data, limits=memory_of(size))
-        except LimitError as error:
+            bsm.decode_sequence(data, limits=memory_of(size))
+        except bsm.LimitError as error:
             assert "memory" in str(error)
         else:
             return memory_of(size)
@@ -287,10 +275,10 @@ def test_gops_end_earlier_where_decoders_lack_the_memory(monkeypatch):
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
     data, wanted = encoded(positions, faces, gop=32, step=1e-3)
     assert 1 < len(gops_of(data)) < 32
-    decoded, _ = decode_sequence(data, limits=granted)
+    decoded, _ = bsm.decode_sequence(data, limits=granted)
     np.testing.assert_allclose(decoded, wanted, atol=0.05)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: memory_of(granted.memory - 3e6))
-    with pytest.raises(OptionError, match="memory"):
+    with pytest.raises(bsm.OptionError, match="memory"):
         encoded(positions, faces, gop=32)
 
 
@@ -311,7 +299,7 @@ def many_ways(frames, *, change):
 def test_long_motion_is_one_gop_or_two_whatever_costs_less():
     def firsts_and_bytes(positions, faces, **chosen):
         data, wanted = encoded(positions, faces, **{"gop": None, "step": 0.005, **chosen})
-        np.testing.assert_allclose(decode_sequence(data)[0], wanted, atol=0.05)
+        np.testing.assert_allclose(bsm.decode_sequence(data)[0], wanted, atol=0.05)
         return [gop.index for gop, _, _ in gops_of(data)], len(data)
 
     lasting, changing = many_ways(300, change=False), many_ways(300, change=True)
@@ -323,17 +311,17 @@ def test_long_motion_is_one_gop_or_two_whatever_costs_less():
 
 def test_frames_that_are_shown_grant_work():
     data, _ = encoded(*bending(16), gop=16)
-    with SequenceDecoder(Limits(work_per_byte=0)) as decoder:
+    with bsm.SequenceDecoder(bsm.Limits(work_per_byte=0)) as decoder:
         decoder.receive_data(data)
         decoder.receive_eof()
-        while decoder.next_event() is not END_OF_STREAM:
+        while decoder.next_event() is not bsm.END_OF_STREAM:
             pass
         work = decoder.work
     per_vertex = 0.3 * work / (480 * 17)
-    granted = Limits(work=0.71 * work, work_per_vertex=per_vertex, work_per_byte=0)
-    assert len(decode_sequence(data, limits=granted)[0]) == 16
-    with pytest.raises(LimitError, match="work"):
-        decode_sequence(data, limits=Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0))
+    granted = bsm.Limits(work=0.71 * work, work_per_vertex=per_vertex, work_per_byte=0)
+    assert len(bsm.decode_sequence(data, limits=granted)[0]) == 16
+    with pytest.raises(bsm.LimitError, match="work"):
+        bsm.decode_sequence(data, limits=bsm.Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0))
 
 
 def assert_same(found, decoded, indices):

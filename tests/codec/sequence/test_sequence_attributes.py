@@ -3,18 +3,7 @@
 import numpy as np
 import pytest
 
-from bsm import (
-    END_OF_STREAM,
-    Attribute,
-    AttributeEvent,
-    FrameEvent,
-    LossEvent,
-    OptionError,
-    SequenceDecoder,
-    SequenceEncoder,
-    SequenceOptions,
-    decode_sequence,
-)
+import bsm
 from bsm.api import encode_sequence
 from tests.shapes import torus
 
@@ -22,50 +11,50 @@ MESH = torus(24, 16)
 FRAMES = np.array([MESH.positions * [1, 1, 1 + 0.1 * k] for k in range(6)])
 
 
-def with_attributes() -> tuple[Attribute, ...]:
+def with_attributes() -> tuple[bsm.Attribute, ...]:
     corners = MESH.positions[MESH.faces][:, :, :2] + (MESH.positions[MESH.faces][:, :1, 2:] > 0)
     return (
-        Attribute("color", (127 + 100 * np.sin(MESH.positions)).astype(np.uint8), "vertex", "color"),
-        Attribute("uv", corners.reshape(-1, 2).astype(np.float32), "corner", "texcoord"),
-        Attribute("part", np.arange(len(MESH.faces)) // 100, "face"),
+        bsm.Attribute("color", (127 + 100 * np.sin(MESH.positions)).astype(np.uint8), "vertex", "color"),
+        bsm.Attribute("uv", corners.reshape(-1, 2).astype(np.float32), "corner", "texcoord"),
+        bsm.Attribute("part", np.arange(len(MESH.faces)) // 100, "face"),
     )
 
 
-def decoded(stream: bytes, *, tolerant: bool = False) -> tuple[dict[str, Attribute], int, int, list[str]]:
+def decoded(stream: bytes, *, tolerant: bool = False) -> tuple[dict[str, bsm.Attribute], int, int, list[str]]:
     frames, losses, order = 0, 0, []
-    with SequenceDecoder(tolerant=tolerant) as decoder:
+    with bsm.SequenceDecoder(tolerant=tolerant) as decoder:
         decoder.receive_data(stream)
         decoder.receive_eof()
-        while (event := decoder.next_event()) is not END_OF_STREAM:
-            frames += isinstance(event, FrameEvent)
-            losses += isinstance(event, LossEvent)
+        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+            frames += isinstance(event, bsm.FrameEvent)
+            losses += isinstance(event, bsm.LossEvent)
             order.append(type(event).__name__)
         return {attribute.name: attribute for attribute in decoder.attributes}, frames, losses, order
 
 
 def test_they_come_back_before_the_second_frame():
-    options = SequenceOptions(keep_order=True, attributes={"uv": "12bits"})
+    options = bsm.SequenceOptions(keep_order=True, attributes={"uv": "12bits"})
     stream = encode_sequence(FRAMES, MESH.faces, options, metadata={"name": "spin"}, mesh_attributes=with_attributes())
     found, frames, losses, order = decoded(stream)
     assert frames == 6 and not losses
-    assert order.index("FrameEvent") > max(i for i, name in enumerate(order) if name == AttributeEvent.__name__)
+    assert order.index("FrameEvent") > max(i for i, name in enumerate(order) if name == bsm.AttributeEvent.__name__)
     color, uv, part = with_attributes()
     assert (found["color"].values == color.values).all() and (found["part"].values == part.values).all()
     wanted = uv.values[uv.indices]
     assert np.abs(found["uv"].values[found["uv"].indices] - wanted).max() <= 0.51 * np.ptp(wanted) / 4095
-    positions, faces = decode_sequence(stream)
+    positions, faces = bsm.decode_sequence(stream)
     assert positions.shape == FRAMES.shape and (faces == MESH.faces).all()
 
 
 def test_normals_cannot_be_recomputed():
-    normals = Attribute("normal", np.ones((len(MESH.positions), 3)), "vertex", "normal")
-    with pytest.raises(OptionError, match="recomputed"):
+    normals = bsm.Attribute("normal", np.ones((len(MESH.positions), 3)), "vertex", "normal")
+    with pytest.raises(bsm.OptionError, match="recomputed"):
         encode_sequence(
-            FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), mesh_attributes=(normals,)
+            FRAMES, MESH.faces, bsm.SequenceOptions(attributes={"normal": "recompute"}), mesh_attributes=(normals,)
         )
 
 
 def test_as_many_frames_come_as_were_announced():
     for count in (len(FRAMES) - 1, len(FRAMES) + 1):
-        with pytest.raises(OptionError, match="announced"):
-            b"".join(SequenceEncoder(MESH.faces, SequenceOptions(), count).chunks(FRAMES))
+        with pytest.raises(bsm.OptionError, match="announced"):
+            b"".join(bsm.SequenceEncoder(MESH.faces, bsm.SequenceOptions(), count).chunks(FRAMES))

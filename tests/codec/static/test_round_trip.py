@@ -1,18 +1,7 @@
 import numpy as np
 import pytest
 
-from bsm import (
-    BlockEvent,
-    EncodeOptions,
-    Encoder,
-    LimitError,
-    Limits,
-    OptionError,
-    TriangleMesh,
-    TruncatedError,
-    decode,
-    encode,
-)
+import bsm
 from bsm.codec.geometry.metrics import compare
 from bsm.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
@@ -22,8 +11,8 @@ SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}
 
 
 def round_trip(mesh, **options):
-    encoder = Encoder(mesh, encode_options(**options))
-    decoded = decode(encoder.encode())
+    encoder = bsm.Encoder(mesh, encode_options(**options))
+    decoded = bsm.decode(encoder.encode())
     return encoder, decoded, compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces)
 
 
@@ -64,35 +53,35 @@ def test_the_faces_come_back_under_the_new_numbers():
 
 
 def test_a_step_finer_than_levels_can_hold_is_refused():
-    with pytest.raises(OptionError):
-        encode(torus(), EncodeOptions(**{**SMALL, "step": 1e-8}))
+    with pytest.raises(bsm.OptionError):
+        bsm.encode(torus(), bsm.EncodeOptions(**{**SMALL, "step": 1e-8}))
 
 
 @pytest.mark.parametrize(
     "mesh",
     [
         tetrahedron(),
-        TriangleMesh(np.eye(3), np.array([[0, 1, 2]])),
-        TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2]])),
-        TriangleMesh(np.eye(3), np.array([[0, 1, 2], [0, 1, 2], [2, 1, 0], [1, 1, 2], [2, 2, 2]])),
+        bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 2]])),
+        bsm.TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2]])),
+        bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 2], [0, 1, 2], [2, 1, 0], [1, 1, 2], [2, 2, 2]])),
         together(*[tetrahedron()] * 40),
         together(torus(12, 8), tetrahedron(), patch(4, 4)),
-        TriangleMesh(patch(9, 9).positions + 1e7, patch(9, 9).faces),
-        TriangleMesh(patch(9, 9).positions * 1e-30, patch(9, 9).faces),
-        TriangleMesh(patch(9, 9).positions * 1e200, patch(9, 9).faces),
+        bsm.TriangleMesh(patch(9, 9).positions + 1e7, patch(9, 9).faces),
+        bsm.TriangleMesh(patch(9, 9).positions * 1e-30, patch(9, 9).faces),
+        bsm.TriangleMesh(patch(9, 9).positions * 1e200, patch(9, 9).faces),
     ],
     ids=["tetrahedron", "triangle", "point", "repeated", "components", "mixed", "far", "tiny", "huge"],
 )
 @pytest.mark.parametrize("options", [{}, {"bits": 12}, {"key_interval": 1}], ids=str)
 def test_small_and_strange_meshes_come_back(mesh, options):
-    encoder = Encoder(mesh, encode_options(block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options))
-    decoded = decode(encoder.encode())
+    encoder = bsm.Encoder(mesh, encode_options(block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options))
+    decoded = bsm.decode(encoder.encode())
     error = np.abs(mesh.positions[encoder.vertex_order] - decoded.positions).max()
     assert error <= 0.01 * mesh.diagonal + 1e-9 * np.abs(mesh.positions).max()
 
 
 def test_vertices_without_faces_are_dropped_with_a_note():
-    mesh = TriangleMesh(np.arange(18.0).reshape(6, 3) ** 2, np.array([[1, 2, 4]]))
+    mesh = bsm.TriangleMesh(np.arange(18.0).reshape(6, 3) ** 2, np.array([[1, 2, 4]]))
     encoder, decoded, _ = round_trip(mesh)
     assert sorted(encoder.vertex_order) == [1, 2, 4] and len(decoded.positions) == 3
     assert encoder.notes == ("left out 3 vertices that no face uses",)
@@ -101,12 +90,12 @@ def test_vertices_without_faces_are_dropped_with_a_note():
 @pytest.mark.parametrize("smoothing", [0.0, 3.0])
 def test_every_vertex_becomes_final_once_and_stays(smoothing):
     mesh = torus(60, 40)
-    data = encode(mesh, EncodeOptions(**SMALL, smoothing=smoothing))
-    decoded = decode(data)
+    data = bsm.encode(mesh, bsm.EncodeOptions(**SMALL, smoothing=smoothing))
+    decoded = bsm.decode(data)
     positions = np.full_like(decoded.positions, np.nan)
     final = np.zeros(len(positions), bool)
     early = 0
-    blocks = [event for event in events_of(data) if isinstance(event, BlockEvent)]
+    blocks = [event for event in events_of(data) if isinstance(event, bsm.BlockEvent)]
     for number, event in enumerate(blocks):
         assert not final[event.vertices].any()
         assert len(np.unique(event.vertices)) == len(event.vertices)
@@ -118,28 +107,28 @@ def test_every_vertex_becomes_final_once_and_stays(smoothing):
 
 
 def test_a_stream_cut_anywhere_is_reported_as_truncated():
-    data = encode(torus(20, 12), EncodeOptions(**SMALL))
+    data = bsm.encode(torus(20, 12), bsm.EncodeOptions(**SMALL))
     for length in range(0, len(data), 7):
-        with pytest.raises(TruncatedError):
-            decode(data[:length])
+        with pytest.raises(bsm.TruncatedError):
+            bsm.decode(data[:length])
 
 
 def test_a_stream_over_the_limits_is_refused():
-    data = encode(torus(), EncodeOptions(**SMALL))
+    data = bsm.encode(torus(), bsm.EncodeOptions(**SMALL))
     for limits in (
-        Limits(vertices=959),
-        Limits(faces=1000),
-        Limits(block_size=99),
-        Limits(most_work=1e3),
-        Limits(blocks=2),
+        bsm.Limits(vertices=959),
+        bsm.Limits(faces=1000),
+        bsm.Limits(block_size=99),
+        bsm.Limits(most_work=1e3),
+        bsm.Limits(blocks=2),
     ):
-        with pytest.raises(LimitError):
-            decode(data, limits=limits)
+        with pytest.raises(bsm.LimitError):
+            bsm.decode(data, limits=limits)
 
 
 def test_illegal_options_are_refused():
     for wrong in ({"keep": 0.0}, {"bits": 1}, {"bits": 17}, {"overlap": 0.9}, {"key_seed": "random"}, {"step": -1.0}):
-        with pytest.raises(OptionError):
+        with pytest.raises(bsm.OptionError):
             encode_options(**wrong)
 
 
@@ -148,14 +137,14 @@ def test_the_order_can_be_kept():
     mesh = together(torus(), patch(9, 12))
     place = shuffled.permutation(len(mesh.positions))
     faces = np.array([np.roll(face, k) for face, k in zip(mesh.faces, shuffled.integers(0, 3, len(mesh.faces)))])
-    mesh = TriangleMesh(mesh.positions[np.argsort(place)], shuffled.permutation(place[faces]))
-    data = encode(mesh, EncodeOptions(**SMALL, keep_order=True))
-    decoded = decode(data)
+    mesh = bsm.TriangleMesh(mesh.positions[np.argsort(place)], shuffled.permutation(place[faces]))
+    data = bsm.encode(mesh, bsm.EncodeOptions(**SMALL, keep_order=True))
+    decoded = bsm.decode(data)
     assert np.array_equal(decoded.faces, mesh.faces)
     assert compare(mesh.positions, decoded.positions, mesh.faces).rms_relative < 0.006
     seen = np.full_like(decoded.positions, np.nan)
     for event in events_of(data):
-        if isinstance(event, BlockEvent):
+        if isinstance(event, bsm.BlockEvent):
             seen[event.vertices] = event.positions
     assert np.array_equal(seen, decoded.positions)
 
@@ -164,7 +153,7 @@ def test_many_bits_hold_a_first_row_that_is_large_beside_nothing():
     mesh = patch(40, 40)
     errors = []
     for bits in (8, 12, 13, 16):
-        encoder = Encoder(mesh, encode_options(bits=bits, coefficients=1, block_size=100))
-        decoded = decode(encoder.encode()).positions
+        encoder = bsm.Encoder(mesh, encode_options(bits=bits, coefficients=1, block_size=100))
+        decoded = bsm.decode(encoder.encode()).positions
         errors.append(np.abs(decoded - mesh.positions[encoder.vertex_order]).max())
     assert max(errors) < 1.01 * min(errors)

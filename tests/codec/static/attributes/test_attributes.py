@@ -8,23 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import (
-    PRESETS,
-    Attribute,
-    AttributeEvent,
-    BsmError,
-    Decoder,
-    EncodeOptions,
-    Encoder,
-    EndEvent,
-    LossEvent,
-    OptionError,
-    Target,
-    TargetError,
-    TriangleMesh,
-    decode,
-    encode,
-)
+import bsm
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import RECOMPUTED
 from bsm.codec.geometry.welding import split_by_attributes
@@ -33,27 +17,27 @@ from tests.shapes import curved, patch, tetrahedron, torus
 from tests.streams import packets_of, without
 from tools.surgery import frames_of, stream_of
 
-QUICK = EncodeOptions(grid=12)
+QUICK = bsm.EncodeOptions(grid=12)
 """Where the shape is not the point."""
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32")
 
 
-def atlas(mesh: TriangleMesh) -> Attribute:
+def atlas(mesh: bsm.TriangleMesh) -> bsm.Attribute:
     """Texture coordinates in two charts, cut along a line of faces."""
     faces = mesh.faces
     right = mesh.positions[faces].mean(axis=1)[:, 0] > mesh.positions[:, 0].mean()
     corners = mesh.positions[faces][:, :, :2] * 0.4 + np.where(right, 0.5, 0.0)[:, None, None]
-    return Attribute("uv", corners.reshape(-1, 2).astype(np.float32), "corner", "texcoord")
+    return bsm.Attribute("uv", corners.reshape(-1, 2).astype(np.float32), "corner", "texcoord")
 
 
-def normals(mesh: TriangleMesh) -> Attribute:
+def normals(mesh: bsm.TriangleMesh) -> bsm.Attribute:
     a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
     flat = np.cross(b - a, c - a)
     flat /= np.linalg.norm(flat, axis=1, keepdims=True)
-    return Attribute("normal", np.repeat(flat, 3, axis=0).astype(np.float32), "corner", "normal")
+    return bsm.Attribute("normal", np.repeat(flat, 3, axis=0).astype(np.float32), "corner", "normal")
 
 
-def dressed(mesh: TriangleMesh) -> TriangleMesh:
+def dressed(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
     """With one attribute of each sort."""
     random = np.random.default_rng(5)
     size = len(mesh.positions)
@@ -62,24 +46,24 @@ def dressed(mesh: TriangleMesh) -> TriangleMesh:
     heat = np.cos(4 * mesh.positions[:, 0])
     wild = random.normal(size=(size, 2)).astype(np.float32)
     attributes = (
-        Attribute("color", colors, "vertex", "color"),
+        bsm.Attribute("color", colors, "vertex", "color"),
         atlas(mesh),
         normals(mesh),
-        Attribute("heat", heat),
-        Attribute("group", group, "face"),
-        Attribute("wild", wild),
+        bsm.Attribute("heat", heat),
+        bsm.Attribute("group", group, "face"),
+        bsm.Attribute("wild", wild),
     )
     return replace(mesh, attributes=attributes, metadata={"name": "thing", "unit": "mm", "n": 3})
 
 
-def at_corners(mesh: TriangleMesh, attribute: Attribute) -> np.ndarray:
+def at_corners(mesh: bsm.TriangleMesh, attribute: bsm.Attribute) -> np.ndarray:
     """Values of each corner, shape (m, 3, c)."""
     if attribute.domain == "face":
         return np.repeat(attribute.values[:, None], 3, axis=1)
     return attribute.values[mesh.faces if attribute.indices is None else attribute.indices]
 
 
-def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> dict[str, float]:
+def compared(given: bsm.TriangleMesh, decoded: bsm.TriangleMesh, encoder: bsm.Encoder) -> dict[str, float]:
     """Largest error of each attribute, wherever its corners have come to be."""
     errors = {}
     order = encoder.vertex_order
@@ -103,14 +87,19 @@ EXACT = {"uv": "12bits", "color": "exact"}
 
 @pytest.mark.parametrize(
     "options",
-    [EncodeOptions(), PRESETS["grid14"], EncodeOptions(keep_order=True), replace(PRESETS["grid14"], keep_order=True)],
+    [
+        bsm.EncodeOptions(),
+        bsm.PRESETS["grid14"],
+        bsm.EncodeOptions(keep_order=True),
+        replace(bsm.PRESETS["grid14"], keep_order=True),
+    ],
     ids=["blocks", "grid", "blocks in order", "grid in order"],
 )
 @pytest.mark.parametrize("shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"])
 def test_everything_comes_back(shape, options):
     mesh = dressed(shape)
-    encoder = Encoder(mesh, replace(options, normals="keep", attributes={} if options.grid else EXACT))
-    decoded = decode(encoder.encode())
+    encoder = bsm.Encoder(mesh, replace(options, normals="keep", attributes={} if options.grid else EXACT))
+    decoded = bsm.decode(encoder.encode())
     errors = compared(mesh, decoded, encoder)
     fine = options.grid is not None
     assert errors["color"] == errors["group"] == 0.0
@@ -129,8 +118,8 @@ def test_everything_comes_back(shape, options):
 def test_split_files_come_back_split():
     mesh = split_by_attributes(dressed(torus()))
     assert len(mesh.positions) > 40 * 24
-    encoder = Encoder(mesh, PRESETS["grid14"])
-    decoded = decode(encoder.encode())
+    encoder = bsm.Encoder(mesh, bsm.PRESETS["grid14"])
+    decoded = bsm.decode(encoder.encode())
     assert len(decoded.positions) == 40 * 24, "no gaping geometry"
     assert max(compared(mesh, decoded, encoder).values()) < 0.002
     again = split_by_attributes(decoded)
@@ -141,7 +130,7 @@ def test_split_files_come_back_split():
 
 def test_split_files_come_back_with_their_indices():
     mesh = split_by_attributes(dressed(torus()))
-    loose = TriangleMesh(
+    loose = bsm.TriangleMesh(
         np.concatenate([mesh.positions, [[7.0, 7, 7], [8, 8, 8]]]),
         mesh.faces,
         tuple(
@@ -149,8 +138,8 @@ def test_split_files_come_back_with_their_indices():
             for a in mesh.attributes
         ),
     )
-    options = replace(PRESETS["grid14"], keep_order=True, attributes={"*": "exact"})
-    decoded = decode(encode(loose, options))
+    options = replace(bsm.PRESETS["grid14"], keep_order=True, attributes={"*": "exact"})
+    decoded = bsm.decode(bsm.encode(loose, options))
     assert (decoded.faces == loose.faces).all() and len(decoded.positions) == len(loose.positions)
     for attribute, found in zip(loose.attributes, decoded.attributes, strict=True):
         assert attribute.domain == found.domain and (attribute.values == found.values).all()
@@ -165,8 +154,8 @@ def test_whole_numbers_are_exact(kind, domain):
     random = np.random.default_rng(1)
     values = random.integers(bounds.min, bounds.max, (count, 4), dtype=np.int64, endpoint=True).astype(kind)
     values[:2] = [[bounds.min] * 4, [bounds.max] * 4]
-    whole = replace(mesh, attributes=(Attribute("x", values, domain),))
-    decoded = decode(encode(whole, replace(QUICK, keep_order=True)))
+    whole = replace(mesh, attributes=(bsm.Attribute("x", values, domain),))
+    decoded = bsm.decode(bsm.encode(whole, replace(QUICK, keep_order=True)))
     found = decoded.attributes[0]
     assert found.values.dtype == kind and found.domain == domain
     assert (at_corners(decoded, found) == at_corners(whole, whole.attributes[0])).all()
@@ -178,8 +167,8 @@ def test_floats_are_exact_to_the_bit(kind):
     random = np.random.default_rng(2)
     values = (random.normal(size=(63, 4)) * 10.0 ** random.integers(-30, 30, (63, 4))).astype(kind)
     values[0] = [0.0, -0.0, np.finfo(kind).max, -np.finfo(kind).tiny]
-    given = replace(mesh, attributes=(Attribute("x", values), Attribute("half", np.arange(63) / 255.0)))
-    decoded = decode(encode(given, replace(QUICK, keep_order=True, attributes={"*": "exact"})))
+    given = replace(mesh, attributes=(bsm.Attribute("x", values), bsm.Attribute("half", np.arange(63) / 255.0)))
+    decoded = bsm.decode(bsm.encode(given, replace(QUICK, keep_order=True, attributes={"*": "exact"})))
     assert decoded.attributes[0].values.tobytes() == values.tobytes()
     assert (decoded.attributes[1].values == given.attributes[1].values).all()
 
@@ -196,22 +185,22 @@ def test_floats_are_exact_to_the_bit(kind):
 )
 def test_bounds_are_kept(name, quality, most):
     mesh = dressed(torus())
-    encoder = Encoder(mesh, replace(QUICK, attributes={name: quality}))
-    errors = compared(mesh, decode(encoder.encode()), encoder)
+    encoder = bsm.Encoder(mesh, replace(QUICK, attributes={name: quality}))
+    errors = compared(mesh, bsm.decode(encoder.encode()), encoder)
     assert 0.0 < errors[name] <= most
 
 
 @pytest.mark.parametrize("degrees", [10.0, 1.0, 0.05])
 def test_angles_of_normals_are_kept(degrees):
     mesh = dressed(torus())
-    encoder = Encoder(mesh, replace(QUICK, keep_order=True, attributes={"normal": f"{degrees}deg"}))
-    decoded = decode(encoder.encode())
+    encoder = bsm.Encoder(mesh, replace(QUICK, keep_order=True, attributes={"normal": f"{degrees}deg"}))
+    decoded = bsm.decode(encoder.encode())
     wanted, found = (at_corners(each, each.attributes[2]) for each in (mesh, decoded))
     off = np.degrees(np.arccos(np.clip((wanted.astype(float) * found).sum(axis=2), -1, 1)))
     assert degrees / 8 < off.max() <= degrees + 1e-3
 
 
-def smooth_normals(mesh: TriangleMesh) -> np.ndarray:
+def smooth_normals(mesh: bsm.TriangleMesh) -> np.ndarray:
     a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
     found = np.zeros_like(mesh.positions)
     for corner in range(3):
@@ -219,20 +208,20 @@ def smooth_normals(mesh: TriangleMesh) -> np.ndarray:
     return found / np.linalg.norm(found, axis=1, keepdims=True)
 
 
-@pytest.mark.parametrize("options", [EncodeOptions(), PRESETS["grid14"]], ids=["blocks", "grid"])
+@pytest.mark.parametrize("options", [bsm.EncodeOptions(), bsm.PRESETS["grid14"]], ids=["blocks", "grid"])
 def test_normals_can_be_recomputed(options):
     mesh = torus()
-    smooth = replace(mesh, attributes=(Attribute("normal", np.ones((len(mesh.positions), 3)), "vertex", "normal"),))
-    stream = encode(smooth, replace(options, normals="recompute"))
-    decoded = decode(stream)
-    assert len(stream) < len(encode(mesh, options)) + 40
+    smooth = replace(mesh, attributes=(bsm.Attribute("normal", np.ones((len(mesh.positions), 3)), "vertex", "normal"),))
+    stream = bsm.encode(smooth, replace(options, normals="recompute"))
+    decoded = bsm.decode(stream)
+    assert len(stream) < len(bsm.encode(mesh, options)) + 40
     found = decoded.attributes[0].values
     np.testing.assert_allclose(found, smooth_normals(decoded), atol=1e-9)
 
 
 def test_recomputed_normals_keep_their_creases():
     mesh = replace(tetrahedron(), attributes=(normals(tetrahedron()),))
-    decoded = decode(encode(mesh, replace(PRESETS["grid14"], normals="recompute", keep_order=True)))
+    decoded = bsm.decode(bsm.encode(mesh, replace(bsm.PRESETS["grid14"], normals="recompute", keep_order=True)))
     np.testing.assert_allclose(
         at_corners(decoded, decoded.attributes[0]), at_corners(mesh, mesh.attributes[0]), atol=1e-6
     )
@@ -245,27 +234,27 @@ def test_the_look_chooses_normals(outwards, wild):
     noise = np.random.default_rng(0).normal(0, wild, (len(mesh.positions), 3))
     signs = np.full((len(mesh.positions), 1), outwards or 1.0)
     signs[7] *= outwards or -1.0
-    own = Attribute("normal", signs * smooth_normals(mesh) + noise, "vertex", "normal")
+    own = bsm.Attribute("normal", signs * smooth_normals(mesh) + noise, "vertex", "normal")
     mesh = replace(mesh, attributes=(own,))
-    streams = {how: encode(mesh, EncodeOptions(normals=how)) for how in ("look", "keep")}
+    streams = {how: bsm.encode(mesh, bsm.EncodeOptions(normals=how)) for how in ("look", "keep")}
     assert len(streams["look"]) < 0.95 * len(streams["keep"])
     declared = of_kind(streams["look"], packets.Attribute)[0].declaration
     assert (declared.coding == RECOMPUTED) == (outwards > 0 and not wild)
-    assert look(mesh, decode(streams["look"])).distance <= 1.0
+    assert look(mesh, bsm.decode(streams["look"])).distance <= 1.0
 
 
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine"])
 def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
     mesh = replace(torus(30, 20), attributes=())
     mesh = replace(mesh, attributes=(atlas(mesh),))
-    encoder = Encoder(mesh, PRESETS[preset])
-    decoded = decode(encoder.encode())
+    encoder = bsm.Encoder(mesh, bsm.PRESETS[preset])
+    decoded = bsm.decode(encoder.encode())
     places = look_values(mesh, "texcoord")
     assert places is not None
     seen = AttributeLook(mesh, "texcoord", places).compare(decoded)
-    assert seen is not None and seen <= PRESETS[preset].contract.look + 1e-3
-    requested = encode(mesh, replace(PRESETS[preset], attributes={"uv": "14bits"}))
-    assert np.ptp(decode(requested).attributes[0].values) > 0.0 and len(encoder.encode()) < len(requested)
+    assert seen is not None and seen <= bsm.PRESETS[preset].contract.look + 1e-3
+    requested = bsm.encode(mesh, replace(bsm.PRESETS[preset], attributes={"uv": "14bits"}))
+    assert np.ptp(bsm.decode(requested).attributes[0].values) > 0.0 and len(encoder.encode()) < len(requested)
 
 
 @pytest.mark.parametrize(("kind", "domain"), [("uint8", "vertex"), ("float32", "corner"), ("uint16", "face")])
@@ -274,12 +263,12 @@ def test_colors_and_shapes_keep_the_look_in_colors(kind, domain):
     shades = 0.5 + 0.45 * np.sin(3 * mesh.positions @ np.array([[1, 2, 0], [0, 1, 3], [2, 0, 1]]))
     rows = {"vertex": shades, "corner": shades[mesh.faces].reshape(-1, 3), "face": shades[mesh.faces[:, 0]]}[domain]
     whole = 1 if kind == "float32" else np.iinfo(kind).max
-    colors = Attribute("color", (rows * whole).astype(kind), domain, "color")
+    colors = bsm.Attribute("color", (rows * whole).astype(kind), domain, "color")
     mesh = replace(mesh, attributes=(colors,))
-    data, requested = encode(mesh), encode(mesh, EncodeOptions(attributes={"color": "exact"}))
+    data, requested = bsm.encode(mesh), bsm.encode(mesh, bsm.EncodeOptions(attributes={"color": "exact"}))
     values = look_values(mesh, "color")
     assert values is not None and np.ptp(values) > 0.8
-    seen = AttributeLook(mesh, "color", values).compare(decode(data))
+    seen = AttributeLook(mesh, "color", values).compare(bsm.decode(data))
     assert seen is not None and 0.0 < seen <= 1.0 + 1e-3
     assert len(data) < 0.8 * len(requested)
 
@@ -293,41 +282,41 @@ def test_colors_that_are_labels_or_in_no_picture_are_kept(how):
     if how == "beyond":
         values = values.astype(np.float32) / 51
         values[:, 3] = 1
-    mesh = replace(mesh, attributes=(Attribute("color", values, "vertex", "color"),))
-    encoder = Encoder(mesh)
-    off = compared(mesh, decode(encoder.encode()), encoder)["color"]
+    mesh = replace(mesh, attributes=(bsm.Attribute("color", values, "vertex", "color"),))
+    encoder = bsm.Encoder(mesh)
+    off = compared(mesh, bsm.decode(encoder.encode()), encoder)["color"]
     assert off <= (0.0 if how != "beyond" else 5 / 254)
 
 
 def test_textures_that_are_repeated_beyond_all_pictures_are_not_looked_at():
     mesh = torus(12, 8)
-    wide = Attribute("uv", np.float32(1e30) * mesh.positions[:, :2], "vertex", "texcoord")
-    decoded = decode(encode(replace(mesh, attributes=(wide,))))
+    wide = bsm.Attribute("uv", np.float32(1e30) * mesh.positions[:, :2], "vertex", "texcoord")
+    decoded = bsm.decode(bsm.encode(replace(mesh, attributes=(wide,))))
     assert np.abs(decoded.attributes[0].values).max() > 1e29
 
 
 def test_texture_coordinates_in_whole_numbers_are_kept():
     mesh = torus(12, 8)
     whole = (1000 * (mesh.positions[:, :2] + 2)).astype(np.uint16)
-    decoded = decode(encode(replace(mesh, attributes=(Attribute("uv", whole, "vertex", "texcoord"),))))
+    decoded = bsm.decode(bsm.encode(replace(mesh, attributes=(bsm.Attribute("uv", whole, "vertex", "texcoord"),))))
     assert set(map(tuple, decoded.attributes[0].values)) == set(map(tuple, whole))
 
 
 @pytest.mark.parametrize(
     ("asked", "error"),
     [
-        ({"uv": "nonsense"}, OptionError),
-        ({"uv": "-1"}, OptionError),
-        ({"uv": "2deg"}, OptionError),
-        ({"uv": "recompute"}, OptionError),
-        ({"nothing": "exact"}, OptionError),
-        ({"wild": "1e-12"}, BsmError),
-        ({"normal": "1e-9deg"}, TargetError),
+        ({"uv": "nonsense"}, bsm.OptionError),
+        ({"uv": "-1"}, bsm.OptionError),
+        ({"uv": "2deg"}, bsm.OptionError),
+        ({"uv": "recompute"}, bsm.OptionError),
+        ({"nothing": "exact"}, bsm.OptionError),
+        ({"wild": "1e-12"}, bsm.BsmError),
+        ({"normal": "1e-9deg"}, bsm.TargetError),
     ],
 )
 def test_what_makes_no_sense_is_refused(asked, error):
     with pytest.raises(error):
-        encode(dressed(torus()), replace(QUICK, attributes=asked))
+        bsm.encode(dressed(torus()), replace(QUICK, attributes=asked))
 
 
 def of_kind(stream: bytes, kind: type) -> list[Any]:
@@ -337,22 +326,22 @@ def of_kind(stream: bytes, kind: type) -> list[Any]:
 def tolerated(stream: bytes) -> tuple[set[str], int, int]:
     """Names of attributes that were decoded, losses, and how many vertices are missing."""
     names, losses = set(), 0
-    with Decoder(tolerant=True) as decoder:
+    with bsm.Decoder(tolerant=True) as decoder:
         decoder.receive_data(stream)
         decoder.receive_eof()
         while True:
             match decoder.next_event():
-                case AttributeEvent(name):
+                case bsm.AttributeEvent(name):
                     names.add(name)
-                case LossEvent():
+                case bsm.LossEvent():
                     losses += 1
-                case EndEvent(lost):
+                case bsm.EndEvent(lost):
                     return names, losses, len(lost.missing)
 
 
 def test_what_is_lost_of_one_attribute_spoils_none_before_it():
     mesh = dressed(curved(patch(70, 65)))
-    stream = encode(mesh, EncodeOptions(grid=12))
+    stream = bsm.encode(mesh, bsm.EncodeOptions(grid=12))
     for which, packet in enumerate(of_kind(stream, packets.Values)):
         name = mesh.attributes[packet.attribute].name
         names, *lost = tolerated(without(stream, packets.Values, which, "changed"))
@@ -360,40 +349,40 @@ def test_what_is_lost_of_one_attribute_spoils_none_before_it():
         assert names - {name} == {attribute.name for attribute in mesh.attributes[: packet.attribute]}
         frames = frames_of(stream)
         short = [(kind, data[:-2] if data[0] == packet.attribute and kind == 0 else data) for kind, data in frames]
-        with pytest.raises(BsmError, match=f"attribute '{name}'"):
-            decode(stream_of(short))
+        with pytest.raises(bsm.BsmError, match=f"attribute '{name}'"):
+            bsm.decode(stream_of(short))
     names, losses, missing = tolerated(without(stream, packets.Grid, -1, "changed"))
     assert names == set() and losses == 1 and missing > 0
 
 
 def test_a_lost_declaration_loses_those_behind_it():
     mesh = dressed(patch(40, 35))
-    stream = encode(mesh, QUICK)
+    stream = bsm.encode(mesh, QUICK)
     for packet in of_kind(stream, packets.Attribute):
         broken = without(stream, packets.Attribute, packet.index, "changed")
         names, losses, missing = tolerated(broken)
         assert losses >= 1 and missing == 0
         assert names == {attribute.name for attribute in mesh.attributes[: packet.index]}
-        with pytest.raises(BsmError):
-            decode(broken)
+        with pytest.raises(bsm.BsmError):
+            bsm.decode(broken)
 
 
 def test_seams_that_two_share_are_sent_once():
     mesh = dressed(torus())
     second = replace(mesh.attributes[1], name="uv2", values=1 - mesh.attributes[1].values)
     mesh = replace(mesh, attributes=(*mesh.attributes, second))
-    declared = of_kind(encode(mesh, QUICK), packets.Attribute)
+    declared = of_kind(bsm.encode(mesh, QUICK), packets.Attribute)
     assert [p.declaration.seams_of for p in declared] == [0, 0, 0, 0, 0, 0, 2]
     assert [bool(p.seams) for p in declared] == [False, True, True, False, False, False, False]
-    encoder = Encoder(mesh, QUICK)
-    assert max(compared(mesh, decode(encoder.encode()), encoder).values()) < 0.006
+    encoder = bsm.Encoder(mesh, QUICK)
+    assert max(compared(mesh, bsm.decode(encoder.encode()), encoder).values()) < 0.006
 
 
 @pytest.mark.parametrize(("kind", "value"), [("theta_deg", 3.0), ("size", 20000.0)])
 def test_targets_count_attributes(kind, value):
     mesh = dressed(torus())
-    attempt = Encoder(mesh, EncodeOptions(target=Target(kind, value))).result()
-    assert [a.name for a in decode(b"".join(attempt.frames)).attributes] == [a.name for a in mesh.attributes]
+    attempt = bsm.Encoder(mesh, bsm.EncodeOptions(target=bsm.Target(kind, value))).result()
+    assert [a.name for a in bsm.decode(b"".join(attempt.frames)).attributes] == [a.name for a in mesh.attributes]
     assert attempt.size == len(b"".join(attempt.frames))
     assert attempt.size <= value if kind == "size" else attempt.comparison.theta_deg <= value
 
@@ -407,15 +396,15 @@ def test_any_triangles_keep_what_they_carry(seed, vertices, faces, ordered):
     rows = random.integers(0, 4, (int(random.integers(1, 9)), 2)).astype(np.int16)
     shared = random.integers(0, len(rows), (faces, 3))
     attributes = (
-        Attribute("vertex", random.integers(0, 3, (vertices, 1)).astype(np.uint8)),
-        Attribute("float", random.integers(0, 2, (vertices, 2)) * 0.3),
-        Attribute("corner", rows, "corner", "generic", shared),
-        Attribute("again", rows[:, ::-1], "corner", "texcoord", shared),
-        Attribute("face", random.integers(-5, 5, (faces, 1)).astype(np.int8), "face"),
+        bsm.Attribute("vertex", random.integers(0, 3, (vertices, 1)).astype(np.uint8)),
+        bsm.Attribute("float", random.integers(0, 2, (vertices, 2)) * 0.3),
+        bsm.Attribute("corner", rows, "corner", "generic", shared),
+        bsm.Attribute("again", rows[:, ::-1], "corner", "texcoord", shared),
+        bsm.Attribute("face", random.integers(-5, 5, (faces, 1)).astype(np.int8), "face"),
     )
-    mesh = TriangleMesh(positions, triangles, attributes)
-    encoder = Encoder(mesh, EncodeOptions(grid=3, keep_order=ordered, attributes={"*": "exact"}))
-    decoded = decode(encoder.encode())
+    mesh = bsm.TriangleMesh(positions, triangles, attributes)
+    encoder = bsm.Encoder(mesh, bsm.EncodeOptions(grid=3, keep_order=ordered, attributes={"*": "exact"}))
+    decoded = bsm.decode(encoder.encode())
     if ordered:
         assert (decoded.faces == mesh.faces).all()
         for given, found in zip(mesh.attributes, decoded.attributes, strict=True):
