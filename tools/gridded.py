@@ -46,9 +46,18 @@ def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Seque
 
 def lightened(stream: bytes, *counts: int) -> bytes:
     """Recode a stream on a grid by the small model, in as many packets, or in packets of this many vertices."""
+    return _recoded(stream, counts, light=1)
+
+
+def latticed(stream: bytes, cells: int, points: int) -> bytes:
+    """Recode a stream on a grid of so many cells by the points of a lattice on which all of its values are."""
+    return _recoded(stream, (), lattice=[cells, points])
+
+
+def _recoded(stream: bytes, counts: Sequence[int], light: int = 0, lattice: Sequence[int] = ()) -> bytes:
     frames = frames_of(stream)
-    header = header_entries(frames[0][1])
-    vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))
+    header, keys = header_entries(frames[0][1]), {name: field.key for name, field in HEADER_FIELDS.items()}
+    vertices, of_faces, largest = (header[keys[name]] for name in ("vertices", "faces", "grid"))
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
     faces = decode_connectivity(data, vertices, of_faces)
     chunks: list[Any] = [parse_packet(kind, payload) for kind, payload in frames if kind == FrameType.GRID]
@@ -56,11 +65,17 @@ def lightened(stream: bytes, *counts: int) -> bytes:
     field = grid_field(faces, largest, values)
     for chunk in chunks:
         values = field.read(chunk.data, chunk.count)
-    coded_again = grid_frames(faces, values, counts or [chunk.count for chunk in chunks], largest, light=1)
+    if lattice:
+        cells, points = lattice
+        values = ((2 * values.astype(np.int64) * points + cells) // (2 * cells)).astype(np.int32)
+        header |= {keys["lattice"]: lattice, keys["grid"]: values.max(axis=0).tolist()}
+    if light:
+        header[keys["light"]] = light
+    coded_again = grid_frames(faces, values, counts or [chunk.count for chunk in chunks], header[keys["grid"]], light)
     place = next(i for i, (kind, _) in enumerate(frames) if kind == FrameType.GRID)
     behind = [frame for frame in frames[place:] if frame[0] != FrameType.GRID]
-    changed = write_map(sorted((header | {HEADER_FIELDS["light"].key: 1}).items()))
-    return stream_of([(FrameType.HEADER, changed), *frames[1:place], *coded_again, *behind])
+    frames = [(FrameType.HEADER, write_map(sorted(header.items()))), *frames[1:place], *coded_again, *behind]
+    return stream_of(frames, positions=stream[-6:-2] if lattice else b"")
 
 
 def random_grid(random: Random, mesh: TriangleMesh) -> bytes:

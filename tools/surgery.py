@@ -129,10 +129,11 @@ def write_stream(packets: list[Packet]) -> bytes:
     return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])
 
 
-def stream_of(frames: Frames, version: int = VERSION) -> bytes:
-    """The stream of these frames, with an END that fits them."""
+def stream_of(frames: Frames, version: int = VERSION, positions: bytes = b"") -> bytes:
+    """The stream of these frames, with an END that fits them, and has a checksum of positions if that is given."""
     body = MAGIC + bytes([version]) + b"".join(write_frame(kind, payload) for kind, payload in frames)
-    return body + write_frame(FrameType.END, write_varint(len(frames)) + zlib.crc32(body).to_bytes(4, "little"))
+    sums = zlib.crc32(body).to_bytes(4, "little") + positions
+    return body + write_frame(FrameType.END, write_varint(len(frames)) + sums)
 
 
 PARTS = {"paper": tuple(fields_of(Paper)), "sequence": ("frames", "gop_frames")}

@@ -20,7 +20,7 @@ from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.ways.grid import levels_field
-from tools.surgery import write_stream
+from tools.surgery import frames_of, stream_of, with_header, write_stream
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import LAYER, soup
 from tools.vectors.good_sequences import BASE as MOVING
@@ -184,6 +184,14 @@ def _few_seams(mesh: TriangleMesh) -> Attribute:
     return replace(charts(mesh), name="few", values=np.round(charts(mesh).values, 1), semantic="generic")
 
 
+def _small() -> bytes:
+    """One cell of a grid, coded as the two points of a lattice in a grid of 511 cells."""
+    mesh = with_attributes(tetrahedron(), charts, creases, groups)
+    scale = float(np.float32(1) / np.float32(511))
+    points = with_header(encode(mesh, EncodeOptions(grid=1)), scale=scale, lattice=[511, 1])
+    return stream_of(frames_of(points), positions=encode(mesh, GRID)[-6:-2])
+
+
 ATTRIBUTES: dict[str, Good] = {
     "good-attribute-uv-grid": Good(
         "texture coordinates with seams that lean on a grid",
@@ -295,10 +303,7 @@ ATTRIBUTES: dict[str, Good] = {
         "more neighbors, flaps, bases and corners than are looked at",
         lambda: encode(with_attributes(tent(), tips, colors), GRID),
     ),
-    "good-attribute-small": Good(
-        "four faces with values of their own",
-        lambda: encode(with_attributes(tetrahedron(), charts, creases, groups), GRID),
-    ),
+    "good-attribute-small": Good("four faces with values of their own", _small),
     "good-attribute-constant": Good(
         "one value everywhere",
         lambda: encode(with_attributes(torus(6, 5), lambda m: Attribute("one", np.full(len(m.positions), 3.5))), GRID),

@@ -14,7 +14,7 @@ from bsm.codec.static.choice.blocks import RefinementBase, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.ways.grid import grid_field, levels_field
-from tools.gridded import gridded
+from tools.gridded import gridded, latticed
 from tools.surgery import scan, stream_of, with_header, write_stream
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
@@ -47,7 +47,7 @@ def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) ->
     connectivity = draft.body[0]
     prepared = Encoder(mesh, EncodeOptions(grid=8))
     coder = grid_field(prepared.mesh.faces, (cells, cells, cells), places)
-    packets: list[Packet] = [replace(header, grid=(cells, cells, cells), lattice=()), connectivity]
+    packets: list[Packet] = [replace(header, grid=(cells, cells, cells)), connectivity]
     first = 0
     for count in counts:
         packets.append(Grid(first, count, coder.write(count)[0]))
@@ -87,9 +87,10 @@ def _lattice() -> TriangleMesh:
     return TriangleMesh(places / 7.0 + np.array([0.0, 0.0, -1e-3]) * np.arange(len(places))[:, None], mesh.faces)
 
 
-def _exact_lattice() -> TriangleMesh:
+def exact_lattice() -> bytes:
     mesh = _lattice()
-    return TriangleMesh(np.rint(mesh.positions * 7 + 1e-6) * 0.5, mesh.faces)
+    mesh = TriangleMesh(np.rint(mesh.positions * 7 + 1e-6) * 0.5, mesh.faces)
+    return latticed(encode(mesh, EncodeOptions(grid=10)), 1023, 8)
 
 
 def header_of(stream: bytes) -> Header:
@@ -119,14 +120,14 @@ FIELDS: dict[str, Good] = {
     "good-grid": Good("positions on a grid of 11 bits", lambda: encode(_small(), EncodeOptions(grid=11))),
     "good-grid-tetrahedron": Good("four vertices on a grid of one bit", lambda: encode(tetrahedron())),
     "good-grid-fine": Good("a grid of 20 bits", lambda: encode(_small(), EncodeOptions(grid=20))),
-    "good-grid-lattice": Good("a lattice under a grid", lambda: encode(_exact_lattice(), EncodeOptions(grid=10))),
+    "good-grid-lattice": Good("a lattice under a grid", exact_lattice),
     "good-grid-corner": Good(
         "a grid that begins at given cells",
         lambda: with_header(on_grid(_small(), counts=(120,)), center=None, corner=[1, -70000, 0]),
     ),
     "good-grid-corner-lattice": Good(
         "a lattice under a grid that begins at given cells",
-        lambda: with_header(encode(_exact_lattice(), EncodeOptions(grid=10)), center=None, corner=[-1, 2, 300]),
+        lambda: with_header(exact_lattice(), center=None, corner=[-1, 2, 300]),
     ),
     "good-grid-chunks": Good("a grid in chunks", lambda: on_grid(_small(), counts=(1, 70, 49))),
     "good-grid-tangled": Good(

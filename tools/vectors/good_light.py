@@ -12,11 +12,11 @@ from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from tools.gridded import gridded, lightened
+from tools.gridded import gridded, latticed, lightened
 from tools.surgery import stream_of, with_header
 from tools.vectors.good import Good
 from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
-from tools.vectors.good_fields import _exact_lattice, soup
+from tools.vectors.good_fields import exact_lattice, soup
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
 Faces = npt.NDArray[np.int32]
@@ -68,7 +68,9 @@ LIGHT: dict[str, Good] = {
     "good-light-fine": _good("a grid of 20 bits", lambda: light(small(), bits=20)),
     "good-light-coarse": _good("a grid of 4 bits, most errors 0", lambda: light(small(), bits=4)),
     "good-light-border": _good("a surface with a border", lambda: light(patch(12, 9), bits=12)),
-    "good-light-flat": _good("an axis of one value", lambda: light(_flat(), bits=10)),
+    "good-light-flat": _good(
+        "an axis of one value", lambda: lightened(latticed(encode(_flat(), EncodeOptions(grid=10)), 1023, 364))
+    ),
     "good-light-point": _good("a grid of one place", lambda: drawn(small().faces, (0, 0, 0))),
     "good-light-noise": _good(
         "values without relation on axes of 1,001, 4 and 2^20 values",
@@ -78,9 +80,7 @@ LIGHT: dict[str, Good] = {
         "only ends of the longest axes, predictions far outside",
         lambda: drawn(tangled().faces.astype(np.int32), (MOST_LARGEST,) * 3, "ends"),
     ),
-    "good-light-lattice": _good(
-        "a lattice under the grid", lambda: lightened(encode(_exact_lattice(), EncodeOptions(grid=10)))
-    ),
+    "good-light-lattice": _good("a lattice under the grid", lambda: lightened(exact_lattice())),
     "good-light-corner": _good(
         "a grid that begins at given cells", lambda: with_header(light(small()), center=None, corner=[1, -70000, 0])
     ),

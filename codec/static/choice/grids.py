@@ -12,7 +12,7 @@ import numpy.typing as npt
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import TargetError
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from bsm.bitstream.fields.grid import find_lattice, ordered
+from bsm.bitstream.fields.grid import ordered
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
@@ -49,11 +49,11 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
     most, extent = kind(cells), (values - low).max()
     if not extent > 0:
         extent = kind(1)
-    places = np.floor((values - low) * (most / extent) + kind(0.5)).astype(np.int64)
+    places = np.floor((values - low) * (most / extent) + kind(0.5)).astype(np.int32)
     step = float(extent / most)
     if not (step > 0.0 and np.isfinite(step)):
         raise TargetError(f"a grid of {bits} bits is beyond the range of numbers for this mesh")
-    return grid_draft(prepared, *latticed(tuple(map(float, low)), step, places, cells))
+    return grid_draft(prepared, Grid(tuple(map(float, low)), step, tuple(places.max(axis=0).tolist())), places)
 
 
 def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -> tuple[Grid, Levels] | None:
@@ -65,9 +65,9 @@ def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -
     for step in map(float, (near, np.nextafter(near, kind(0)), np.nextafter(near, kind(np.inf)))):
         if step > 0.0 and np.isfinite(step):
             places = np.rint((positions - low) / step)
-            grid, points = latticed(tuple(map(float, low)), step, places.astype(np.int64), cells)
-            if (grid.positions(points) == positions).all():
-                return grid, points
+            grid = Grid(tuple(map(float, low)), step, tuple(places.max(axis=0).astype(int).tolist()))
+            if (grid.positions(places.astype(np.int32)) == positions).all():
+                return grid, places.astype(np.int32)
     return None
 
 
@@ -126,12 +126,6 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
         f"this mesh is more than {MOST_LARGEST // 2} cells of {cell:g} from {origin}, too far to tell places exactly; "
         "choose an origin that is nearer, or a power of two as cell and multiples of it as origin"
     )
-
-
-def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int) -> tuple[Grid, Levels]:
-    """The grid of places, shape (n, 3), on a coarser lattice where they all are on one, and the places on that."""
-    points, lattice = find_lattice(places, cells)
-    return Grid(origin, step, tuple(int(value) for value in points.max(axis=0)), lattice), points
 
 
 FINEST_BITS = 16  # along the longest side of the finest grid on which a mesh may have been made

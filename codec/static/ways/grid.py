@@ -11,7 +11,7 @@ from bsm._engine import Field
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import EXACT
 from bsm.bitstream.container.wire import with_lengths
-from bsm.bitstream.fields.grid import Cells, cells_of, spread
+from bsm.bitstream.fields.grid import Cells, cells_of
 from bsm.codec.arrays import Indices, Levels, Positions
 
 FIRST, CHUNK = 1 << 12, 1 << 13
@@ -25,15 +25,12 @@ class Grid:
     origin: tuple[float, ...]
     step: float
     largest: tuple[int, ...]
-    lattice: tuple[int, ...] = ()
-    corner: tuple[int, ...] = ()
     light: bool = False
     exact: bool = False
 
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
-        places = spread(coded, self.lattice) + np.array(self.corner or (0, 0, 0), np.int64)
-        return np.asarray(places * self.step + np.array(self.origin))
+        return np.asarray(coded * self.step + np.array(self.origin))
 
     def cells(self, coded: Levels) -> Cells:
         """The cells of coded values, shape (n, 3)."""
@@ -42,10 +39,8 @@ class Grid:
     @property
     def fields(self) -> dict[str, Any]:
         """What the header has to say."""
-        return {"center": self.origin, "scale": self.step, "grid": self.largest, "lattice": self.lattice} | {
-            "corner": self.corner,
-            "light": EXACT if self.exact else int(self.light),
-        }
+        light = EXACT if self.exact else int(self.light)
+        return {"center": self.origin, "scale": self.step, "grid": self.largest, "light": light}
 
 
 def grid_field(

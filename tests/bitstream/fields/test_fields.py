@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from bsm import BsmError, CorruptError, NumericError, TruncatedError
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from bsm.bitstream.fields.grid import find_lattice, spread
 from tests.bitstream.fields.fields import (
     COLUMNS,
     KINDS,
@@ -215,23 +214,6 @@ def test_what_is_known_helps():
     noise = np.tile(values(108, [0], [255], "noise", 3), (2, 1))
     alone = size_of(field_of("plain", twice, 216, (255,)), noise)
     assert size_of(field_of("plain", twice, 216, (255,), None, np.tile(K, 2)), noise) < 0.7 * alone
-
-
-@given(st.integers(1, 300), st.integers(2, 2000), SEEDS)
-def test_lattices(count: int, cells: int, seed: int):
-    if count > cells // 2:
-        return
-    points = np.random.default_rng(seed).integers(0, count + 1, (50, 3)).astype(np.int32)
-    on_grid = spread(points, (cells, count))
-    found, lattice = find_lattice(on_grid, cells)
-    np.testing.assert_array_equal(spread(found, lattice), on_grid)
-    assert lattice == () or lattice[1] <= count
-
-
-def test_no_lattice():
-    found, lattice = find_lattice(np.arange(100), 99)
-    assert lattice == () and found.tolist() == list(range(100))
-    assert find_lattice(np.zeros((4, 3), int), 4095)[1] == (4095, 1)
 
 
 @pytest.mark.real
