@@ -192,7 +192,7 @@ class TargetError(BsmError, ValueError):
 
 
 class VerificationError(BsmError, RuntimeError):
-    """The stream does not decode to what the encoder promised. This is a fault of the program; it writes nothing.
+    """The decoded stream breaks the encoder's promise. This is a fault of the program; it writes nothing.
 
     Examples
     --------
@@ -218,7 +218,7 @@ class DependencyError(BsmError, ImportError):
 
 
 class BsmWarning(UserWarning):
-    """What was left out of a mesh, or does not come back as it was; the command line prints it as a note.
+    """A mesh loses or changes data; the command line prints it as a note.
 
     Examples
     --------

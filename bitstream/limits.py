@@ -106,7 +106,7 @@ class Limits:
         return f"Limits({', '.join(f'{name}={value!r}' for name, value in own)})"
 
     def __post_init__(self) -> None:
-        """Raises `ArgumentError` for what is not a number, `OptionError` for one that bounds nothing or everything."""
+        """Raises `ArgumentError` for values that are not numbers, `OptionError` for negative ones and NaN."""
         for name in (field.name for field in fields(self)):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float)):

@@ -236,7 +236,7 @@ class Decoder(StreamDecoder):
     Parameters
     ----------
     limits : Limits
-        What the stream may ask for.
+        Limits on the memory and work of the stream.
     threads : int, optional
         Threads for chains whose bytes are available at the same time; None: one per core.
     tolerant : bool
@@ -335,7 +335,7 @@ class SequenceDecoder(StreamDecoder):
     Parameters
     ----------
     limits : Limits
-        What the stream may ask for.
+        Limits on the memory and work of the stream.
     threads : int, optional
         None: one per core.
     tolerant : bool

@@ -61,7 +61,7 @@ class HeaderEvent:
 
 @dataclass(frozen=True, eq=False)
 class Changes:
-    """What has changed: vertices, their positions in the mesh's unit, and which of them are final."""
+    """Changed vertices, their positions in the mesh's unit, and which of them are final."""
 
     vertices: Indices
     positions: Positions

@@ -84,7 +84,7 @@ def code_edges(coder: Coder, corners: Corners, seams: Flags, earlier: tuple[Flag
 
 
 def _others(earlier: tuple[Flags, ...], size: int) -> Flags:
-    """What the last two attributes have at each edge, 3 times the last: 0 unknown, 1 no seam, 2 seam."""
+    """Seams of the last two attributes at each edge, 3 times the last: 0 unknown, 1 no seam, 2 seam."""
     others = np.zeros(size, np.uint8)
     for factor, seams in zip((3, 1), earlier[::-1], strict=False):
         others += (factor * (1 + (seams == SEAM))).astype(np.uint8)

@@ -1,4 +1,4 @@
-"""Adaptive coding of quantized coefficients (M 9), by what their neighbors let expect and what was learnt before."""
+"""Adaptive coding of quantized coefficients (M 9), by expectations from their neighbors and by learnt statistics."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _BIT = 256
 _SHIFT = 4
 _PROBABILITIES = np.maximum(np.arange((ONE >> _SHIFT) + 1), 0.5) * (1 << _SHIFT) / ONE
 COSTS = np.rint(_BIT * -np.log2(np.minimum(_PROBABILITIES, 1.0))).astype(np.int64)
-"""What a decision costs by its probability, in 1 / 256 bit."""
+"""Cost of a decision by its probability, in 1 / 256 bit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ _SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Experience:
-    """Learnt numbers; in a file, the three arrays one behind the other, little-endian, 16 bits a number."""
+    """Learnt numbers; in a file, the three arrays one after the other, little-endian, 16 bits a number."""
 
     expectations: npt.NDArray[np.uint16]
     mixing: npt.NDArray[np.int16]
@@ -128,7 +128,7 @@ class Experience:
 
 @cache
 def shipped_experience() -> Experience:
-    """What is known of coefficients before any has come; part of the format."""
+    """Statistics of coefficients before the first one; part of the format."""
     return Experience.from_bytes(priors())
 
 
@@ -138,7 +138,7 @@ _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as the
 
 @dataclass
 class CoefficientModel:
-    """What a chain of blocks has taught the coder; encoder and decoder each keep one per chain."""
+    """Statistics that a chain of blocks has taught the coder; encoder and decoder each keep one per chain."""
 
     width: int
     experience: Experience = field(default_factory=shipped_experience)

@@ -13,7 +13,7 @@ from bsm.bitstream.entropy import range_coder as entropy
 Levels = npt.NDArray[np.int32]
 Prices = npt.NDArray[np.int16]
 Lead: TypeAlias = tuple[int, int]
-"""Columns coded of the first row, and more of each next one; without a lead all, behind a third those with any."""
+"""Columns coded of the first row, and more of each next one; without a lead all, after a third those with any."""
 
 _Extent: TypeAlias = tuple[int, int, int, int]  # a lead, the row from which on few columns are coded, and how many
 
@@ -39,7 +39,7 @@ def encode_levels(
     references: Sequence[Levels],
     leads: Sequence[Lead | None] | None = None,
 ) -> bytes:
-    """Code matrices one behind the other."""
+    """Code matrices one after the other."""
     coder = entropy.start_writing(0)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
         coder = write_levels(coder, bank, matrix, reference, lead)
@@ -89,7 +89,7 @@ def _occupied(matrix: Levels) -> int:
 
 
 def extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
-    """What is coded of a matrix, shape (rows, columns), whose levels are known, or of zeros that are to be read."""
+    """The coded part of a matrix, shape (rows, columns), with known levels, or with zeros to be read."""
     rows, columns = matrix.shape
     if lead is not None:
         first, more = lead

@@ -1,1 +1,1 @@
-"""The frames of a stream: what they are, in which order they come, how they are read and written."""
+"""The frames of a stream: their types and order, reading and writing."""

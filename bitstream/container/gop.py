@@ -53,7 +53,7 @@ class GopMethod(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class GopField:
-    """What a GOP tells of one field: of positions, or of an attribute that moves."""
+    """The data of a GOP for one field: positions, or an attribute that moves."""
 
     width: int
     step: float

@@ -37,7 +37,7 @@ class Field:
         return _plain(self.type, value)
 
     def problem(self, value: Any) -> str | None:
-        """What is wrong with a normalized value, or None."""
+        """Return the fault of a normalized value, or None."""
         items = value if self.type is tuple else (value,)
         if self.type is str:
             items = (len(value.encode() if isinstance(value, str) else value),)
@@ -84,7 +84,7 @@ def text(key: int, low: int, high: int) -> Any:
 
 @dataclass(frozen=True)
 class Layer:
-    """The layer of refinement: what a level moves along the normal, in BSM units, and times `ratio` along tangents."""
+    """The layer of refinement: the step of a level along the normal, in BSM units, and times `ratio` along tangents."""
 
     step: float
     ratio: float
@@ -109,7 +109,7 @@ class Paper:
         normalize_fields(self, "paper")
 
     def entry(self, law: Paper) -> tuple[float, ...]:
-        """What a header stores of it; empty: nothing, it is what the law says."""
+        """The stored numbers; empty: the values of the specification."""
         return () if self == law else tuple(float(getattr(self, name)) for name in fields_of(Paper))
 
 
@@ -125,7 +125,7 @@ def paper_of(entry: tuple[float, ...], law: Paper) -> Paper:
 
 @dataclass(frozen=True, kw_only=True)
 class Header:
-    """What a decoder must know before anything else; decoders refuse fields that contradict each other."""
+    """The parameters of a stream, which precede everything else; decoders refuse contradictory fields."""
 
     vertices: int = integer(1, 1, COUNT)
     faces: int = integer(2, 1, COUNT)

@@ -1,4 +1,4 @@
-"""What a stream consists of, once it is no longer bytes; and the payload of each packet, as twins side by side."""
+"""The packets of a stream, with writer and parser of each payload side by side."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -30,7 +30,7 @@ class Metadata:
         object.__setattr__(self, "entries", dict(sorted(plain.items())))
 
     def require_readable(self) -> None:
-        """Raise `OptionError` for what a stream holds, but bsmdec does not give back."""
+        """Raise `OptionError` for values that a stream can hold, but bsmdec does not return."""
         for name, value in self.entries.items():
             if "\0" in name:
                 raise OptionError(f"metadata {name!r}: there is a NUL in the name; leave it out")
@@ -137,7 +137,7 @@ def metadata_of(entries: Sequence[tuple[str, MetadataValue]]) -> tuple[Metadata,
 
 
 def write_metadata(metadata: Metadata) -> bytes:
-    """A map from names to values; raises `OptionError` for what a stream cannot hold."""
+    """A map from names to values; raises `OptionError` for values that a stream cannot hold."""
     for name, value in metadata.entries.items():
         if isinstance(value, float) and not math.isfinite(value):
             raise OptionError(f"metadata {name!r} is {value}; only finite numbers can be stored")

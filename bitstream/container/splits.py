@@ -1,4 +1,4 @@
-"""ORDER: the order that a mesh had, and which given vertices, loose ones included, are one of what was coded."""
+"""ORDER: the original order of a mesh, and the given vertices, loose ones included, that share a coded vertex."""
 
 from dataclasses import dataclass
 

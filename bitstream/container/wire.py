@@ -22,7 +22,7 @@ SHORT = 128  # a payload of fewer bytes has a short checksum
 
 
 class FrameType(IntEnum):
-    """What a frame carries; the low four bits of its tag."""
+    """The type of a frame; the low four bits of its tag."""
 
     VALUES = 0
     HEADER = 1
@@ -67,7 +67,7 @@ def with_lengths(payloads: list[bytes]) -> bytes:
 
 
 def checksum_size(frame_type: int, length: int) -> int:
-    """Bytes of checksum behind a frame of so much payload: two for blocks and short ones, four for everything else."""
+    """Bytes of checksum after a frame of this payload: two for blocks and short ones, four for everything else."""
     return 2 if frame_type == FrameType.BLOCK or length < SHORT else 4
 
 

@@ -9,7 +9,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
 class Writer:
-    """Turns packets into the bytes of a stream; encoders decode what it wrote before they hand it out."""
+    """Turns packets into the bytes of a stream; encoders decode the result before they return it."""
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self._limits = limits

@@ -1,1 +1,1 @@
-"""Bits for symbols: the range coder, mixed models, and zstd for what has no model."""
+"""Bits for symbols: the range coder, mixed models, and zstd for data without a model."""

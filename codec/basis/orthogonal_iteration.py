@@ -18,7 +18,7 @@ from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize
 
 _DONE, _NEEDS_CARE = 0, 1
-"""What the kernel answers where U is there, and where columns have to be made orthonormal one by one."""
+"""Results of the kernel: U is complete, or columns must be made orthonormal one by one."""
 
 FIRST_CARE = 16
 """Columns that may be made orthonormal one by one where some have to be; then four times as many, and so on."""

@@ -91,9 +91,9 @@ alone is up to an eighth better, for normals and vertices."""
 LARGE, MOST_LARGE_MEMBERS = 100_000, 2  # from LARGE vertices on a blend has fewer members, to save time
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 HARMFUL = 0.95
-"""If the expected error of the result exceeds this multiple of the change, the mesh is not changed:
-normals turned by less than their estimated error are no closer to the clean ones. Noise reads 0.15 to 0.7, the clean
-meshes that were taken for noisy 1.1 and 2.1."""
+"""If the expected error of the result exceeds this multiple of the change, the mesh is not changed: normals turned by
+less than their estimated error do not get closer to the clean ones. Noise reads 0.15 to 0.7, the clean meshes that were
+taken for noisy 1.1 and 2.1."""
 DETAIL = 1.65
 """Error that may come over the expected one where detail is lost: twice on an armadillo of decimated rings, at most."""
 

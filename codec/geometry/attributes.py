@@ -1,4 +1,4 @@
-"""What a mesh carries beside its shape: colors, normals, texture coordinates, and numbers of any meaning."""
+"""Attributes of a mesh: colors, normals, texture coordinates, and numbers of any meaning."""
 
 from __future__ import annotations
 

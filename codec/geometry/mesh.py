@@ -41,8 +41,8 @@ class TriangleMesh:
     Raises
     ------
     MeshError
-        If a shape is wrong, a coordinate is not finite, an index is out of range, there is no face, or an attribute
-        does not fit the mesh.
+        If a shape is wrong, a coordinate is not finite, an index is out of range, the mesh has no faces, or an
+        attribute does not fit the mesh.
 
     Examples
     --------

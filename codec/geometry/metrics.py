@@ -276,7 +276,7 @@ def farthest_from_surface(points: Floats, positions: Positions, faces: Faces) ->
 
 
 def _tree(positions: Positions, faces: Faces) -> tuple[Floats, Floats, Floats, Order, Order]:
-    """Triangles in the order of a tree of boxes; its nodes: lowest, highest corner, what is first, how many."""
+    """Triangles in the order of a tree of boxes; its nodes: lowest and highest corner, first triangle, count."""
     corners = np.ascontiguousarray(positions[faces], dtype=np.float64)
     m = len(corners)
     order, first, count = (np.empty(size, np.int64) for size in (m, 2 * m + 1, 2 * m + 1))

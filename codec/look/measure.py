@@ -268,7 +268,7 @@ class LookMetric:
         return np.ascontiguousarray(placed.clip(-LARGEST, LARGEST))
 
     def _each(self, work: Callable[[Canvas, int], Result], sides: Sequence[int]) -> list[Result]:
-        """Work on each side, on a canvas that nobody else draws on meanwhile."""
+        """Work on each side, on a canvas of its own."""
 
         def done(side: int) -> Result:
             try:

@@ -1,12 +1,12 @@
 """A chain: a key block and the blocks that follow it, each of which may look back as far as the key block.
 
-Encoder and decoder step through the same chain with the same calls: `around`, `dictionary`, `commit`. Different chains
-know nothing of each other, which bounds what a lost block costs and lets chains run in parallel.
+Encoder and decoder step through the same chain with the same calls: `around`, `dictionary`, `commit`. Chains are
+independent, which bounds the loss by a damaged block and lets chains run in parallel.
 
 Not in the paper: a block is predicted from the known vertices around it, and its dictionary uses these. Every edge that
 leaves the block to a known vertex is a spring of stiffness 1 to where that vertex is, as every edge is in the quadratic
-form of L; a known vertex inside the block hangs on a spring to its own place. With S the stiffnesses at each row and y
-their pulls, the surface that continues what is known is the equilibrium (L + S)^-1 y: the harmonic extension. Only the
+form of L; a known vertex inside the block has a spring to its own place. With S the stiffnesses at each row and y
+their pulls, the surface that continues known vertices is the equilibrium (L + S)^-1 y: the harmonic extension. Only the
 difference from it is coded. It is small beside known vertices and free elsewhere, and so are the lowest eigenvectors of
 L + S: they, not those of L, are the dictionary. The delta of Algorithm 1 serves for both, so that one factorisation
 does.

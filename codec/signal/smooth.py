@@ -5,8 +5,8 @@ as roughness; a low-pass filter on the whole mesh takes most of it away. The fil
 random-walk Laplacian K = I - D^-1 A, so a vertex depends on five rings around it only and can be finished while the
 rest of the stream is still on its way.
 
-Frames are smooth functions of the positions, and so they are of the surface: what is coded in the frames of neighbors
-can be predicted from one to the other, and rounding of positions only rounds frames.
+Frames are smooth functions of the positions, and so of the surface: values coded in the frames of neighbors
+can be predicted from each other, and rounding of positions only rounds frames.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Ways of coding what the prediction of a block leaves: `choose`, `write` and `positions`, block by block."""
+"""Ways of coding the residual of a block's prediction: `choose`, `write` and `positions`, block by block."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class Packed:
 
 @dataclass(eq=False)
 class Adaptive:
-    """Levels on two grids, chosen by rate and distortion and coded by what the chain has taught."""
+    """Levels on two grids, chosen by rate and distortion and coded with the statistics of the chain."""
 
     bits: ClassVar[int] = 0
     coarser: ClassVar[int] = 0
@@ -146,7 +146,7 @@ class Scheme:
         return self.rules.chains(self.blocks.count)
 
     def fields(self) -> dict[str, Any]:
-        """What the header has to say."""
+        """The fields of the header."""
         rules, coding = self.rules, self.coding
         paper = Paper(
             bits=coding.bits,

@@ -1,4 +1,4 @@
-"""A mesh to a stream: join, prepare, and draft what the options ask for."""
+"""The encoder of meshes: join, prepare, and draft a stream by the options."""
 
 import sys
 from collections.abc import Iterator
@@ -95,7 +95,7 @@ class Encoder:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was changed on the way in, and what becomes of attributes."""
+        """Changes of the input, and the coding of attributes."""
         sent = {attribute.name for attribute, _ in self._input.wanted}
         left = [attribute.name for attribute in self._input.given.attributes if attribute.name not in sent]
         notes = (*(p.note for p in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
@@ -159,7 +159,7 @@ class Encoder:
             yield from self.draft(progress).frames
 
     def draft(self, progress: Progress | None = None) -> Draft:
-        """What the options ask for, without a target."""
+        """Return the stream of the options, without a target."""
         _ = self._input.carried  # raises what is wrong with attributes first
         promise, given, near = self.options.promise, self._input, self._begun(progress)
         if promise is None:
@@ -184,7 +184,7 @@ class Encoder:
             return self._spectral.base(options.first_step, near.within(0.8)).draft
 
     def result(self, progress: Progress | None = None) -> Attempt:
-        """What `encode` gives, with a comparison of what it decodes to."""
+        """Return the stream, with a comparison of the decoded mesh."""
         return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
 
     def search(self, progress: Progress | None = None) -> Attempt:
@@ -197,7 +197,7 @@ class Encoder:
         """
         target = self.options.target
         if target is None:
-            raise OptionError("there is no target to search for")
+            raise OptionError("no target to search for")
         _ = self._input.carried  # raises what is wrong with attributes first
         near = self._begun(progress)
         contract = self.options.promise
@@ -254,12 +254,12 @@ class Encoder:
         return best if target.shrinks_with_step else replace(best, draft=self._input.dressed(best.draft))
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
-        """Encode blocks with a given quantization step, and see what the decoder will."""
+        """Encode blocks with a given quantization step, and compare the decoded mesh."""
         with as_of_decoders(self.options.limits):
             return self._judged(self._input.dressed(self._spectral.base(step, progress).draft))
 
     def seen(self, attempt: Attempt) -> str:
-        """What is visible of an attempt, in words."""
+        """Return the look of an attempt, in words."""
         return self._input.search(Contract(WIDEST), None).seen(attempt.draft)
 
     def _judged(self, draft: Draft) -> Attempt:
@@ -267,7 +267,7 @@ class Encoder:
         return Attempt(draft, self._reference.compare(decoded))
 
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
-        """Return the draft, after the decoder has returned what it promises, and that keeps the contract."""
+        """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
         near.to(1.0 - (VERIFIED_GRID if self.options.is_grid else VERIFIED))
         original = Original(self._input.given, self._input.joined, self._input.prepared)
         with as_of_decoders(self.options.limits):

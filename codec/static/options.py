@@ -1,4 +1,4 @@
-"""What a user may choose when encoding; the defaults are the product."""
+"""Options for encoding a mesh."""
 
 import math
 from collections.abc import Mapping
@@ -234,7 +234,7 @@ class EncodeOptions:
 
     @property
     def looks_as_it_comes(self) -> bool:
-        """Whether what is asked for is no grid, and no look."""
+        """Return whether the options request neither a grid nor a look."""
         return not self.is_grid and (self.promise is None or self.promise.look == math.inf)
 
     @property
@@ -287,7 +287,7 @@ def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
 
 
 LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "key_interval": 0}
-"""What the best effort compares with the blocks that were asked for: fewer bytes, and slower to decode."""
+"""Blocks that the best effort also tries: fewer bytes, slower to decode."""
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are kept better, or less well

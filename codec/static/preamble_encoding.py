@@ -1,4 +1,4 @@
-"""What comes before positions: the faces and everything that follows from them; for meshes and for sequences."""
+"""Everything before positions: the faces and all that follows from them; for meshes and sequences."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MERGED = "merged"
 
 @dataclass(frozen=True, eq=False)
 class JoinedMesh:
-    """What becomes of a given mesh."""
+    """A given mesh after joining."""
 
     mesh: TriangleMesh
     index: Indices
@@ -203,12 +203,12 @@ class Prepared:
 
     @property
     def before_blocks(self) -> tuple[packets.Connectivity | packets.Partition | packets.Order, ...]:
-        """What the stream holds between header and blocks."""
+        """Return the packets between header and blocks."""
         return (self.connectivity, *self.parts.labels(self.graph, self.partition), *self.order)
 
     @property
     def before_grid(self) -> tuple[packets.Connectivity | packets.Order, ...]:
-        """What the stream holds between header and positions on a grid."""
+        """Return the packets between header and positions on a grid."""
         return (self.connectivity, *self.order)
 
 

@@ -1,4 +1,4 @@
-"""Reaching a quality or a size: a search over the quantization step, on what the decoder will see."""
+"""Reaching a quality or a size: a search over the quantization step, on decoded results."""
 
 import math
 import sys
@@ -22,7 +22,7 @@ class Contract:
     Parameters
     ----------
     farthest : float
-        Largest distance of any vertex from its original. The Hausdorff distance of the surfaces is no larger.
+        Largest distance of any vertex from its original. The Hausdorff distance of the surfaces is at most as large.
     angle : float
         Mean angle between corresponding normals, degrees, faces counted by their area; 180: any.
     absolute : bool
@@ -137,7 +137,7 @@ SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
 STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
 STRIDE, NEAREST = 2.0, 0.1
-"""Between two tries, in the logarithm; and where both sides of a bound are known, the part of what is between them that
+"""Between two tries, in the logarithm; and where both sides of a bound are known, the part of the interval by which
 a try stays away from both."""
 
 
@@ -146,7 +146,7 @@ class Outcome(Protocol):
 
     @property
     def comparison(self) -> Any:
-        """What is decoded against the original."""
+        """The decoded result against the original."""
 
 
 @public
@@ -164,7 +164,7 @@ class Target:
     Raises
     ------
     OptionError
-        If there is no such target.
+        If the target is unknown.
 
     Examples
     --------
@@ -186,7 +186,7 @@ class Target:
             raise OptionError(f"{self.worded(self.value)} cannot be a target")
 
     def reached(self, outcome: Outcome) -> float:
-        """The outcome's value of what the target is about."""
+        """Return the outcome's value of the target's measure."""
         return float(getattr(outcome if self.kind in SIZES else outcome.comparison, self.kind))
 
     def excess(self, outcome: Outcome) -> float:
@@ -201,7 +201,7 @@ class Target:
         return self.value if self.kind == "size" else self.value * vertices / 8.0
 
     def worded(self, value: float) -> str:
-        """A value of what the target is about, in words."""
+        """Return a value of the target's measure, in words."""
         return UNITS[self.kind].format(value)
 
     @property

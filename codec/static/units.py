@@ -31,7 +31,7 @@ class Units:
 
 
 def checksum_of(positions: Positions, before: int = 0) -> int:
-    """CRC-32 of decoded positions, shape (n, 3), in the mesh's unit, behind those with the CRC-32 `before` (F 5.10)."""
+    """CRC-32 of decoded positions, shape (n, 3), in the mesh's unit, continued from the CRC-32 `before` (F 5.10)."""
     return zlib.crc32(np.ascontiguousarray(positions + 0.0, "<f8").data, before)
 
 

@@ -24,7 +24,7 @@ ROUNDING = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Original:
-    """What a stream has to give back: a mesh as it was given, joined and in the order of coding."""
+    """The mesh that a stream must return: as given, joined, and in the order of coding."""
 
     given: TriangleMesh
     joined: JoinedMesh
@@ -84,7 +84,7 @@ def verify(
     limits: Limits,
     threads: int | None,
 ) -> None:
-    """Decode a draft and compare everything; `VerificationError` if anything differs from what the encoder expects.
+    """Decode a draft and compare everything; `VerificationError` if anything differs from the encoder's result.
 
     Positions must be equal bit for bit, faces, metadata and orders as promised, attributes equal but for rounding.
     """
@@ -111,7 +111,7 @@ def require_positions(decoded: Positions, expected: Positions, matched: Order, l
 def require_attributes(
     decoded: Sequence[Attribute], carried: Sequence[PreparedAttribute], faces: Faces, original: Original
 ) -> None:
-    """Require what the closed loop has for attributes at corners and faces, but for rounding."""
+    """Require attributes of the closed loop at corners and faces, except for rounding."""
     require(len(decoded) == len(carried), f"decoded {len(decoded)} of {len(carried)} attributes")
     prepared = original.prepared
     for found, wanted in zip(decoded, carried, strict=True):

@@ -14,7 +14,7 @@ def block_cost(rows: int, edges: int, levels: int) -> float:
 
 
 def ground_cost(laplacian: Laplacian, columns: int) -> float:
-    """Work of extending what is known around a block, and of putting its coefficients on that."""
+    """Work of extending known vertices into a block, and of adding its coefficients."""
     return factor_cost(laplacian.fronts) + solve_cost(laplacian.fronts, 3) + 1.5 * len(laplacian.diagonal) * columns
 
 

@@ -1,1 +1,1 @@
-"""Attributes of a mesh: what is promised of them, whole numbers that keep it, and the frames that carry these."""
+"""Attributes of a mesh: their promises, the integers that keep them, and their frames."""

@@ -78,7 +78,7 @@ def restored(declaration: Declaration, levels: Words) -> Values:
 
 
 def quantized(values: Values, semantic: str, quality: Quality, name: str) -> QuantizedValues:
-    """Values, shape (k, c), as whole numbers that keep what is asked."""
+    """Return values, shape (k, c), as integers that keep the requested quality."""
     is_float, normals = values.dtype.kind == "f", semantic == "normal" and values.shape[1] == 3
     if quality.way == "recompute":
         if not (is_float and normals):
@@ -209,7 +209,7 @@ def _normals(values: Values, quality: Quality, name: str) -> QuantizedValues:
 
 
 def _affine(coding: int, levels: Words, offset: Reals, step: float) -> dict[str, Any]:
-    """Fields of a declaration; what is at its default is left out."""
+    """Return the fields of a declaration without defaults."""
     return {
         "coding": coding,
         "largest": tuple(int(value) for value in levels.max(axis=0)),
@@ -250,7 +250,7 @@ def _bits_of(values: Values) -> Words:
 
 
 def _of_bits(words: Words, kind: np.dtype[Any]) -> Values:
-    """Twin of `_bits_of`; what is no finite number is 0."""
+    """Twin of `_bits_of`; values that are not finite become 0."""
     unsigned = np.dtype(f"u{kind.itemsize}")
     if kind.itemsize == 8:
         pairs = words.reshape(len(words), -1, 2).astype(np.uint64)

@@ -1,4 +1,4 @@
-"""How well attributes are kept: what a user may ask for, and what is done where nothing is asked for."""
+"""The quality of attributes: options of the user, and defaults."""
 
 import re
 from collections.abc import Collection, Mapping, Sequence
@@ -36,7 +36,7 @@ MOVING = {"color": 1.0, "generic": 0.25}
 
 @dataclass(frozen=True)
 class Quality:
-    """What is asked of an attribute."""
+    """The requested quality of an attribute."""
 
     way: Way
     amount: float = 0.0
@@ -71,7 +71,7 @@ def parse_quality(text: str) -> Quality:
 
 
 def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
-    """What is asked of attributes by name, as pairs; raises `OptionError` for a quality that there is not."""
+    """Return the qualities of attributes by name, as pairs; raise `OptionError` for unknown ones."""
     try:
         pairs = tuple(sorted((str(name), str(quality)) for name, quality in dict(asked).items()))
     except (TypeError, ValueError):
@@ -94,7 +94,7 @@ def qualities(
     normals: str = "keep",
     moving: Collection[str] = (),
 ) -> list[tuple[Attribute, Quality]]:
-    """Attributes, and what is asked of each, but for those that are left out; `moving` change from frame to frame."""
+    """Return attributes with their qualities, without omitted ones; `moving` change from frame to frame."""
     unknown = sorted(set(asked) - {attribute.name for attribute in attributes} - {"*"})
     if unknown:
         there = ", ".join(attribute.name for attribute in attributes) or "none"

@@ -1,1 +1,1 @@
-"""What the encoder chooses: promises and targets, the ways to keep them, and the cheapest of these."""
+"""The choices of the encoder: the cheapest way to keep promises and targets."""

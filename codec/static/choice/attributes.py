@@ -1,4 +1,4 @@
-"""Attributes beside the shape: what is sent of them, as coarsely as the look that is promised lets them be."""
+"""Attributes, coded as coarsely as the promised look allows."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class Input:
 
     @cached_property
     def free_normals(self) -> int | None:
-        """Which attribute are normals without a requested quality, so that they may be what the look needs."""
+        """The number of the normals without a requested quality, which the look may choose."""
         options = self.options
         if options.normals != "look" or "*" in dict(options.attributes) or self.normals is None:
             return None
@@ -180,7 +180,7 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Attrib
 
 
 def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
-    """The smallest stream that keeps a contract; normals without a requested quality are what the look needs."""
+    """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
     bare, metric, free = search.smallest(contract), search.metric, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
         return given.dressed(bare)
@@ -217,7 +217,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
 
 
 def _decoded(given: Input, draft: Draft) -> Positions:
-    """What a decoder has, in the units of coding."""
+    """Return the decoded positions, in the units of coding."""
     return given.prepared.units.into(draft.decoded)
 
 

@@ -34,7 +34,7 @@ SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
 
 class Planner:
-    """Makes the plan for one step after another; what is measured on the mesh alone is measured once."""
+    """Makes the plan for one step after another; everything that depends only on the mesh is measured once."""
 
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, overrides: Overrides = AS_SPECIFIED
@@ -54,7 +54,7 @@ class Planner:
         return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
 
     def smoothing(self, blended: Matrix) -> float:
-        """The amount of smoothing that lowers what the options are after most."""
+        """The amount of smoothing that lowers the error of the options most."""
         vertices, reference = self._sample
         spectrum = smoothing_spectrum(self._prepared.graph, blended).only(vertices)
         best, least = 0.0, self._badness(reference, spectrum.smoothed(0.0))
@@ -79,7 +79,7 @@ class Planner:
         )
 
     def _width(self, step: float) -> int:
-        """c: what the options say, or as many coefficients as are worth coding at this step."""
+        """c: the option's value, or as many coefficients as are worth coding at this step."""
         options, size = self._options, self._prepared.size
         if options.coefficients is not None:
             return min(options.coefficients, size)
@@ -170,7 +170,7 @@ class RefinementBase:
 
     @cached_property
     def offsets(self) -> Matrix:
-        """What is missing, in these frames: along normals and tangents, shape (n, 3)."""
+        """The remaining error in these frames: along normals and tangents, shape (n, 3)."""
         return in_frames(self.prepared.positions - self.positions, self.frames)
 
     def expected_steps(self, layer: Layer) -> Matrix:
@@ -257,7 +257,7 @@ class Spectral:
 
 
 class Plain:
-    """Blocks alone; vertices that are out of reach are brought back by a layer of levels for these."""
+    """Only blocks; a layer of levels corrects vertices that are out of reach."""
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
         self._bounds = bounds

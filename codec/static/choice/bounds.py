@@ -1,4 +1,4 @@
-"""How far a decoded mesh is from what a contract asks for; and what is measured of its original once."""
+"""Errors of a decoded mesh as shares of a contract; measurements of its original, made once."""
 
 import math
 from collections.abc import Callable
@@ -35,7 +35,7 @@ these, none is asked how near it is to others."""
 
 
 class Measures:
-    """What is measured of an original once, whatever is asked for; `alike`: angles count all faces alike."""
+    """Measurements of an original, made once for all contracts; `alike`: angles count all faces alike."""
 
     def __init__(
         self,
@@ -77,8 +77,8 @@ class Measures:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """What a step comes to: positions as decoded, in BSM units, shape (n, 3), and the stream; and the same where
-    rounding has folded less over, or left no faces flat, None if it is so already."""
+    """The result of a step: decoded positions, in BSM units, shape (n, 3), and the stream; and versions with fewer
+    folds, or without flat faces, None if this is one."""
 
     step: float
     positions: Matrix
@@ -102,7 +102,7 @@ def turned(candidate: Candidate) -> Candidate | None:
 
 
 class Bounds:
-    """Measures decoded positions, in BSM units, shape (n, 3), by what a contract asks for."""
+    """Measures decoded positions, in BSM units, shape (n, 3), against a contract."""
 
     def __init__(self, measures: Measures, contract: Contract) -> None:
         self.measures = measures

@@ -156,7 +156,7 @@ def made_on(positions: Matrix) -> float | None:
 
 
 class Gridded:
-    """Grids of one mesh, at one step after another; what a nat is worth in angles that a step bends a mean face by."""
+    """Grids of one mesh, at one step after another; the worth of a nat in angles by which a step bends a mean face."""
 
     def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper

@@ -32,7 +32,7 @@ class Way(Protocol):
         """A step that is about right."""
 
     def at(self, step: float) -> Candidate:
-        """What a step comes to."""
+        """The result of a step."""
 
 
 class Search:

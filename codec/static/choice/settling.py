@@ -21,10 +21,10 @@ from bsm.codec.signal.smooth import in_frames, local_frames, tangent_steps
 
 PULL = 0.8  # a level is expected at so much of the mean of its neighbors'
 AROUND, SIZES = 10, 16
-"""Classes of the neighbors' mean size, and sizes of what is left of a level, that bits are estimated for."""
+"""Classes of the neighbors' mean size, and sizes of the rest of a level, for estimates of bits."""
 BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5  # what they are before any is counted
 ASIDE, RATIO = 0.35, 10.0
-"""What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
+"""Cost of rounding along a tangent over that along the normal, where steps are as of a layer of this
 ratio."""
 SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and over those along the surface
 CREASED = (
@@ -106,7 +106,7 @@ def _bits(counts: Matrix) -> Matrix:
 
 
 def creases_of(positions: Positions, faces: Faces) -> Creases:
-    """The creases of a mesh, and what is almost one."""
+    """The creases of a mesh, and near-creases."""
     count = len(positions)
     around = vertex_faces(faces, count)
     crosses = np.empty((len(faces), 4))

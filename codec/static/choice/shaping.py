@@ -1,4 +1,4 @@
-"""Levels and places chosen for the normals instead of rounded: what is coded gets smooth, and cheap. Encoder only.
+"""Levels and places chosen for the normals instead of rounded: the coded error gets smooth, and cheap. Encoder only.
 
 Rounding errors of neighbors have nothing to do with each other, and so they bend the faces between them. A sweep over
 the vertices that takes, of the levels nearby, the one at which faces are bent least makes the error smooth: at the same

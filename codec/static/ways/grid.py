@@ -38,7 +38,7 @@ class Grid:
 
     @property
     def fields(self) -> dict[str, Any]:
-        """What the header has to say."""
+        """The fields of the header."""
         light = EXACT if self.exact else int(self.light)
         return {"center": self.origin, "scale": self.step, "grid": self.largest, "light": light}
 
