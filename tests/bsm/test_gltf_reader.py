@@ -218,6 +218,49 @@ def test_strips_and_fans(mode, corners, expected):
     assert found.notes == ()
 
 
+def test_instances_are_placed_and_their_other_attributes_named():
+    built = one()
+    half = 0.5**0.5
+    places = {
+        "TRANSLATION": built.array(np.array([[0, 0, 5], [2, 0, 0]], np.float32)),
+        "ROTATION": built.array(np.array([[0, 0, 0, 1], [0, 0, half, half]], np.float32)),
+        "SCALE": built.array(np.array([[1, 1, 1], [-2, 2, 2]], np.float32)),
+        "_ID": built.array(np.arange(2, dtype=np.float32)),
+    }
+    node = built.tree["nodes"][0]
+    node |= {"translation": [1, 0, 0], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": places}}}
+    built.tree["extensionsUsed"] = ["EXT_mesh_gpu_instancing"]
+    read = built.read()
+    assert "left out: _ID of instances" in read.notes and read.mesh.faces.tolist()[2:] == [[6, 5, 4], [7, 6, 4]]
+    turned = POINTS[:, [1, 0, 2]] * [-2, -2, 2] + [3, 0, 0]
+    np.testing.assert_allclose(read.mesh.positions, [*(POINTS + [1, 0, 5]), *turned], atol=1e-6)
+
+
+def test_instances_that_are_too_many_or_do_not_match_are_refused():
+    built = one()
+    places = {
+        "TRANSLATION": built.array(np.zeros((2, 3), np.float32)),
+        "SCALE": built.array(np.ones((3, 3), np.float32)),
+    }
+    built.tree["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": places}}
+    with pytest.raises(bsm.FormatError, match="as many"):
+        built.read()
+    del places["SCALE"]
+    built.tree["accessors"][places["TRANSLATION"]] = {"componentType": 5126, "type": "VEC3", "count": 40_000_000}
+    with pytest.raises(bsm.LimitError, match="memory"):
+        built.read()
+
+
+def test_bytes_that_a_required_extension_packs_are_not_read_as_they_are():
+    built = one()
+    built.tree["bufferViews"][0]["extensions"] = {"EXT_packs": {}}
+    built.tree["extensionsUsed"] = ["EXT_packs"]
+    assert len(built.read().mesh.faces) == 2
+    built.tree["extensionsRequired"] = ["EXT_packs"]
+    with pytest.raises(bsm.UnsupportedError, match="EXT_packs"):
+        built.read()
+
+
 def test_points_and_lines_are_named():
     built = one()
     built.tree["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 0})

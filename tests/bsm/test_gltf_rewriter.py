@@ -132,6 +132,20 @@ def test_primitives_whose_vertices_are_named_stay(put):
         np.testing.assert_array_equal(after.array(number), before.array(number))
 
 
+def test_a_primitive_with_bytes_that_are_not_known_stays_and_others_are_compressed():
+    built, _ = ring()
+    other = copy.deepcopy(built.tree["meshes"][0])
+    other["primitives"][0]["attributes"]["POSITION"] = built.array(torus(24, 16).positions.astype(np.float32))
+    built.tree["meshes"].append(other)
+    how = {"EXT_packs": {"buffer": 0, "byteOffset": 4}}
+    built.tree["bufferViews"][0]["extensions"] = how
+    built.tree["extensionsUsed"] = ["EXT_packs"]
+    found, after = rewritten(built)
+    assert found.coded == 1 and found.left == {"EXT_packs may hold other bytes": 1}
+    view = after.tree["bufferViews"][after.item("accessors", first(after)["attributes"]["POSITION"])["bufferView"]]
+    assert view["extensions"] == how and after.buffer(0)[: len(built.data)] == built.data
+
+
 def test_weights_of_all_sets_have_one_sum():
     random = np.random.default_rng(0).random((384, 8)).astype(np.float32)
     weights = random / random.sum(axis=1, keepdims=True)

@@ -333,7 +333,11 @@ def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | Non
     named += [name for name in primitive.get("extensions", {}) if name not in _KNOWN]
     features = primitive.get("extensions", {}).get("EXT_mesh_features", {}).get("featureIds", [])
     named += ["EXT_mesh_features" for entry in features if not {"attribute", "texture"} & entry.keys()]
-    return f"{named[0]} may name vertices" if named else None
+    if named:
+        return f"{named[0]} may name vertices"
+    views = (document.item("bufferViews", entry["bufferView"]) for entry in accessors if "bufferView" in entry)
+    packed = [name for view in views for name in sorted(document.unread_in(view))]
+    return f"{packed[0]} may hold other bytes" if packed else None
 
 
 def size_of(bundle: Bundle) -> int:
@@ -564,12 +568,13 @@ class _Rewritten(gltf.Growing):
     def __init__(self, document: gltf.Document, fallback: str | None) -> None:
         super().__init__(io.BytesIO(), copy.deepcopy(document.tree))
         self._document, self._fallback = document, fallback
-        for kind in ("bufferViews", "buffers"):
-            names = {name for entry in document.items(kind) for name in entry.get("extensions", {})}
-            if unknown := names - {EXTENSION, *MESHOPT}:
-                raise UnsupportedError(
-                    f"{kind} have the extension {min(unknown)}, which may name bytes that would move"
-                )
+        unknown = set().union(*map(document.unread_in, document.items("buffers")))
+        packed = set().union(*map(document.unread_in, document.items("bufferViews")))
+        if unknown or (packed and len(document.items("buffers")) > 1):
+            raise UnsupportedError(f"{min(unknown | packed)} may name bytes of buffers that would move")
+        self._whole = bool(packed)  # then all bytes stay where they are
+        if self._whole:
+            self.append(document.buffer(0))
         self.named = named_by_others(document.tree)
         self._before = {
             kind: {holder[key] for holder, key in references(document.tree, kind)}
@@ -725,7 +730,7 @@ class _Rewritten(gltf.Growing):
             if "extensions" in view and not view["extensions"]:
                 del view["extensions"]
             unread = number in self._before["bufferViews"] and not {number} & (used | self.named)
-            if number in self._moved or unread:
+            if number in self._moved or unread or (self._whole and not packed):
                 continue
             data = self._document.view(number)
             view |= {"buffer": 0, "byteOffset": self.append(data), **({"byteLength": len(data)} if packed else {})}

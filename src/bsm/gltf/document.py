@@ -114,11 +114,19 @@ class Document:
 
     def _place(self, index: object) -> tuple[bytes, int, int]:
         view = self.item("bufferViews", index)
+        if unread := self.unread_in(view) & {*self.tree.get("extensionsRequired", [])}:
+            raise UnsupportedError(
+                f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read here"
+            )
         if any(name in view.get("extensions", {}) for name in (EXTENSION, *MESHOPT)):
             if index not in self._unpacked:
                 self._unpacked[index] = self._unpack(view["extensions"])
             return self._unpacked[index], 0, len(self._unpacked[index])
         return self._plain_place(view, index)
+
+    def unread_in(self, entry: Tree) -> set[str]:
+        """The extensions of a buffer or bufferView that are not known here."""
+        return set(entry.get("extensions", {})) - {EXTENSION, *MESHOPT}
 
     def _unpack(self, extensions: Tree) -> bytes:
         """The bytes of a bufferView that is compressed."""
@@ -342,13 +350,7 @@ class Growing:
 def mime_of(data: bytes) -> str | None:
     """The type that the first bytes of an image tell."""
     kind = kind_of_image(data) or ("avif" if data[4:12] in (b"ftypavif", b"ftypavis") else None)
-    return {
-        "png": "image/png",
-        "jpg": "image/jpeg",
-        "webp": "image/webp",
-        "ktx": "image/ktx2",
-        "avif": "image/avif",
-    }.get(kind or "", "image/vnd-ms.dds" if kind == "dds" else None)
+    return _MIMES.get(kind or "")
 
 
 def bounds_of(values: Array) -> Tree:

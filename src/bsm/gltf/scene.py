@@ -29,6 +29,9 @@ from bsm.files.room import Doubles, Ints, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document, triangles_of
 
+INSTANCING, PER_INSTANCE = "EXT_mesh_gpu_instancing", 2000  # bytes of the node of an instance, at most
+_OF_INSTANCES = ("TRANSLATION", "ROTATION", "SCALE")
+
 
 @dataclass(frozen=True, eq=False)
 class Curve:
@@ -126,6 +129,27 @@ def places_at_rest(document: Document) -> dict[int, Doubles]:
     return places
 
 
+def place_instances(document: Document, limits: Limits) -> None:
+    """Give a node whose mesh is drawn in several places a child for each of them."""
+    nodes, count = document.items("nodes"), 0
+    for node in list(nodes):
+        given = node.get("extensions", {}).get(INSTANCING, {}).get("attributes", {})
+        named = {name.lower(): index for name, index in given.items() if name in _OF_INSTANCES}
+        if "mesh" not in node or "skin" in node or not named:
+            continue
+        count += max(map(document.count, named.values()))
+        limits.check_memory(PER_INSTANCE * count, 0, document.received)
+        tables = {name: document.numbers(index).astype(np.float64) for name, index in named.items()}
+        rows = next(iter(tables.values()))
+        if any(table.shape != (len(rows), 4 if name == "rotation" else 3) for name, table in tables.items()):
+            raise FormatError("the places of a mesh that is drawn several times are not as many, or of other sizes")
+        same = {name: node[name] for name in ("name", "weights") if name in node}
+        same |= {"mesh": node.pop("mesh")}
+        begin = len(nodes)
+        nodes += [same | {name: table[row] for name, table in tables.items()} for row in range(len(rows))]
+        node["children"] = [*node.get("children", []), *range(begin, len(nodes))]
+
+
 @dataclass(frozen=True, eq=False)
 class Skin:
     joints: list[int]
@@ -155,6 +179,7 @@ class Scene:
         self._document, self._limits, self._still = document, limits, animation is None
         self._made: dict[tuple[int, int, int], Part] = {}
         self._skins: dict[int, Skin] = {}
+        place_instances(document, limits)
         self._nodes = document.items("nodes")
         self._parents = parents_of(document)
         targets = (target for primitive in document.primitives() for target in primitive.get("targets", []))
@@ -492,7 +517,7 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
         )
 
 
-_READ = (WEBP, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
+_READ = (WEBP, INSTANCING, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
 
 
 def _unread(document: Document) -> tuple[str, ...]:
@@ -506,6 +531,9 @@ def _unread(document: Document) -> tuple[str, ...]:
         skinned = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
         found += [name for name in primitive["attributes"] if not is_read(name) and not name.startswith(skinned or "?")]
         found += ["morph targets"] if primitive.get("targets") else []
+    for node in document.items("nodes"):
+        given = node.get("extensions", {}).get(INSTANCING, {}).get("attributes", {})
+        found += [f"{name} of instances" for name in given if "skin" in node or name not in _OF_INSTANCES]
     return tuple(dict.fromkeys(found))
 
 

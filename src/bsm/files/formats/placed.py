@@ -22,7 +22,8 @@ _LEFT_OUT = {
     "instance_controller": "skins and morphs with their meshes", "animation": "animations", "lines": "lines",
     "linestrips": "lines", "tristrips": "triangle strips", "trifans": "triangle fans", "instance_camera": "cameras",
     "instance_light": "lights", "basematerials": "materials", "colorgroup": "colors", "texture2dgroup": "textures",
-    "compositematerials": "materials", "beamlattice": "beams", "slicestack": "slices",
+    "compositematerials": "materials", "multiproperties": "materials", "metadata": "metadata",
+    "ph": "holes of polygons", "beamlattice": "beams", "slicestack": "slices",
 }  # fmt: skip
 """What trimesh leaves out of 3MF and DAE, by the tags."""
 _PIECE = 1 << 16

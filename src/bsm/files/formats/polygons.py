@@ -162,6 +162,7 @@ def meaning_of(name: str) -> Semantic:
     return next((meaning for meaning in meanings if bare.startswith(meaning)), "generic")
 
 
+CUT = "polygons were cut into triangles"
 CROSSING = "polygons whose sides cross, so that their triangles overlap"
 _MOST_TURNS = 16  # fans that are tried for a polygon
 _MOST_CORNERS = 1 << 15  # of a polygon whose ears are clipped: that can take the square of it
@@ -226,7 +227,7 @@ class Polygons:
         if (sizes < 3).any():
             notes.append(f"faces with fewer than three corners were left out: {int((sizes < 3).sum())}")
         if (sizes > 3).any():
-            notes.append(f"polygons were cut into triangles: {int((sizes > 3).sum())}")
+            notes.append(f"{CUT}: {int((sizes > 3).sum())}")
         places, owner, folded = triangulate(positions, sizes, corners)
         if folded:
             notes.append(f"{CROSSING}: {folded}")

@@ -3,8 +3,11 @@
 import importlib.util
 import io
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from threading import Lock
 from typing import Any
 from urllib.parse import unquote
 
@@ -16,6 +19,8 @@ from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
 from bsm.files.formats.placed import placed_surfaces, placed_triangles
 from bsm.files.formats.polygons import (
+    CROSSING,
+    CUT,
     Array,
     Column,
     Polygons,
@@ -24,6 +29,7 @@ from bsm.files.formats.polygons import (
     joined_columns,
     meaning_of,
     sorted_into_parts,
+    triangulate,
     turned_normals,
 )
 from bsm.files.room import Doubles, require_count
@@ -34,6 +40,7 @@ PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joine
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """The padding after a PNG or JPEG in GLB files."""
+_OF_COLLADA = ("polylist", "triangleset")
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
 """Metadata that trimesh has added."""
 
@@ -60,7 +67,8 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         with np.errstate(all="ignore"):  # a later check refuses infinite values
             expected, left_out = placed_triangles(data, limits) if kind == "3mf" else (None, ())
             surfaces, left_out = placed_surfaces(data, limits) if kind == "dae" else (0, left_out)
-            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False, resolver=resolver)
+            with _polygons_cut(kind) as cuts:
+                scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False, resolver=resolver)
             found = joined(scene, limits, len(data))
         if (lost := surfaces - len(scene.graph.nodes_geometry)) > 0:
             left_out = (*left_out, f"{lost} of {surfaces} surfaces, which refer to something that is not there")
@@ -75,7 +83,42 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file
     notes = [f"{name} was left out: {why}" for name, why in resolver.absent.items()]
+    notes += [f"{what}: {count}" for what, count in cuts.items() if count]
     return replace(found, metadata=metadata, notes=(*found.notes, *notes), dropped=(*found.dropped, *left_out))
+
+
+_CUTTING = Lock()
+
+
+@contextmanager
+def _polygons_cut(kind: str) -> Iterator[dict[str, int]]:
+    """Let pycollada, which cuts polygons into fans, cut them as all formats here; yields counts for notes."""
+    counts: dict[str, int] = {}
+    if kind != "dae":
+        yield counts
+        return
+    lists, triangles = (imported(f"collada.{name}", "DAE is read with pycollada", "formats") for name in _OF_COLLADA)
+
+    def cut(polygons: Any) -> Any:
+        sizes, corners = np.asarray(polygons.vcounts, np.int64), polygons.index
+        if not len(corners):
+            return plain(polygons)
+        if sizes.sum() != len(corners) or (sizes < 0).any():
+            raise MeshError(f"polygons of this DAE file have {len(corners)} corners, not {sizes.sum()}")
+        points = np.asarray(polygons.vertex, np.float64)
+        places, _, crossing = triangulate(points, sizes, np.asarray(polygons.vertex_index, np.int64))
+        for what, count in ((CUT, int((sizes > 3).sum())), (CROSSING, crossing)):
+            counts[what] = counts.get(what, 0) + count
+        flat = corners[places.reshape(-1)].reshape(-1)
+        return triangles.TriangleSet(polygons.sources, polygons.material, flat, polygons.xmlnode)
+
+    with _CUTTING:
+        plain = lists.Polylist.triangleset
+        lists.Polylist.triangleset = cut
+        try:
+            yield counts
+        finally:
+            lists.Polylist.triangleset = plain
 
 
 @dataclass
