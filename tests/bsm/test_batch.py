@@ -106,45 +106,24 @@ def test_info_of_many(streams, capsys):
 # ---------------------------------------------------------------------------------------------------- what is refused
 
 
-def test_outputs_that_would_replace_something(tmp_path):
+def test_outputs_of_many_inputs(tmp_path):
     for name in ("a.ply", "a.obj", "b.ply"):
         (tmp_path / name).write_bytes(b"x")
-    (tmp_path / "link.ply").symlink_to(tmp_path / "a.ply")
-    os.link(tmp_path / "a.ply", tmp_path / "hard.ply")
     a, b, obj = (str(tmp_path / name) for name in ("a.ply", "b.ply", "a.obj"))
 
-    def to_bsm(_):
-        return ".bsm"
+    def outputs(inputs, output, suffix=".bsm"):
+        return [job.output for job in plan(inputs, output, lambda _: suffix)]
 
-    def to_ply(_):
-        return ".ply"
-
-    for output in (a, str(tmp_path / "link.ply"), str(tmp_path / "hard.ply")):
-        with pytest.raises(OptionError, match="replace the input"):
-            plan([a], output, to_bsm)
     with pytest.raises(OptionError, match="replace the input"):
-        plan([a, b], str(tmp_path), to_ply)
-    with pytest.raises(OptionError, match="two outputs"):
-        plan([a, a], None, to_bsm)
-    apart = [str(tmp_path / "a.ply.bsm"), str(tmp_path / "a.obj.bsm")]
-    assert [job.output for job in plan([a, obj], None, to_bsm)] == apart
-    with pytest.raises(OptionError, match="need an output folder"):
-        plan([a, b], str(tmp_path / "c.bsm"), to_bsm)
-    with pytest.raises(OptionError, match="pipe"):
-        plan([a, "-"], None, to_bsm)
-    assert [job.output for job in plan([a, b], None, to_bsm)] == [str(tmp_path / "a.bsm"), str(tmp_path / "b.bsm")]
-
-
-@pytest.mark.parametrize("output", ["a.npz", "link.npz", "hard.npz"])
-def test_no_input_is_replaced_even_by_force(output, meshes, tmp_path):
-    mesh = (meshes / "a.npz").read_bytes()
-    (tmp_path / "a.npz").write_bytes(mesh)
-    (tmp_path / "link.npz").symlink_to("a.npz")
-    os.link(tmp_path / "a.npz", tmp_path / "hard.npz")
-    for words in (["encode"], ["denoise"]):
-        done = bsm(*words, "-f", tmp_path / "a.npz", "-o", tmp_path / output)
-        assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert (tmp_path / "a.npz").read_bytes() == mesh
+        outputs([a, b], str(tmp_path), ".ply")
+    assert outputs([a, obj], None) == [f"{a}.bsm", f"{obj}.bsm"]
+    for inputs, output, message in (
+        ([a, b], str(tmp_path / "c.bsm"), "need an output folder"),
+        ([a, "-"], None, "pipe"),
+    ):
+        with pytest.raises(OptionError, match=message):
+            outputs(inputs, output)
+    assert outputs([a, b], None) == [str(tmp_path / "a.bsm"), str(tmp_path / "b.bsm")]
 
 
 def test_outputs_that_the_user_did_not_name_are_not_written_through_links(meshes, streams, tmp_path):

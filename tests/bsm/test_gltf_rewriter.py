@@ -14,7 +14,7 @@ from bsm.cli import main
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import Document, read_document
-from tests.bsm.test_gltf import VALIDATOR, WEB, coded_of, glb
+from tests.bsm.test_gltf import VALIDATOR, WEB, coded_of, glb, waves
 from tests.bsm.test_gltf_reader import Built
 from tests.shapes import torus
 
@@ -479,6 +479,9 @@ def test_no_output_has_an_error_that_its_input_had_not(tmp_path):
             assert main(["glb", str(before[-1]), "-o", str(after[-1]), *more]) == 0
         (tmp_path / f"{name}.plain.glb").write_bytes(restore(read_document(str(after[-3]))))
         after.append(tmp_path / f"{name}.plain.glb")
+    (tmp_path / "moving.bsm").write_bytes(waves())
+    assert main(["glb", str(tmp_path / "moving.bsm"), "-o", str(tmp_path / "moving.glb")]) == 0
+    assert errors_of([tmp_path / "moving.glb"]) == [[]]
     known = errors_of(before)
     for number, found in enumerate(errors_of(after)):
         assert not set(found) - set(known[number // 4]), after[number]

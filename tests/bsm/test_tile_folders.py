@@ -14,7 +14,7 @@ import pytest
 
 from bsm.files.mesh import write_mesh
 from bsm.tiles.work import LOCK
-from tests.bsm.program import bsm, process
+from tests.bsm.program import bsm
 from tests.shapes import curved, torus
 
 CELL = 2.0**-14
@@ -54,23 +54,6 @@ def test_a_second_run_says_who_holds_the_folder_and_changes_nothing(source, tmp_
         other.communicate()
     assert tile(source, tmp_path / "out").returncode == 0
     assert not (tmp_path / "out" / LOCK).exists()
-
-
-@pytest.mark.slow
-def test_of_two_runs_at_a_time_the_first_is_whole(source, tmp_path):
-    for trial in range(20):
-        output = tmp_path / f"out{trial}"
-        words = "tile", source, "-o", output, "--triangles", "100", "--grid-cell", str(CELL)
-        first = subprocess.Popen([sys.executable, "-m", "bsm", *words], stderr=subprocess.PIPE)
-        while not (output / LOCK).exists() and first.poll() is None:
-            time.sleep(0.01)
-        second = process("tile", source, "-o", output, *(["-f"] if trial % 2 else []))
-        held = (output / LOCK).exists()  # it ends a little before its process
-        first.communicate()
-        assert first.returncode == 0
-        if held:
-            assert second.returncode == 9 and f"process {first.pid} on".encode() in second.stderr
-        assert bsm("verify", output).returncode == 0
 
 
 def test_a_run_that_died_is_taken_over_when_asked(source, tmp_path):

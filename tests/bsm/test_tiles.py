@@ -1,12 +1,8 @@
 """Meshes in tiles: borders, levels, shards, and the way back."""
 
 import json
-import os
 import resource
 import shutil
-import signal
-import threading
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -317,29 +313,6 @@ def test_processes_and_clusters_give_the_same_bytes(mesh, folder, tmp_path):
     options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 50}
     with distributed.LocalCluster(**options) as cluster:
         assert contents(made(mesh, tmp_path / "dask", "--dask", cluster.scheduler_address)) == contents(folder)
-
-
-@pytest.mark.slow
-def test_a_worker_that_is_shot_changes_nothing(mesh, folder, tmp_path):
-    distributed = pytest.importorskip("distributed")
-    shot = []
-    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 50}
-    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster, set_as_default=False) as client:
-
-        def shoot():
-            end = time.monotonic() + 60
-            while not shot and time.monotonic() < end:
-                busy = {address for address, tasks in client.processing().items() if tasks}
-                for nanny in cluster.workers.values():
-                    if nanny.worker_address in busy and not shot:
-                        os.kill(nanny.pid, signal.SIGKILL)
-                        shot.append(json.loads((tmp_path / "dask" / "manifest.json").read_text()).get("complete"))
-
-        hunter = threading.Thread(target=shoot)
-        hunter.start()
-        output = made(mesh, tmp_path / "dask", "--dask", cluster.scheduler_address)
-        hunter.join()
-    assert shot == [False] and contents(output) == contents(folder)
 
 
 @pytest.mark.parametrize("most", [20_000, 100_000, 300_000])

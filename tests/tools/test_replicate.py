@@ -13,7 +13,6 @@ from tests.shapes import torus
 from tools.replicate import ablation, denoising, fetch, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
-from tools.replicate.motion import bent, half_floats
 
 
 def flat(count=8):
@@ -39,12 +38,6 @@ class TestMeasures:
         farthest, rms = surface_distance(mesh, TriangleMesh(mesh.positions + np.array([0, 0, 0.1]), mesh.faces), 2000)
         assert farthest == pytest.approx(0.1, abs=1e-6) and rms == pytest.approx(0.1, abs=1e-6)
 
-    def test_the_larger_of_both_directions_counts(self):
-        pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
-        mesh = flat()
-        longer = TriangleMesh(mesh.positions * (1.5, 1.0, 1.0), mesh.faces)
-        assert surface_distance(mesh, longer, 2000)[0] == pytest.approx(0.5, abs=1e-6)
-
     def test_angles_between_faces_have_a_sign(self):
         for angle in (0.3, -0.3, 1.2):
             assert dihedral_angles(*hinge(angle))[0] == pytest.approx([angle])
@@ -67,11 +60,6 @@ class TestMeasures:
         assert sted(moving, still, mesh.faces) == pytest.approx((own - STED_TIME) / own)
         shaken = still + 0.01 * np.random.default_rng(1).normal(size=still.shape)
         assert sted(still, shaken, mesh.faces) > 0.01
-
-    def test_half_floats_are_as_exact_as_they_can_be(self):
-        frames = bent(torus(12, 12), 8)
-        size, decoded = half_floats(frames, torus(12, 12).faces)
-        assert np.abs(decoded - frames).max() < 2.0**-11 * np.ptp(frames) and 0 < size < frames.size * 2 + 4000
 
 
 def row(name="m", scale=0.5, group="unseen"):

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.attributes.values import canonical_levels, octahedral_normals
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from tests.bitstream.fields.fields import decode, encode, field_of, octahedral_levels, size_of
-from tools.measure.grids import rounded, welded
+from tests.bitstream.fields.fields import decode, encode, field_of, octahedral_levels
+from tools.measure.grids import welded
 
 OCTAHEDRA = st.sampled_from([1, 2, 127, MOST_LARGEST // 2])
 
@@ -45,10 +45,3 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
     chunks = encode(field, levels)
     np.testing.assert_array_equal(decode(field, chunks), levels)
     assert 8 * len(chunks[0][0]) / len(levels) < most
-
-
-@pytest.mark.real
-def test_smooth_numbers_of_a_real_mesh_are_small(meshes: Path):
-    positions, faces = welded(str(meshes / "static" / "bunny_34834.ply"))
-    heights = rounded(positions, 8)[:, :1]
-    assert 8 * size_of(field_of("plain", faces, len(heights), (255,)), heights) / len(heights) < 1.2

@@ -30,7 +30,7 @@ from tests.bitstream.fields.fields import (
 from tests.shapes import grid_faces
 from tools import field_tables
 from tools.measure.grids import encode as encode_stream
-from tools.measure.grids import rounded, welded
+from tools.measure.grids import welded
 
 SEEDS = st.integers(0, 2**32 - 1)
 TORUS = grid_faces(12, 9, close_rows=True, close_columns=True)
@@ -223,15 +223,3 @@ def test_grids_of_real_meshes_are_small(meshes: Path, name: str, bits: int, most
     stream, _ = encode_stream(positions, faces, bits)  # decodes and compares
     connectivity = len(encode_connectivity(faces, len(positions)).payload)
     assert 8 * (len(stream) - connectivity) / len(positions) < most
-
-
-@pytest.mark.real
-@pytest.mark.parametrize(("name", "bits", "most"), [("bunny_34834", 10, 1.13), ("fandisk_6475", 12, 1.17)])
-def test_light_grids_of_real_meshes_are_little_larger(meshes: Path, name: str, bits: int, most: float):
-    positions, faces = welded(str(meshes / "static" / f"{name}.ply"))
-    connectivity = encode_connectivity(faces, len(positions))
-    places = rounded(positions, bits)[connectivity.vertex_order].astype(np.int32)
-    of_mesh = connectivity.faces, len(places), places.max(axis=0)
-    payloads = encode(field_of("light", *of_mesh), places)
-    np.testing.assert_array_equal(decode(field_of("light", *of_mesh), payloads), places)
-    assert len(payloads[0][0]) < most * size_of(field_of("grid", *of_mesh), places)
