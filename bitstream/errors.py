@@ -37,7 +37,7 @@ class BsmError(Exception):
         super().__init__(message)
 
     def located(self, *, offset: int | None = None, frame: int | None = None, block: int | None = None) -> BsmError:
-        """Fill in the places that are not known yet, and return the same error."""
+        """Add the places that are still unknown, and return the error."""
         self.offset = offset if self.offset is None else self.offset
         self.frame = frame if self.frame is None else self.frame
         self.block = block if self.block is None else self.block
@@ -50,7 +50,7 @@ class BsmError(Exception):
 
 
 class FormatError(BsmError, ValueError):
-    """The data is not a BSM stream, or the file is not of the kind that its name promises.
+    """The data is not a BSM stream, or the content of the file does not match its name.
 
     Examples
     --------
@@ -87,7 +87,7 @@ class CorruptError(BsmError, ValueError):
 
 
 class TruncatedError(BsmError, EOFError):
-    """The data ends before the stream does.
+    """The data ends before the end of the stream.
 
     Examples
     --------
@@ -171,7 +171,7 @@ class ArgumentError(BsmError, TypeError):
 
 
 class TargetError(BsmError, ValueError):
-    """A quality or size cannot be reached. The message names the best that can.
+    """A quality or size cannot be reached. The message names the best possible value.
 
     Attributes
     ----------

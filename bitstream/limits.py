@@ -24,7 +24,7 @@ from bsm.bitstream.errors import (
 @public
 @dataclass(frozen=True)
 class Limits:
-    """Upper bounds that a decoder checks before it allocates or computes. Change them with `dataclasses.replace`.
+    """Upper bounds that a decoder checks before it allocates or computes. `dataclasses.replace` changes them.
 
     The defaults allow a mesh of sixteen million vertices, but refuse a stream that only claims to contain one: memory
     and work are bounded by the vertices that its faces really use, and by the bytes received.
@@ -32,28 +32,28 @@ class Limits:
     Parameters
     ----------
     vertices, faces, blocks : int
-        Of a mesh, or of every frame of a sequence.
+        Largest numbers for a mesh, or for every frame of a sequence.
     block_size : int
-        Vertices of a block.
+        Largest number of vertices of a block.
     coefficients : int
-        Of a block, for each coordinate.
+        Largest number for a block and coordinate.
     frames : int
-        Of a sequence.
+        Largest number for a sequence.
     gop_frames : int
-        Frames that depend on each other.
+        Largest number of frames that depend on each other.
     frame_bytes : int
-        Of one frame of the stream.
+        Largest section of the stream.
     metadata_bytes : int
-        Of names and values that belong to the whole mesh.
+        Largest metadata, names and values.
     work, work_per_vertex, work_per_byte : float
         Nanoseconds of a processor core, by the estimates of the specification: a constant, and more for each vertex
         and each byte that have arrived.
     most_work : float
-        Of a whole stream, whatever it holds.
+        Bound for any stream.
     memory, memory_per_vertex, memory_per_byte : float
         Bytes, in the same way.
     most_memory : float
-        Of a whole stream, whatever it holds.
+        Bound for any stream.
     sequence_bytes : float
         Memory for the dictionaries of a sequence, and for the coefficients of a GOP.
     field_bytes : float
@@ -68,7 +68,7 @@ class Limits:
     ArgumentError
         If a limit is not a number.
     OptionError
-        If it is negative, or not a number at all (NaN).
+        If a limit is negative or NaN.
 
     Examples
     --------
@@ -131,7 +131,7 @@ class Limits:
 
     @classmethod
     def wide(cls) -> Limits:
-        """For streams that one has made oneself: dictionaries as wide and as exact as options allow."""
+        """Limits for your own streams only: dictionaries as wide and as exact as options allow."""
         return cls(work=1e12, work_per_vertex=1e8, memory=1 << 34, memory_per_vertex=1 << 16, sequence_bytes=1 << 36)
 
     def check(self, name: str, value: float) -> None:

@@ -274,12 +274,12 @@ class Decoder(StreamDecoder):
 
     @_in_turn
     def decode_rest(self, progress: Progress | None = None) -> TriangleMesh:
-        """Decode the rest of a stream that was given to its end, and return the mesh; faster than asking for events.
+        """Decode the rest of a complete stream and return the mesh. This is faster than taking events.
 
         Parameters
         ----------
         progress : callable, optional
-            Called with how many bytes are decoded, and how many there are.
+            Called with the number of decoded bytes, and of all bytes.
 
         Raises
         ------
@@ -303,7 +303,7 @@ class Decoder(StreamDecoder):
     @property
     @_in_turn
     def attributes(self) -> tuple[Attribute, ...]:
-        """Attributes that are whole; those that are computed from positions are when these are."""
+        """Attributes that are complete; computed attributes are complete when the positions are."""
         found = (self._attribute(index) for index in range(self._open.attribute_count()))
         return tuple(attribute for attribute, _ in filter(None, found))
 
@@ -368,7 +368,7 @@ class SequenceDecoder(StreamDecoder):
     @property
     @_in_turn
     def attributes(self) -> tuple[Attribute, ...]:
-        """Attributes of all frames of the present run, that are whole; all of them when its first frame is."""
+        """Complete attributes of the current run; all of them once its first frame is complete."""
         return tuple(attribute for attribute, _ in self._known.values())
 
     def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:

@@ -74,7 +74,7 @@ class Changes:
 @public
 @dataclass(frozen=True, eq=False)
 class ConnectivityEvent:
-    """The faces have arrived, with all that is needed to decode positions.
+    """The faces have arrived, and everything else that precedes positions.
 
     If the stream stores the order of the mesh, faces and all vertex indices are in this order.
 
@@ -137,7 +137,7 @@ class BlockEvent:
 
     @property
     def positions(self) -> Positions:
-        """Where they are now, in the mesh's unit, shape (v, 3)."""
+        """Their new positions, in the mesh's unit, shape (v, 3)."""
         return self.changes.positions
 
     @property
@@ -156,7 +156,7 @@ class RefinementEvent:
     vertices : int32 array, shape (v,)
         The vertices that moved.
     positions : float64 array, shape (v, 3)
-        Where that is now, in the mesh's unit.
+        Their new positions, in the mesh's unit.
 
     Examples
     --------
@@ -186,7 +186,7 @@ class AttributeEvent:
     domain : {"vertex", "corner", "face"}
     semantic : {"generic", "color", "normal", "texcoord"}
     indices : int32 array, shape (m, 3), optional
-        For corners: which of all values of the attribute each corner has.
+        For corners: the index of the value of each corner.
     rows : int32 array, shape (r,)
         Indices of the values that are now available: of vertices or faces, or those that `indices` refer to.
     values : array, shape (r, c)

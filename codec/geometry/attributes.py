@@ -34,7 +34,7 @@ class Attribute:
         Integers of at most 32 bits, or finite floats of 32 or 64 bits. Shape (k,) is stored as (k, 1), wider integers
         that fit as 32 bits, booleans as uint8. Colors are uint8 or uint16, or floats from 0 to 1.
     domain : {"vertex", "corner", "face"}
-        Whether each vertex (k = n), each face (k = m), or each corner of each face has a value.
+        The elements that have values: vertices (k = n), faces (k = m), or corners of faces.
     semantic : {"generic", "color", "normal", "texcoord"}
         Meaning of the values; it decides how they are coded.
     indices : array_like, shape (m, 3), optional
@@ -100,11 +100,11 @@ class Attribute:
 
     @property
     def components(self) -> int:
-        """Numbers in a value."""
+        """Number of components of a value."""
         return int(self.values.shape[1])
 
     def check(self, vertices: int, faces: int) -> None:
-        """Raise `MeshError` if its length does not match the vertices or faces of the mesh."""
+        """Raise `MeshError` if the length does not match the vertices or faces of the mesh."""
         rows = len(self.values) if self.indices is None else len(self.indices)
         expected = vertices if self.domain == "vertex" else faces
         if rows != expected:
@@ -112,7 +112,7 @@ class Attribute:
             raise MeshError(f"the attribute {self.name!r} has {rows} rows, where the mesh has {what}")
 
     def taken(self, vertices: Order, faces: Order) -> Attribute:
-        """The attribute of a mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here.
+        """Return the attribute for a mesh whose vertex j was `vertices[j]` here, and whose face i was `faces[i]`.
 
         `vertices` has shape (n,), `faces` has shape (m,): as many as that mesh has.
         """

@@ -32,7 +32,7 @@ class TriangleMesh:
         Finite coordinates; stored as float64.
     faces : array_like, shape (m, 3)
         Indices into `positions`, counter-clockwise seen from outside; stored as int32. Any set of triangles is
-        allowed: degenerate, repeated, non-manifold and inconsistently oriented ones too.
+        allowed: also degenerate, repeated, non-manifold and inconsistently oriented ones.
     attributes : sequence of Attribute
         Attributes of vertices, corners and faces, with different names.
     metadata : mapping from str to str, int, float or bytes
@@ -107,22 +107,22 @@ class TriangleMesh:
         return math.hypot(*extent_of(self.positions))
 
     def require_sizes(self, smallest: float, largest: float) -> None:
-        """Raise `MeshError` where it is smaller, or goes farther from the origin, than the caller can process."""
+        """Raise `MeshError` if the mesh is too small, or too far from the origin, for the caller."""
         require_sizes(self.positions, smallest, largest)
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
-        """The mesh with its vertices elsewhere, shape (n, 3), and the names of its normals, which are left out."""
+        """Return the mesh with new positions, shape (n, 3), and the names of its normals, which are dropped."""
         normals = tuple(attribute.name for attribute in self.attributes if attribute.semantic == "normal")
         kept = tuple(attribute for attribute in self.attributes if attribute.semantic != "normal")
         return replace(self, positions=positions, attributes=kept), normals
 
     @property
     def bare(self) -> TriangleMesh:
-        """The shape alone, without attributes and metadata."""
+        """The mesh without attributes and metadata."""
         return replace(self, attributes=(), metadata={})
 
     def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
-        """The mesh of the vertices that some face uses, and their indices here, shape (k,), ascending."""
+        """Return the mesh without vertices in no face, and the indices of the kept vertices, shape (k,), ascending."""
         used = np.zeros(len(self.positions), dtype=bool)
         used[self.faces] = True
         kept = np.flatnonzero(used)

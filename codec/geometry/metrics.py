@@ -32,7 +32,7 @@ class Comparison:
     nmsve : float
         Normalized mean square visual error, see `Reference.nmsve`.
     nmsve_db : float
-        ``10 * log10(nmsve)``; minus infinity where the meshes are equal.
+        ``10 * log10(nmsve)``; minus infinity if the meshes are equal.
     theta_deg : float
         Mean angle between corresponding face normals, degrees, see `theta`.
     angle_deg : float

@@ -66,9 +66,9 @@ class SequenceEncoder:
         notes. If the options keep the order, the stream returns them.
     options : SequenceOptions
     frames : int
-        Number of frames, 0 if it is not known.
+        Number of frames; 0 if unknown.
     metadata : mapping from str to str, int, float or bytes
-        What belongs to the whole sequence.
+        Metadata of the whole sequence.
     attributes : sequence of Attribute
         Attributes of the mesh, at the qualities of the options. Frames that are meshes bring their own: give none, or
         the same. Numbers of vertices may change from frame to frame; other attributes are those of the first frame of
@@ -84,7 +84,7 @@ class SequenceEncoder:
     notes : tuple of str
         Changes that the encoder made to its input.
     losses : tuple of str
-        Those notes that say what does not come back.
+        The notes about losses.
     run_starts : list of int
         The numbers of the first frames of all runs so far.
     samples : int
@@ -92,7 +92,7 @@ class SequenceEncoder:
     kg : float
         The error of Karni and Gotsman so far, in percent, measured on decoded frames.
     worst_look : float or None
-        The look of the frame with the largest error of normals so far; None if nothing of it can be seen.
+        The look distance of the frame with the largest normal error so far; None if it is invisible.
 
     Examples
     --------
@@ -139,14 +139,14 @@ class SequenceEncoder:
         return self._verifier.worst_look
 
     def chunks(self, frames: Iterable[Frame], progress: Progress | None = None) -> Iterator[bytes]:
-        """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
+        """Yield the stream, section by section; each GOP as soon as its frames have arrived.
 
         Parameters
         ----------
         frames : iterable of array_like, shape (n, 3), or TriangleMesh
             With `options.runs`, a mesh of other faces begins a run.
         progress : callable, optional
-            Called with how much is done, and of how much in all; once more for every attempt at a target.
+            Called with the finished work and the total; again for every attempt at a target.
 
         Raises
         ------
@@ -171,9 +171,9 @@ class SequenceEncoder:
         return found
 
     def search(self, frames: Sequence[Frame], progress: Progress | None = None) -> SequenceAttempt:
-        """Look for the step with which `frames`, each of shape (n, 3), or meshes, meet the options' target.
+        """Search for the step with which `frames`, each of shape (n, 3), or meshes, reach the options' target.
 
-        `TargetError` says what can be had where none does.
+        If there is none, `TargetError` names the best possible value.
         """
         target = self.options.target
         if target is None:

@@ -68,12 +68,12 @@ PROMISES = {
 @public
 @dataclass(frozen=True, kw_only=True)
 class SequenceOptions:
-    """Options of encoding a sequence.
+    """Options for encoding a sequence.
 
     Parameters
     ----------
     low_delay : int
-        Send this many frames at a time, as soon as they arrive: 1 is every frame by itself, 8 take a fifth fewer
+        Send this many frames at a time, as soon as they arrive: 1 sends each frame separately, 8 take a fifth fewer
         bytes. 0: long groups of frames, each by a temporal transform.
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
@@ -99,9 +99,10 @@ class SequenceOptions:
     runs : bool
         Let the faces change from frame to frame, as in volumetric capture; each change begins a run.
     target : SequenceTarget, optional
-        Search for one step for all frames that reaches it. All frames must fit into memory.
+        Search for one step for all frames that reaches this target. All frames must fit into memory.
     promise : Promise, optional
-        Search for the step of each GOP, or with low delay of each frame, that keeps it. It excludes a target.
+        Search for the step of each GOP, or with low delay of each frame, that keeps this promise. It cannot be combined
+        with a target.
 
     Raises
     ------
@@ -146,5 +147,5 @@ class SequenceOptions:
         return int(np.interp(vertices, SIZES, SPANS)) if not self.low_delay else SPANS[-1]
 
     def together(self, vertices: int) -> int:
-        """Frames of such a mesh that are coded together, at most."""
+        """Return the largest number of frames of such a mesh that are coded together."""
         return self.low_delay or self.longest(vertices)

@@ -75,7 +75,7 @@ def _changes(original: Positions, decoded: Positions) -> tuple[float, float]:
 @public
 @dataclass(frozen=True)
 class SequenceTarget(Target):
-    """What to reach.
+    """A quality or size of a sequence to reach.
 
     Parameters
     ----------

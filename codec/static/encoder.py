@@ -59,7 +59,7 @@ SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 
 @public
 class Encoder:
-    """Encodes one mesh; the work begins with the first thing asked for.
+    """Encodes one mesh. The work begins with the first call or attribute that needs it.
 
     Parameters
     ----------
@@ -109,17 +109,17 @@ class Encoder:
 
     @property
     def mesh(self) -> TriangleMesh:
-        """The mesh in the order of coding: vertices at one position are one, those that no face uses are left out."""
+        """The mesh in the order of coding, with vertices at one position merged and without vertices in no face."""
         return self._input.prepared.mesh
 
     @property
     def vertex_order(self) -> Order:
-        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or at its place; int64, shape (k,)."""
+        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or merged with it; shape (k,)."""
         return Original(self._input.given, self._input.joined, self._input.prepared).vertex_order
 
     @property
     def vertex_index(self) -> Order:
-        """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: it is in no face, and not there.
+        """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: it is in no face and not stored.
 
         int64, shape (n,), with n the vertices of the given mesh.
         """
@@ -144,13 +144,12 @@ class Encoder:
         Parameters
         ----------
         progress : callable, optional
-            Called with how much is done, as far as anybody can tell, and of how much in all. An exception of it ends
-            the work.
+            Called with an estimate of the finished work, and the total. If it raises an exception, the work ends.
 
         Raises
         ------
         TargetError
-            If a contract cannot be kept.
+            If the contract cannot be kept.
         """
         options = self.options
         if options.target is not None:
@@ -188,12 +187,12 @@ class Encoder:
         return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
 
     def search(self, progress: Progress | None = None) -> Attempt:
-        """Look for the smallest stream that meets the options' target, or for the best one of a size.
+        """Search for the smallest stream that reaches the options' target, or the best one of a size.
 
         Raises
         ------
         TargetError
-            If none does; says what can be had.
+            If there is none; the message names the best possible value.
         """
         target = self.options.target
         if target is None:

@@ -60,7 +60,7 @@ class Paper:
     shift : float, optional
         delta of Algorithm 1; smaller ones converge faster, larger ones keep R^z better conditioned.
     predict : bool
-        Predict coefficients from overlapping vertices that are known already.
+        Predict coefficients from known vertices of overlapping blocks.
     doi : (float, float), optional
         eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
         error of each block.
@@ -107,7 +107,7 @@ class Paper:
 @public
 @dataclass(frozen=True, kw_only=True)
 class EncodeOptions:
-    """Options of encoding a static mesh.
+    """Options for encoding a static mesh.
 
     Parameters
     ----------
@@ -117,17 +117,17 @@ class EncodeOptions:
     coefficients : int, optional
         c itself; overrides `keep`.
     block_size : int
-        Approximate vertices of a block before overlap. Smaller ones decode faster: 1 % of bytes is worth 8 % of time.
+        Approximate vertices of a block before overlap. Smaller ones decode faster.
     overlap : float, optional
         n_d as a multiple of the largest part. None: 1, or with `paper.bits` 1.15, as in the paper.
     key_interval : int
-        One of this many blocks, at least, depends on nothing before it; 0: only the first; 1: every block is on its
-        own, with exact bases throughout if `paper.key_seed` is "svd".
+        At least one of this many blocks is independent of earlier ones; 0: only the first; 1: every block is
+        independent, with exact bases throughout if `paper.key_seed` is "svd".
     step : float, optional
         Finest quantization step of the adaptive coder, relative to the diagonal of the bounding box. None: the contract
         or the target chooses it.
     smoothing : float, optional
-        Amount alpha of smoothing in the decoder; None: chosen by trying.
+        Amount alpha of smoothing in the decoder; None: the encoder tries several.
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
     paper : Paper, optional
@@ -142,7 +142,7 @@ class EncodeOptions:
         `grid_cell`. "normal". "best": also blocks of several sizes and more steps, for the smallest file. It takes
         several times as long, and larger blocks are slower to decode.
     quick : bool
-        Another name of ``effort="quick"``.
+        The same as ``effort="quick"``.
     exact : bool
         Keep every position exactly in single precision.
     grid : int, optional
@@ -227,7 +227,7 @@ class EncodeOptions:
 
     @property
     def promise(self) -> Contract | None:
-        """The contract, where it counts."""
+        """The contract, if the options use it."""
         if self.is_grid or self.sets_coding:
             return None
         return self.contract
@@ -249,12 +249,12 @@ class EncodeOptions:
 
     @property
     def is_grid(self) -> bool:
-        """Whether positions are to be exactly those that some grid gives."""
+        """Whether positions are kept exactly on a grid."""
         return self.exact or self.grid is not None or self.grid_cell is not None
 
     @property
     def first_step(self) -> float:
-        """The step, or where it is left open a usual one."""
+        """The step, or a usual one if it is None."""
         if self.step is not None:
             return self.step
         return STEP
@@ -266,12 +266,12 @@ class EncodeOptions:
 
     @property
     def growth(self) -> float:
-        """The overlap, or where it is left open the usual one."""
+        """The overlap, or the usual one if it is None."""
         return self.overlap or (1.0 if self.paper.bits is None else PAPER_OVERLAP)
 
     @property
     def fixed_smoothing(self) -> float | None:
-        """The amount of smoothing, if it is not to be chosen by trying."""
+        """The amount of smoothing, or None if the encoder tries several."""
         return 0.0 if self.paper.bits is not None and self.smoothing is None else self.smoothing
 
 

@@ -28,9 +28,9 @@ class Contract:
     absolute : bool
         `farthest` is in the mesh's unit, and not relative to the diagonal of its bounding box.
     look : float
-        Distance in pictures (`codec.look`): 1 looks the same; infinite: any.
+        Look distance (`codec.look`): at 1 the mesh looks the same; infinite: any.
     alike : bool
-        In `angle` all faces count alike, whatever their area.
+        In `angle` all faces have the same weight.
     visual : float
         Normalized mean visual error (`codec.geometry.metrics.Reference.nmsve`); infinite: any.
     by_part : float
@@ -45,7 +45,7 @@ class Contract:
     Examples
     --------
     >>> import bsm
-    >>> promise = bsm.Contract(0.005, look=2.0)  # 0.5 % of the diagonal, and a look of 2
+    >>> promise = bsm.Contract(0.005, look=2.0)  # 0.5 % of the diagonal, look distance 2
     >>> data = bsm.encode("bunny.ply", bsm.EncodeOptions(contract=promise))
     """
 
@@ -75,16 +75,16 @@ class Contract:
             raise OptionError(f"a look must be above 0, not {self.look:g}: 1 looks the same, 3 is a preview")
 
     def reach(self, diagonal: float, unit: float) -> float:
-        """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`."""
+        """Return the largest error of a vertex of a mesh of this diagonal, in multiples of `unit`."""
         return (self.farthest if self.absolute else self.farthest * diagonal) / unit
 
     def doubt(self, diagonal: float, unit: str) -> str:
-        """Ask for the unit, named `unit`, where a bound is about as large as a mesh of this diagonal; empty if not.
+        """Return a question about the unit if the bound is about as large as a mesh of this diagonal; empty if not.
 
         Raises
         ------
         OptionError
-            If no other bound would leave anything of the mesh to be recognized.
+            If no other bound would keep the mesh recognizable.
         """
         if not self.absolute or self.farthest <= WIDEST * diagonal or not diagonal > 0.0:
             return ""
@@ -152,7 +152,7 @@ class Outcome(Protocol):
 @public
 @dataclass(frozen=True)
 class Target:
-    """What to reach.
+    """A quality or size to reach.
 
     Parameters
     ----------
@@ -190,7 +190,7 @@ class Target:
         return float(getattr(outcome if self.kind in SIZES else outcome.comparison, self.kind))
 
     def excess(self, outcome: Outcome) -> float:
-        """How far over the target an outcome is, in logarithms; up to 0 it is met."""
+        """Return the logarithm of the outcome's value over the target's; up to 0 the target is met."""
         value = self.reached(outcome)
         if self.kind == "nmsve_db":
             return (value - self.value) * math.log(10.0) / 10.0

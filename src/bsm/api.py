@@ -62,8 +62,8 @@ def encode(
         exception, the work ends, the exception reaches the caller, and unfinished files are removed.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none"),
-        one target (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`,
-        `block_size`, `keep_order`, `threads`, ...).
+        bounds (`look`, `max_error`), one target (`theta`, `nmsve_db`, `bpv`, `size`), and fields of `EncodeOptions`
+        (`step`, `block_size`, `keep_order`, `threads`, ...).
 
     Returns
     -------
@@ -142,7 +142,7 @@ def encode_many(
     metadata : mapping from str to str, optional
         Added to the metadata of each mesh.
     progress : callable, optional
-        As in `encode`, for all files together. Files that are finished stay.
+        As in `encode`, for all files together. If it raises an exception, finished files are kept.
     **keywords
         As in `encode`.
 
@@ -479,7 +479,7 @@ def save(
 ) -> tuple[str, ...]:
     """Write a mesh to a file in the format of its name. If it fails, no partial file remains.
 
-    Images and, for OBJ, the material library are written beside it, under names that begin with its own.
+    Images and, for OBJ, the material library are written next to it; their names begin with the file's name.
 
     Parameters
     ----------
@@ -500,7 +500,7 @@ def save(
     Raises
     ------
     OptionError, FileExistsError
-        If the suffix is unknown, or its format has no options; if the file exists and `overwrite` is false.
+        If the suffix is unknown, if the format has no options, or if the file exists and `overwrite` is false.
 
     Examples
     --------
@@ -540,7 +540,7 @@ def denoise(
     progress: Heard = None,
     **keywords: Unpack[DenoiseKeywords],
 ) -> TriangleMesh:
-    """Remove noise from the positions of a mesh; the faces stay.
+    """Remove noise from the positions of a mesh. The faces do not change.
 
     Parameters
     ----------
@@ -549,7 +549,7 @@ def denoise(
     options : DenoiseOptions, optional
         Instead of keywords.
     **keywords
-        Fields of `DenoiseOptions`. Without any, the function chooses everything by the noise of the mesh.
+        Fields of `DenoiseOptions`. Without any, the function chooses the method by the noise of the mesh.
     goal : str
         Aim of this choice: "shading" (normals close to the true ones) or "shape" (vertices).
     strength : float
@@ -568,7 +568,7 @@ def denoise(
     Warns
     -----
     BsmWarning
-        Of normals that are left out.
+        If normals are dropped.
 
     Raises
     ------
@@ -613,7 +613,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     Raises
     ------
     MeshError
-        If they have different faces.
+        If the meshes have different faces.
 
     Examples
     --------

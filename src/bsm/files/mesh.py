@@ -66,7 +66,7 @@ def read_mesh(
     Raises
     ------
     FormatError, TruncatedError, CorruptError, MeshError, LimitError
-        If the file is not a mesh of triangles or polygons with finite points.
+        If the file is not a mesh of triangles or polygons with finite coordinates.
     DependencyError
         If a library is needed and missing.
     OSError

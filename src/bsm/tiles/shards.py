@@ -155,7 +155,7 @@ def open_tiles(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     Raises
     ------
     FormatError, UnsupportedError, TruncatedError
-        If there is not a manifest of tiles, its version is unknown, or the run that wrote it is unfinished.
+        If the folder has no tile manifest, its version is unknown, or the run that wrote it is unfinished.
     OSError
         If it cannot be read.
 
@@ -181,18 +181,18 @@ class Tiles:
     manifest : mapping
         Contents of its manifest: `cell` and `origin` of the grid, `levels`, `shards`.
     lattice : Lattice
-        Where places are.
+        The grid of the positions.
     root : Root
-        The cube that is cut into eighths.
+        The cube that is divided into eighths.
     limits : Limits
         Of each tile.
     kinds : mapping
-        Attributes of vertices by name: the type of the numbers, and how many a vertex has.
+        Attributes of vertices by name: the type of the numbers, and the number of components.
 
     Raises
     ------
     CorruptError
-        By methods that read tiles, if bytes of a shard are missing or changed.
+        Raised by methods that read tiles, if bytes of a shard are missing or changed.
 
     Examples
     --------
@@ -213,7 +213,7 @@ class Tiles:
     def region(
         self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
     ) -> TriangleMesh:
-        """Join triangles whose own boxes meet a box: of the coarsest tiles within `error`, or of a `level`.
+        """Join the triangles whose bounding boxes meet a box: of the coarsest tiles within `error`, or of a `level`.
 
         An error of 0 is the finest level. Level 0 is the coarsest; where a level has no tile, the finest is used.
         """
@@ -242,11 +242,11 @@ class Tiles:
         return TriangleMesh(self.lattice.positions(different[:, :3]), joined, self.attributes(different))
 
     def attributes(self, table: Table) -> tuple[Attribute, ...]:
-        """What vertices, shape (n, 3 and more), have beside their places, as a mesh has it."""
+        """Return the attributes of vertices, shape (n, 3 and more), as those of a mesh."""
         return tuple(Attribute(what, found, "vertex", what) for what, found in self.values(table).items())  # type: ignore[arg-type]
 
     def values(self, table: Table) -> dict[str, npt.NDArray[Any]]:
-        """What vertices, shape (n, 3 and more), have beside their places, by its name; shape (n, c)."""
+        """Return the attribute values of vertices, shape (n, 3 and more), by name; shape (n, c)."""
         found, column = {}, 3
         for what, (kind, size) in self.kinds.items():
             width = -(-np.dtype(kind).itemsize * size // 4)
@@ -256,7 +256,7 @@ class Tiles:
         return found
 
     def chosen(self, error: float = 0.0, box: Any = None, level: int | None = None) -> Iterator[tuple[Facts, Tile]]:
-        """The coarsest tiles whose error is at most that, or those of a level, that meet a box of places."""
+        """Return the coarsest tiles of at most this error, or those of a level, that meet a box."""
         found = {tile.name: (shard, tile) for shard, tile in self.all(box)}
         taken: set[str] = set()
         inner = {name[:-1] for name in found}
@@ -272,7 +272,7 @@ class Tiles:
                     yield found[name]
 
     def all(self, box: Any = None) -> Iterator[tuple[Facts, Tile]]:
-        """Tiles of all shards, or of those that meet a box of places."""
+        """Return the tiles of all shards, or of those that meet a box."""
         for shard in self.manifest["shards"]:
             if box is None or _meet(box, shard["low"], shard["high"]):
                 yield from ((shard, tile) for tile in self.index(shard))

@@ -26,7 +26,7 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
     original : mesh, optional
         The original to compare a stream with. A mesh that `show` encodes is its own original.
     height : int
-        Of the widget, in pixels.
+        Height of the widget, in pixels.
     **keywords
         Options for encoding, as in `encode` or `encode_sequence`.
 
@@ -40,7 +40,7 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
     DependencyError
         If anywidget is missing.
     BsmError
-        As `encode` and `compare`.
+        As in `encode` and `compare`.
 
     Examples
     --------
