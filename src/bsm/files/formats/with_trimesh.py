@@ -3,11 +3,8 @@
 import importlib.util
 import io
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from threading import Lock
 from typing import Any
 from urllib.parse import unquote
 
@@ -40,7 +37,6 @@ PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joine
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """The padding after a PNG or JPEG in GLB files."""
-_OF_COLLADA = ("polylist", "triangleset")
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
 """Metadata that trimesh has added."""
 
@@ -67,8 +63,8 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         with np.errstate(all="ignore"):  # a later check refuses infinite values
             expected, left_out = placed_triangles(data, limits) if kind == "3mf" else (None, ())
             surfaces, left_out = placed_surfaces(data, limits) if kind == "dae" else (0, left_out)
-            with _polygons_cut(kind) as cuts:
-                scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False, resolver=resolver)
+            data, cuts = _with_triangles(data) if kind == "dae" else (data, {})
+            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False, resolver=resolver)
             found = joined(scene, limits, len(data))
         if (lost := surfaces - len(scene.graph.nodes_geometry)) > 0:
             left_out = (*left_out, f"{lost} of {surfaces} surfaces, which refer to something that is not there")
@@ -87,38 +83,28 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     return replace(found, metadata=metadata, notes=(*found.notes, *notes), dropped=(*found.dropped, *left_out))
 
 
-_CUTTING = Lock()
-
-
-@contextmanager
-def _polygons_cut(kind: str) -> Iterator[dict[str, int]]:
-    """Let pycollada, which cuts polygons into fans, cut them as all formats here; yields counts for notes."""
-    counts: dict[str, int] = {}
-    if kind != "dae":
-        yield counts
-        return
-    lists, triangles = (imported(f"collada.{name}", "DAE is read with pycollada", "formats") for name in _OF_COLLADA)
-
-    def cut(polygons: Any) -> Any:
-        sizes, corners = np.asarray(polygons.vcounts, np.int64), polygons.index
-        if not len(corners):
-            return plain(polygons)
-        if sizes.sum() != len(corners) or (sizes < 0).any():
-            raise MeshError(f"polygons of this DAE file have {len(corners)} corners, not {sizes.sum()}")
-        points = np.asarray(polygons.vertex, np.float64)
-        places, _, crossing = triangulate(points, sizes, np.asarray(polygons.vertex_index, np.int64))
-        for what, count in ((CUT, int((sizes > 3).sum())), (CROSSING, crossing)):
-            counts[what] = counts.get(what, 0) + count
-        flat = corners[places.reshape(-1)].reshape(-1)
-        return triangles.TriangleSet(polygons.sources, polygons.material, flat, polygons.xmlnode)
-
-    with _CUTTING:
-        plain = lists.Polylist.triangleset
-        lists.Polylist.triangleset = cut
-        try:
-            yield counts
-        finally:
-            lists.Polylist.triangleset = plain
+def _with_triangles(data: bytes) -> tuple[bytes, dict[str, int]]:
+    """Cut the polygons of a DAE as all formats here are cut, of which pycollada makes fans; counts for notes."""
+    collada = imported("collada", "DAE is read with pycollada", "formats")
+    document = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])
+    counts = {CUT: 0, CROSSING: 0}
+    for geometry in document.geometries:
+        mesh = geometry.xmlnode.find(collada.common.tag("mesh"))
+        for given in geometry.primitives:
+            if not isinstance(given, collada.polylist.Polylist) or not (given.vcounts > 3).any():
+                continue
+            sizes, corners = np.asarray(given.vcounts, np.int64), given.index
+            if sizes.sum() != len(corners) or (sizes < 0).any():
+                raise MeshError(f"polygons of this DAE file have {len(corners)} corners, not {sizes.sum()}")
+            points = np.asarray(given.vertex, np.float64)
+            places, _, crossing = triangulate(points, sizes, np.asarray(given.vertex_index, np.int64))
+            flat = corners[places.reshape(-1)].reshape(-1)
+            cut = collada.triangleset.TriangleSet(given.sources, given.material, flat)
+            mesh[list(mesh).index(given.xmlnode)] = cut.xmlnode
+            counts = {CUT: counts[CUT] + int((sizes > 3).sum()), CROSSING: counts[CROSSING] + crossing}
+    written = io.BytesIO()
+    collada.xmlutil.writeXML(document.xmlnode, written)
+    return written.getvalue(), counts
 
 
 @dataclass
