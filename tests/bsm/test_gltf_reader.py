@@ -233,7 +233,7 @@ def test_instances_are_placed_and_their_other_attributes_named():
     read = built.read()
     assert "left out: _ID of instances" in read.notes and read.mesh.faces.tolist()[2:] == [[6, 5, 4], [7, 6, 4]]
     turned = POINTS[:, [1, 0, 2]] * [-2, -2, 2] + [3, 0, 0]
-    np.testing.assert_allclose(read.mesh.positions, [*(POINTS + [1, 0, 5]), *turned], atol=1e-6)
+    np.testing.assert_allclose(read.mesh.positions, np.concatenate([np.add(POINTS, [1, 0, 5]), turned]), atol=1e-6)
 
 
 def test_instances_that_are_too_many_or_do_not_match_are_refused():

@@ -32,7 +32,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--attribute", action="append", default=[], metavar="NAME=QUALITY", help=kept)
     shared = "one grid for all meshes that are scaled and turned alike, so that what touches goes on touching"
     add("--one-grid", action="store_true", help=shared)
-    add("-j", "--jobs", type=within(0), default=1, metavar="N", help="processes (0: one per core; default 1)")
+    add(
+        "-j",
+        "--jobs",
+        type=within(0),
+        default=1,
+        metavar="N",
+        help="threads, each for a primitive (0: one per core; default 1)",
+    )
     plain = "also write OUT.fallback.bin with plain arrays, for viewers without the extension"
     add("--fallback", action="store_true", help=plain)
     images = (

@@ -5,12 +5,9 @@ from __future__ import annotations
 import copy
 import io
 import math
-import multiprocessing
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 from urllib.parse import quote
@@ -27,6 +24,7 @@ from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import group_rows, weld
 from bsm.codec.static.encoder import Encoder
+from bsm.codec.threads import ordered_map
 from bsm.gltf import document as gltf
 from bsm.gltf.coding import (
     COMPONENTS,
@@ -469,10 +467,12 @@ def compress(
     exact = options.get("preset") == "lossless"
     asked = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
     each = _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
-    each = [{**given, "attributes": asked} for given in each]
+    each = [{**own, "attributes": asked} for own in each]
     total, begun = sum(map(size_of, bundles)), 0
     coded: list[BundleStream | str] = []
-    for found in _coded((as_mesh(document, bundle, exact=exact) for bundle in bundles), bundles, each, jobs):
+    meshes = (as_mesh(document, bundle, exact=exact) for bundle in bundles)
+    given = zip(meshes, map(len, bundles), each, strict=True)
+    for found in ordered_map(lambda mesh: code_bundle(*mesh), given, jobs or None):
         if progress:
             progress(begun, total)
         begun += size_of(bundles[len(coded)])
@@ -507,20 +507,6 @@ def restore(document: gltf.Document) -> bytes:
         if EXTENSION in mesh.get("extensions", {}):
             raise UnsupportedError(f"mesh {number} moves, and plain glTF cannot hold it: decode its stream to .glb")
     return _Rewritten(document, None).finished()
-
-
-def _coded(
-    found: Iterator[Carried | str], bundles: list[Bundle], options: Sequence[Mapping[str, Any]], jobs: int
-) -> Iterator[BundleStream | str]:
-    """The stream of each bundle, or why it has none."""
-    if jobs == 1 or len(bundles) < 2:
-        yield from map(code_bundle, found, map(len, bundles), options)
-        return
-    try:
-        with ProcessPoolExecutor(jobs or None, multiprocessing.get_context("spawn")) as pool:
-            yield from pool.map(code_bundle, found, map(len, bundles), options)
-    except BrokenProcessPool as error:
-        raise MemoryError("a process died, probably for lack of memory; use fewer (-j)") from error
 
 
 def _one_grid(

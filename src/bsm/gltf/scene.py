@@ -143,7 +143,7 @@ def place_instances(document: Document, limits: Limits) -> None:
         rows = next(iter(tables.values()))
         if any(table.shape != (len(rows), 4 if name == "rotation" else 3) for name, table in tables.items()):
             raise FormatError("the places of a mesh that is drawn several times are not as many, or of other sizes")
-        same = {name: node[name] for name in ("name", "weights") if name in node}
+        same: Tree = {name: node[name] for name in ("name", "weights") if name in node}
         same |= {"mesh": node.pop("mesh")}
         begin = len(nodes)
         nodes += [same | {name: table[row] for name, table in tables.items()} for row in range(len(rows))]
