@@ -20,7 +20,6 @@ from bsm.bitstream._kernels import code_uniform, code_unsigned
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing, unsigned_span
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from bsm.bitstream.fields.grid import spread
 from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import compact
@@ -210,7 +209,8 @@ def test_positions_of_a_lattice():
     points = np.arange(30, dtype=np.int32).reshape(10, 3)
     header = {"lattice": [4095, 29], "center": [0.5, -1.0, 2.0], "scale": 0.25, "corner": []}
     expected = [reference.place(row, header) for row in points.tolist()]
-    assert expected == (np.array([0.5, -1.0, 2.0]) + 0.25 * spread(points, (4095, 29))).tolist()
+    cells = (2 * points * 4095 + 29) // (2 * 29)
+    assert expected == (np.array([0.5, -1.0, 2.0]) + 0.25 * cells).tolist()
     header = {"lattice": [], "center": [0.0, 0.0, 0.0], "scale": 0.1, "corner": []}
     assert reference.place([1, 2, 3], header) == [0.1, 0.2, 0.1 * 3]
     assert reference.place([1, 2, 3], header | {"corner": [-3, 5, 70000]}) == [0.1 * -2, 0.1 * 7, 0.1 * 70003]
