@@ -35,7 +35,7 @@ from bsm.codec.threads import Result, ordered_map
 
 UNLIKE, POWER = 0.0155, 4.0 / 3.0  # `Look.unlike` at distance 1, and its power: twice a step is about twice as far
 GONE, GONE_POWER = 0.08, 2.0  # the same of `Look.gone`
-MOVING = 0.029  # `Look.unlike` of a frame of a moving picture at distance 1
+MOVING = 0.034  # `Look.unlike` of a frame of a moving picture at distance 1
 PAINTED = 0.042  # the same of pictures in colors, or under a checker
 ROOM = 0.1  # share of a distance that is left for rounding normals
 TURNED = 1.5  # degrees that normals may be turned, on average over the picture where that is most, at distance 1

@@ -20,7 +20,7 @@ from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.codec.arrays import Levels, Matrix, Order, sum_in_order
 from bsm.codec.progress import Progress
 from bsm.codec.sequence import temporal
-from bsm.codec.sequence.row_prediction import ROUNDS, WEIGHT, LevelWriter, Loop
+from bsm.codec.sequence.row_prediction import WEIGHT, LevelWriter, Loop
 from bsm.codec.sequence.temporal import time_cosines
 from bsm.codec.sequence.tracks import INHERITED, Setting, Track, lags
 
@@ -138,7 +138,6 @@ class GopEncoder:
         self._parts = setting.parts
         self._options = options
         self.step = options.step
-        self.rounds = ROUNDS
         self.latest: Matrix | None = None
         self._begin()
 
@@ -167,7 +166,7 @@ class GopEncoder:
         twin = copy(self)
         twin._track = track
         twin._begin()
-        twin.latest, twin.rounds = None, ROUNDS
+        twin.latest = None
         return twin
 
     def stay(self, frames: int, method: GopMethod) -> None:
@@ -214,7 +213,7 @@ class GopEncoder:
         basis = held_cosines(width, len(frames))
         wanted = temporal.trajectories(frames) @ basis.reshape(-1, columns)
         field = np.zeros_like(wanted)
-        writer, coded = LevelWriter(history.bank, columns, self.rounds), []
+        writer, coded = LevelWriter(history.bank, columns), []
         for k, part in enumerate(self._parts):
             ends = field[part.around]
             loop, known, base = history.begin(k, ends, self._step)
@@ -239,7 +238,7 @@ class GopEncoder:
         energy = np.vdot(motion, motion)
         del motion  # as large as the frames
         field = np.zeros_like(wanted)
-        writer = LevelWriter(make_level_bank(), body.components, self.rounds)
+        writer = LevelWriter(make_level_bank(), body.components)
         before = self._before(method)
         self.inherited = Inherited(before)
         for k, part in enumerate(self._parts):
@@ -272,7 +271,7 @@ class GopEncoder:
         basis = temporal.learn_basis(motion, self._step, MAX_EXPONENT)
         spectrum = temporal.spectrum_of(basis.columns / weights[:, None], basis.exponents, width)
         _, frames, columns = spectrum.shape
-        writer = LevelWriter(make_level_bank(), columns, self.rounds)
+        writer = LevelWriter(make_level_bank(), columns)
         for matrix, lead in zip(spectrum, temporal.basis_leads(width), strict=True):
             writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0, lead=lead)
         field = GopField(width, self._step, columns, basis.exponents, writer.finish(), b"")

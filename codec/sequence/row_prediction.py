@@ -78,9 +78,9 @@ class Loop:
 class LevelWriter:
     """Writes one matrix of levels after the other."""
 
-    def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
+    def __init__(self, bank: Bank, columns: int) -> None:
         self.levels: list[Levels] = []
-        self._columns, self._rounds = columns, rounds
+        self._columns = columns
         self._bank, self._ahead, self._coder = bank, copy_bank(bank), start_writing(0)
         self._none = np.zeros((0, columns), np.int32)
 
@@ -97,7 +97,7 @@ class LevelWriter:
         if reference is None:
             reference = self.levels[-1] if self.levels else self._none
         prices = first_prices(len(targets), self._columns, lead)
-        for _ in range(self._rounds):
+        for _ in range(ROUNDS):
             levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
             prices = price_levels(self._ahead, levels, reference, lead)
         levels, decoded = loop.search(known, targets, step, prices, WEIGHT)

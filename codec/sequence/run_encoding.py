@@ -16,7 +16,7 @@ from bsm.codec.progress import Nearing, Progress, silent
 from bsm.codec.sequence.frames import Group, distinct_frames
 from bsm.codec.sequence.gop import GopEncoder, LearntGop
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
+from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.step_search import StepSearch
 from bsm.codec.sequence.tracks import Setting, make_setting
 from bsm.codec.signal.transform import smallest_step
@@ -39,10 +39,8 @@ TOGETHER = 4
 
 FINEST_STEP = 2e-5  # below, a search does not look
 
-PASSES, LATER = (0.5, 0.0015, 0.2), 0.35
-"""Share of the next pass in the rest of a search, smaller by this for each frame; measured."""
-SEARCH = 0.8  # of the time of a GOP; then frames in doubt are drawn
-BASIS, LEVELS = 0.6, 0.15  # of a pass, the shares of its basis and of its levels; the rest looks at frames
+PASS = 0.4  # of what is left of the progress of a search, the share of its next attempt
+LEVELS = 0.6  # of the time of an attempt, the share before frames are looked at
 
 NEAR = 0.8, 1.15  # a first frame is reused for steps within these factors of its own
 
@@ -165,26 +163,19 @@ class RunEncoder:
         self, encode: Callable[[_Pass, Progress], EncodedGops], frames: Positions, step: float | None
     ) -> EncodedGops:
         """What keeps the promise, near the `step` of the GOP before, if there is one."""
-        prepared, options, promise = self._prepared, self._options, self._options.promise
+        options, promise, units = self._options, self._options.promise, self._prepared.units
         if promise is None:
             return encode(_Pass(options.step if step is None else step), self._progress)
         cut, near = None, Nearing(self._progress)
-        share, part = 0.0, max(PASSES[0] - PASSES[1] * len(frames), PASSES[2])
-        scale, threads = prepared.units.scale, options.threads
-        search = StepSearch(frames, prepared.mesh.faces, promise, scale, threads, lambda share: near.at(0.98 * share))
 
-        def attempt(step: float, weights: Matrix | None, rounds: int) -> EncodedGops:
-            nonlocal cut, share, part
-            near.at(SEARCH * share)
-            begin, share, part = share, share + part * (1.0 - share), LATER
-
-            def heard(done: int, blocks: int) -> None:
-                near.at(SEARCH * (begin + (share - begin) * (BASIS + LEVELS * done / blocks)))
-
-            found = encode(_Pass(step, weights, cut, rounds), heard)
+        def attempt(step: float, weights: Matrix) -> EncodedGops:
+            nonlocal cut
+            found = encode(_Pass(step, weights, cut), near.within(PASS * LEVELS))
+            near.by(PASS * (1.0 - LEVELS))
             cut = len(found.bodies) > 1  # as the first attempt was, so are the others
             return found
 
+        search = StepSearch(frames, self._prepared.mesh.faces, promise, units.scale, options.threads)
         found = search.run(attempt, step or promise.first_step, finest_step(frames, options))
         near.to(1.0)
         return found
@@ -210,14 +201,13 @@ class _Pass:
     step: float
     weights: Matrix | None = None
     cut: bool | None = None
-    rounds: int = ROUNDS
 
 
 def _encoded(
     first_frame: FirstFrame, encoder: GopEncoder, asked: _Pass, group: Group, number: int, progress: Progress
 ) -> EncodedGops:
     """Encode the next frames, of which the first has this number."""
-    encoder.step, encoder.rounds = asked.step, asked.rounds
+    encoder.step = asked.step
     frames = group.positions
     if encoder.low_delay:
         key = encoder.is_key(number, frames.shape[1])
@@ -272,7 +262,7 @@ def _whole(encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order,
     kept, places = distinct_frames(same)
     method = encoder.method_with_basis(TOGETHER)
     repeats = len(kept) < len(frames)
-    weights = np.sqrt(np.bincount(places, weights**2)) if repeats else weights
+    weights = np.sqrt(np.bincount(places, weights**2))
     learnt = encoder.encode_learnt(frames[kept] if repeats else frames, weights, method, progress)
     body = GopBody(method, len(frames), (learnt.field,), places if repeats else None)
     return _Learnt((body,), (learnt,), encoder)

@@ -34,8 +34,8 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 63_601,
-    "product Python, lines": 34_163,
+    "product in all languages, lines": 63_456,
+    "product Python, lines": 34_018,
     "product C and C++, lines": 21_789,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_728,

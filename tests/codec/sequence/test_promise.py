@@ -11,7 +11,7 @@ import pytest
 import bsm
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.options import Promise
-from bsm.codec.sequence.step_search import StepSearch, shading_error
+from bsm.codec.sequence.step_search import EVENING, StepSearch, _evening, shading_error
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending
 
@@ -84,7 +84,7 @@ def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
 def test_a_search_that_takes_a_step_too_coarse_is_caught(
     promise: Promise, low_delay: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(StepSearch, "run", lambda search, encode, first, finest: encode(0.04, None, 1))
+    monkeypatch.setattr(StepSearch, "run", lambda search, encode, *_: encode(0.04, np.ones(len(search._frames))))
     with pytest.raises(bsm.VerificationError, match=r"is off by|has look"):
         kept(*bending(4), promise, low_delay=low_delay)
 
@@ -105,9 +105,9 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     drawn: list[int] = []
     make = StepSearch._metric
 
-    def noted(search: StepSearch, index: int, most_pixels: int) -> LookMetric | None:
+    def noted(search: StepSearch, index: int) -> LookMetric | None:
         drawn.append(index)
-        return make(search, index, most_pixels)
+        return make(search, index)
 
     monkeypatch.setattr(StepSearch, "_metric", noted)
     positions, faces = bending(40)
@@ -117,6 +117,12 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     seen = dict(zip(some, looks(original[some], decoded[some], found), strict=True))
     assert max(seen.values()) <= 1.0 and len(drawn) < 30
     assert max(seen[index] for index in drawn) > 0.9 * max(seen.values())
+
+
+def test_frames_that_look_worse_weigh_more() -> None:
+    weights = _evening(np.where(np.arange(40) < 20, 0.5, 1.0))
+    assert np.log(weights).mean() == pytest.approx(0.0) and weights[30] / weights[5] == pytest.approx(2.0**EVENING)
+    assert np.array_equal(_evening(np.zeros(3)), np.ones(3))
 
 
 @pytest.mark.parametrize("promise", [None, Promise(0.01, 1.0)])
