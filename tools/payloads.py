@@ -10,11 +10,11 @@ import numpy.typing as npt
 from bsm._engine import Decoder
 from bsm.bitstream.attributes.seams import Flags, code_edges
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, code_block
-from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of
+from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of, write_levels
 from bsm.bitstream.connectivity.partition import code_labels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder
+from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder, finish_writing, start_writing
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.bitstream.fields.corners import Corners
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -68,6 +68,16 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
     code_block(coder, model, levels)
     finish_reading(coder)
     return levels
+
+
+def encode_levels(
+    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead | None] | None = None
+) -> bytes:
+    """Code matrices one behind the other."""
+    coder = start_writing(0)
+    for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
+        coder = write_levels(coder, bank, matrix, reference, lead)
+    return finish_writing(coder)
 
 
 def decode_levels(

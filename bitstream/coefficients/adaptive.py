@@ -14,7 +14,6 @@ from bsm.bitstream._kernels import priors
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import ONE
 from bsm.bitstream.errors import OptionError
-from bsm.bitstream.once import cached_property
 
 TARGET_UNIT = 256  # targets are in 1 / TARGET_UNIT of a quantization step
 
@@ -83,53 +82,22 @@ def points_of_levels(levels: Levels) -> Levels:
 EXPECTATIONS = 3  # from everything, from the same block alone, from earlier blocks alone; each is a context of its own
 NODES = 38  # binary decisions that have a probability of their own, see `bitstream.coefficients.adaptive`
 SELECTORS = 2  # sets of mixing weights for each node: first block of a chain, later blocks
-_SHAPES = {
-    "expectations": (EXPECTATIONS, SITUATIONS, NEIGHBORS),
-    "mixing": (SELECTORS * NODES, EXPECTATIONS),
-    "slots": (EXPECTATIONS * BINS * NODES,),
-}
 
 
-@dataclass(frozen=True, eq=False)
-class Experience:
-    """Learnt numbers; in a file, the three arrays one after the other, little-endian, 16 bits a number."""
+class Experience(NamedTuple):
+    """Learned numbers, in the order of the specification."""
 
     expectations: npt.NDArray[np.uint16]
     mixing: npt.NDArray[np.int16]
     slots: npt.NDArray[np.uint16]
 
-    def to_bytes(self) -> bytes:
-        return b"".join(
-            array.astype(kind).tobytes()
-            for array, kind in ((self.expectations, "<u2"), (self.mixing, "<i2"), (self.slots, "<u2"))
-        )
-
-    @classmethod
-    def from_bytes(cls, data: bytes) -> Experience:
-        first = 2 * int(np.prod(_SHAPES["expectations"]))
-        second = first + 2 * int(np.prod(_SHAPES["mixing"]))
-        return cls(
-            np.frombuffer(data[:first], "<u2").reshape(_SHAPES["expectations"]),
-            np.frombuffer(data[first:second], "<i2").reshape(_SHAPES["mixing"]),
-            np.frombuffer(data[second:], "<u2").reshape(_SHAPES["slots"]),
-        )
-
-    @cached_property
-    def first_slots(self) -> npt.NDArray[np.uint32]:
-        """Slots of a fresh bank, shape (EXPECTATIONS * BINS * NODES,)."""
-        stored = self.slots.astype(np.int64)
-        return (((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2)).astype(np.uint32)
-
-    @property
-    def first_weights(self) -> npt.NDArray[np.int32]:
-        """Mixing weights of a fresh bank, shape (SELECTORS * NODES, EXPECTATIONS), 1.0 = 65536."""
-        return self.mixing.astype(np.int32) << 4
-
 
 @cache
 def shipped_experience() -> Experience:
-    """Statistics of coefficients before the first one; part of the format."""
-    return Experience.from_bytes(priors())
+    """Return the statistics of coefficients before the first one; part of the format."""
+    sizes = [EXPECTATIONS * SITUATIONS * NEIGHBORS, SELECTORS * NODES * EXPECTATIONS]
+    expectations, mixing, slots = np.split(np.frombuffer(priors(), "<u2"), np.cumsum(sizes))
+    return Experience(expectations, mixing.view(np.int16), slots)
 
 
 MAX_LEVEL = (1 << 23) - 1  # largest magnitude of a quantized coefficient
@@ -145,17 +113,11 @@ class CoefficientModel:
 
     def __post_init__(self) -> None:
         self.bank = entropy.make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
-        self.bank.slots[:] = self.experience.first_slots
-        self.bank.weights[:] = self.experience.first_weights
+        expectations, mixing, slots = (array.astype(np.int64) for array in self.experience)
+        self.bank.slots[:] = (slots >> 4) << 20 | 1 << 19 | (slots & 15) << 2
+        self.bank.weights[:] = mixing.reshape(-1, EXPECTATIONS) << 4
         self.past = make_past(self.width)
-        self.expectations = self.experience.expectations.astype(np.int32).reshape(-1, NEIGHBORS)
-
-    def copy(self) -> CoefficientModel:
-        twin = CoefficientModel(self.width, self.experience)
-        twin.bank = entropy.copy_bank(self.bank)
-        past = self.past
-        twin.past = Past(past.current.copy(), past.before.copy(), past.usual.copy(), past.blocks.copy())
-        return twin
+        self.expectations = expectations.astype(np.int32).reshape(-1, NEIGHBORS)
 
 
 def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:

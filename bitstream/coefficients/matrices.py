@@ -1,6 +1,5 @@
 """Levels of sequences: rows are frequencies, columns components, contexts are neighbors and a reference (S 4)."""
 
-from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -31,19 +30,6 @@ PRICED = 6  # magnitudes, from 0 on, that `price_levels` tells the prices of
 def make_level_bank() -> entropy.Bank:
     """The adaptive state of a level coder, neutral; one for each sequence of payloads that learn from each other."""
     return entropy.make_bank(_SLOTS, _SELECTORS, _INPUTS, limit=400, rate=10)
-
-
-def encode_levels(
-    bank: entropy.Bank,
-    matrices: Sequence[Levels],
-    references: Sequence[Levels],
-    leads: Sequence[Lead | None] | None = None,
-) -> bytes:
-    """Code matrices one after the other."""
-    coder = entropy.start_writing(0)
-    for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
-        coder = write_levels(coder, bank, matrix, reference, lead)
-    return entropy.finish_writing(coder)
 
 
 def write_levels(

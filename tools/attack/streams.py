@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from bsm._engine import write_faces
 from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, encode_seams
-from bsm.bitstream.coefficients.matrices import Levels, encode_levels, make_level_bank
+from bsm.bitstream.coefficients.matrices import Levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
@@ -28,6 +28,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.attributes.levels import field_of, surface_of, write_values
 from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
+from tools.payloads import encode_levels
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 from tools.vectors.meshes import torus
 

@@ -6,10 +6,10 @@ from hypothesis.extra.numpy import array_shapes, arrays
 
 from bsm import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.coefficients.adaptive import points_of_levels
-from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, make_level_bank, price_levels
+from bsm.bitstream.coefficients.matrices import PRICED, make_level_bank, price_levels
 from bsm.bitstream.coefficients.packed import compress, pack_coefficients
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, write_gop_body
-from tools.payloads import decode_levels
+from tools.payloads import decode_levels, encode_levels
 
 
 def empty(columns):
