@@ -57,29 +57,14 @@ def _plain(kind: Kind, value: Any) -> Any:
     return operator.index(value) if kind is int else float(value)
 
 
-def integer(key: int, low: int, high: int, default: Any = MISSING) -> Any:
-    return field(default=default, metadata={"wire": Field(key, int, low, high)})
+def wire(key: int, kind: Kind, low: float, high: float, default: Any = MISSING, **more: Any) -> Any:
+    """Declare a field by its key, type and legal range; `more` of `Field`."""
+    return field(default=default, metadata={"wire": Field(key, kind, low, high, **more)})
 
 
 def method(key: int, known: int, default: int = 0) -> Any:
     """Declare a choice among `known` methods, numbered from 0."""
-    return field(default=default, metadata={"wire": Field(key, int, 0, known - 1, reserved=METHODS)})
-
-
-def real(key: int, low: float, high: float, default: Any = MISSING) -> Any:
-    return field(default=default, metadata={"wire": Field(key, float, low, high)})
-
-
-def reals(key: int, low: float, high: float, lengths: tuple[int, int], default: tuple[float, ...]) -> Any:
-    return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths)})
-
-
-def integers(key: int, low: int, high: int, lengths: tuple[int, int], default: tuple[int, ...]) -> Any:
-    return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths, item=int)})
-
-
-def text(key: int, low: int, high: int) -> Any:
-    return field(metadata={"wire": Field(key, str, low, high)})
+    return wire(key, int, 0, known - 1, default, reserved=METHODS)
 
 
 @dataclass(frozen=True)
@@ -94,16 +79,16 @@ class Layer:
 class Paper:
     """How blocks are coded as in the paper; the defaults are the law's constants for static meshes."""
 
-    bits: int = integer(0, 0, 32, default=0)  # of a packed coefficient, q_c; 0: coefficients are adaptive
-    coarser: int = integer(1, 0, 30, default=0)
+    bits: int = wire(0, int, 0, 32, default=0)  # of a packed coefficient, q_c; 0: coefficients are adaptive
+    coarser: int = wire(1, int, 0, 30, default=0)
     """Packed coefficients of the lowest frequency are in units of 2^coarser steps."""
-    exact: int = integer(2, 0, 1, default=0)
+    exact: int = wire(2, int, 0, 1, default=0)
     """1: a key block begins with the exact eigenbasis, and not with `key_iterations` from cosines."""
-    power: int = integer(3, 1, 64, default=3)  # the exponent z of one orthogonal iteration
-    iterations: int = integer(4, 1, 1024, default=1)  # orthogonal iterations per block, t
-    key_iterations: int = integer(5, 1, 1024, default=2)  # orthogonal iterations of a key block
-    shift: float = real(6, 2.0**-30, 2.0**30, default=2.0**-7)  # what is added to the Laplacian's diagonal, delta
-    springs: int = integer(7, 0, 1, default=1)  # 1: a block hangs on springs, the prediction between blocks
+    power: int = wire(3, int, 1, 64, default=3)  # the exponent z of one orthogonal iteration
+    iterations: int = wire(4, int, 1, 1024, default=1)  # orthogonal iterations per block, t
+    key_iterations: int = wire(5, int, 1, 1024, default=2)  # orthogonal iterations of a key block
+    shift: float = wire(6, float, 2.0**-30, 2.0**30, default=2.0**-7)  # added to the Laplacian's diagonal, delta
+    springs: int = wire(7, int, 0, 1, default=1)  # 1: a block hangs on springs, the prediction between blocks
 
     def __post_init__(self) -> None:
         normalize_fields(self, "paper")
@@ -127,35 +112,36 @@ def paper_of(entry: tuple[float, ...], law: Paper) -> Paper:
 class Header:
     """The parameters of a stream, which precede everything else; decoders refuse contradictory fields."""
 
-    vertices: int = integer(1, 1, COUNT)
-    faces: int = integer(2, 1, COUNT)
-    blocks: int = integer(3, 0, COUNT, default=0)  # 0: positions on a grid, there are no blocks
-    block_size: int = integer(4, 0, COUNT, default=0)  # vertices of the largest block, n_d
-    coefficients: int = integer(5, 0, COUNT, default=0)  # columns of the largest dictionary: the largest c_i
-    key_interval: int = integer(6, 0, COUNT, default=0)
+    vertices: int = wire(1, int, 1, COUNT)
+    faces: int = wire(2, int, 1, COUNT)
+    blocks: int = wire(3, int, 0, COUNT, default=0)  # 0: positions on a grid, there are no blocks
+    block_size: int = wire(4, int, 0, COUNT, default=0)  # vertices of the largest block, n_d
+    coefficients: int = wire(5, int, 0, COUNT, default=0)  # columns of the largest dictionary: the largest c_i
+    key_interval: int = wire(6, int, 0, COUNT, default=0)
     """One block of every `key_interval` depends on no other; 0: only the first."""
-    step: float = real(7, 2.0**-40, 2.0**20, default=2.0**-8)  # quantization step of a coefficient, in BSM units
-    center: tuple[float, ...] = reals(8, -1e300, 1e300, (3, 3), default=(0.0, 0.0, 0.0))
+    step: float = wire(7, float, 2.0**-40, 2.0**20, default=2.0**-8)  # quantization step of a coefficient, in BSM units
+    center: tuple[float, ...] = wire(8, tuple, -1e300, 1e300, lengths=(3, 3), default=(0.0, 0.0, 0.0))
     """The origin of BSM units, in the mesh's unit."""
-    scale: float = real(9, 1e-300, 1e300, default=1.0)
+    scale: float = wire(9, float, 1e-300, 1e300, default=1.0)
     """One BSM unit in the mesh's unit: the diagonal of the bounding box."""
-    smoothing: float = real(10, 0.0, 1e6, default=0.0)  # amount of smoothing after reconstruction, alpha
-    refinement: tuple[float, ...] = reals(11, 0.0, 64.0, (0, 2), default=())
+    smoothing: float = wire(10, float, 0.0, 1e6, default=0.0)  # amount of smoothing after reconstruction, alpha
+    refinement: tuple[float, ...] = wire(11, tuple, 0.0, 64.0, lengths=(0, 2), default=())
     """Step and ratio of the layer of refinement; empty: there is none; see `layer`."""
-    attributes: int = integer(12, 0, MOST_ATTRIBUTES, default=0)  # how many attributes the mesh has
-    grid: tuple[int, ...] = integers(13, 0, MOST_GRID, (0, 3), default=())
+    attributes: int = wire(12, int, 0, MOST_ATTRIBUTES, default=0)  # how many attributes the mesh has
+    grid: tuple[int, ...] = wire(13, tuple, 0, MOST_GRID, item=int, lengths=(0, 3), default=())
     """Largest coded value of each axis of a grid; empty: there is none."""
-    lattice: tuple[int, ...] = integers(14, 1, 2**31 - 1, (0, 2), default=())
+    lattice: tuple[int, ...] = wire(14, tuple, 1, 2**31 - 1, item=int, lengths=(0, 2), default=())
     """(cells, points): the coded value k means k * cells / points, rounded; empty: k itself."""
-    corner: tuple[int, ...] = integers(15, -(2**31), COUNT, (0, 3), default=())
+    corner: tuple[int, ...] = wire(15, tuple, -(2**31), COUNT, item=int, lengths=(0, 3), default=())
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
     light: int = method(16, known=3)
     """1: the values of a grid are quick to decode, and some more bytes; 2: floats in their cells follow the values."""
-    sequence: tuple[int, ...] = integers(17, 0, COUNT, (0, 2), default=())
+    sequence: tuple[int, ...] = wire(17, tuple, 0, COUNT, item=int, lengths=(0, 2), default=())
     """Frames (0: not known when the stream began) and those of the longest GOP; empty: a static mesh."""
-    run: tuple[int, ...] = integers(18, 0, COUNT, (0, 2), default=())
+    run: tuple[int, ...] = wire(18, tuple, 0, COUNT, item=int, lengths=(0, 2), default=())
     """Number of the run of a sequence that begins here, and the run whose mesh it has, if it brings none of its own."""
-    paper: tuple[float, ...] = reals(19, 0.0, 2.0**30, (0, 8), default=())  # see `Paper`; empty: what the law says
+    paper: tuple[float, ...] = wire(19, tuple, 0.0, 2.0**30, lengths=(0, 8), default=())
+    """The numbers of `Paper`; empty: those of the law."""
 
     def __post_init__(self) -> None:
         normalize_fields(self, "header")
@@ -253,24 +239,24 @@ FLOAT32 = 6
 class Declaration:
     """An attribute, but for its values; decoders refuse fields that contradict each other."""
 
-    name: str = text(1, 1, MOST_NAME)
+    name: str = wire(1, str, 1, MOST_NAME)
     domain: int = method(2, known=3)  # what has a value in the stream: VERTEX, CORNER or FACE
     origin: int = method(3, known=2)  # given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices
     semantic: int = method(4, known=4)  # GENERIC, COLOR, NORMAL or TEXCOORD
     kind: int = method(5, known=8, default=FLOAT32)  # uint8, int8, uint16, int16, uint32, int32, float32 or float64
-    components: int = integer(6, 1, MOST_COMPONENTS, default=1)
+    components: int = wire(6, int, 1, MOST_COMPONENTS, default=1)
     coding: int = method(7, known=4)  # LEVELS, OCTAHEDRAL, BITS or RECOMPUTED
-    rows: int = integer(8, 0, 2**31 - 1, default=0)  # how many values are coded
-    largest: tuple[int, ...] = integers(9, 0, MOST_LEVEL, (0, MOST_WORDS), default=())
+    rows: int = wire(8, int, 0, 2**31 - 1, default=0)  # how many values are coded
+    largest: tuple[int, ...] = wire(9, tuple, 0, MOST_LEVEL, item=int, lengths=(0, MOST_WORDS), default=())
     """Largest level of each coded number."""
-    offset: tuple[float, ...] = reals(10, -1e300, 1e300, (0, MOST_WORDS), default=())
+    offset: tuple[float, ...] = wire(10, tuple, -1e300, 1e300, lengths=(0, MOST_WORDS), default=())
     """The value of level 0 of each coded number; empty: 0."""
-    step: tuple[float, ...] = reals(11, 1e-300, 1e300, (0, MOST_COMPONENTS), default=())
+    step: tuple[float, ...] = wire(11, tuple, 1e-300, 1e300, lengths=(0, MOST_COMPONENTS), default=())
     """One level, of all components or of each; empty: 1."""
     leans: int = method(12, known=2)  # 1: the values are predicted from positions on a grid
     moves: int = method(13, known=2)
     """1: the values are those of the first frame of a sequence, and each GOP tells how they change."""
-    seams_of: int = integer(15, 0, 2**16 - 1, default=0)
+    seams_of: int = wire(15, int, 0, 2**16 - 1, default=0)
     """0: the seams follow; otherwise they are those of attribute `seams_of` - 1."""
 
     def __post_init__(self) -> None:
