@@ -324,7 +324,7 @@ def test_distances_are_those_of_the_stream_s_vertices(tmp_path):
     off = np.frombuffer(base64.b64decode(entry["layers"][1]["off"]["data"]), "<f4")
     there = bsm.compare(mesh, stream)
     assert (off.max(), np.sqrt(np.mean(off**2))) == pytest.approx((there.max_error, there.rms), rel=1e-3)
-    assert entry["facts"]["theta"] == pytest.approx(there.theta_deg, rel=1e-3)
+    assert entry["facts"]["angle"] == pytest.approx(there.angle_deg, rel=1e-3)
     assert "promised" not in entry["facts"], "a stream does not say what it was made with"
 
 

@@ -19,3 +19,14 @@ export class Budget {
         checkLimit({ ...limits, work: limits.work + limits.workPerVertex * vertices }, "work", this.owed);
     }
 }
+
+/** Work on faces and graph, in nanoseconds of a processor core (M 14.3); fans beyond a closed surface are sewn together. */
+export function meshCost(vertices: number, faces: number, received: number): number {
+    return 140 * vertices + 85 * faces + 700 * Math.max(0, faces / 2 - vertices) + 400 * received;
+}
+
+/** Work on a grid before its bytes are counted, and on each of its sections. */
+export const LIGHT_COST = {
+    whole: (vertices: number, faces: number): number => 200 * vertices + 40 * faces,
+    frame: (received: number): number => 5e4 + 120 * received,
+};

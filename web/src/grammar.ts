@@ -1,7 +1,7 @@
 /** The grammar of meshes on light grids. */
 import { CorruptError } from "./errors";
 import type { Header } from "./header";
-import { checkChunk, checkNames, checkWhole, type Kind, type Packet } from "./packets";
+import type { Kind, Packet } from "./packets";
 
 /** What may follow a packet of each kind, metadata aside. */
 const FOLLOWERS: Partial<Record<Kind | "start", readonly Kind[]>> = {
@@ -28,10 +28,16 @@ export class Grammar {
         const { header, nextVertex } = this;
         const may = packet.type === "metadata" ? header : FOLLOWERS[this.last]?.includes(packet.type);
         if (!may) throw new CorruptError(`unexpected section ${packet.type}`);
-        if (packet.type === "metadata") checkNames(packet.entries, this.entryNames);
+        if (packet.type === "metadata") {
+            for (const name of packet.entries.keys()) if (this.entryNames.has(name)) throw new CorruptError(`duplicate metadata name "${name}"`);
+        }
         if (!header) return;
-        if (packet.type === "grid") checkChunk(packet, nextVertex, header);
-        if (packet.type === "end") checkWhole(nextVertex, header);
+        if (packet.type === "grid") {
+            const { first, count } = packet;
+            if (first !== nextVertex) throw new CorruptError(`vertices begin at ${first}, expected ${nextVertex}`);
+            if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
+        }
+        if (packet.type === "end" && nextVertex < header.vertices) throw new CorruptError(`the positions end at vertex ${nextVertex} of ${header.vertices}`);
     }
 
     /** Take note of a packet that nothing is wrong with. */

@@ -53,7 +53,9 @@ export class Grid {
         const { vertices: size, corner, center, scale } = header;
         this.places = memory.doubles(3 * size, 3);
         this.places.view.fill(0);
-        this.frame = memory.copy([...(corner.length > 0 ? corner : [0, 0, 0]), ...center, scale]);
+        const frame = [...(corner.length > 0 ? corner : [0, 0, 0]), ...center, scale];
+        this.frame = memory.doubles(frame.length);
+        this.frame.view.set(frame);
         const largest = memory.ints(3);
         largest.view.set(header.grid);
         this.values = zeros(memory.ints(3 * size, 3));

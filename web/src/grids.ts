@@ -1,7 +1,7 @@
 /** Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else. */
 import { required } from "./required";
 import { crc32 } from "./checksums";
-import { Budget } from "./budget";
+import { Budget, LIGHT_COST, meshCost } from "./budget";
 import { decodeConnectivity } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./events";
 import { BsmError, CorruptError, UnsupportedError } from "./errors";
@@ -13,7 +13,6 @@ import { Memory, type Ints } from "./memory";
 import type { Packet } from "./packets";
 import { Reader } from "./reader";
 import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
-import { LIGHT_COST, meshCost } from "./work";
 
 export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 

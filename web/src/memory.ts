@@ -74,25 +74,13 @@ export class Memory {
         this.run("make_tables");
     }
 
-    get size(): number {
-        return this.top;
-    }
-
-    mark(): number {
-        return this.top;
-    }
-
-    release(mark: number): void {
-        this.top = mark;
-    }
-
     /** What `work` returns; all that it allocates is given back. */
     scratch<Result>(work: () => Result): Result {
-        const mark = this.mark();
+        const mark = this.top;
         try {
             return work();
         } finally {
-            this.release(mark);
+            this.top = mark;
         }
     }
 
@@ -114,12 +102,6 @@ export class Memory {
 
     doubles(length: number, columns?: number): Doubles {
         return this.place(Float64Array, length, columns);
-    }
-
-    copy(values: ArrayLike<number>, columns?: number): Doubles {
-        const place = this.doubles(values.length, columns);
-        place.view.set(values);
-        return place;
     }
 
     call(name: string, ...args: Argument[]): number {

@@ -1,5 +1,3 @@
-/** Lists of numbers. */
-
 /** 0, 1, ... to `count` - 1. */
 export function upTo(count: number): Int32Array {
     const numbers = new Int32Array(count);

@@ -74,22 +74,6 @@ export const PARSERS: Parsers = {
     },
 };
 
-/** Refuse metadata that speak of what others have spoken of. */
-export function checkNames(entries: Metadata, known: Set<string>): void {
-    for (const name of entries.keys()) if (known.has(name)) throw new CorruptError(`metadata speak of "${name}" again`);
-}
-
-/** Check that vertices follow those before them. */
-export function checkChunk({ first, count }: { first: number; count: number }, following: number, header: Header): void {
-    if (first !== following) throw new CorruptError(`vertices begin at ${first}, expected ${following}`);
-    if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
-}
-
-/** Check that a grid has the positions of all vertices. */
-export function checkWhole(vertices: number, header: Header): void {
-    if (vertices < header.vertices) throw new CorruptError(`the positions end at vertex ${vertices} of ${header.vertices}`);
-}
-
 export function littleEndian(bytes: Uint8Array): number {
     return bytes.reduceRight((value, byte) => value * 256 + byte, 0);
 }

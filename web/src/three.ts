@@ -32,10 +32,6 @@ export class BSMLoader extends Loader<BSMGeometry> {
     private limits: Partial<Limits> = {};
     private aborting = new AbortController();
 
-    constructor(manager?: LoadingManager) {
-        super(manager);
-    }
-
     /** Take the decoder's files (`*-worker.js`, `*.wasm`, and what they import) from a folder of one's own. */
     setDecoderPath(path: string): this {
         this.own?.dispose();

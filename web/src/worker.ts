@@ -1,4 +1,5 @@
 /** The work of a thread: it decodes streams, or helps others that do, as messages ask. */
+import type { Decoder } from "./decoder";
 import type { Event, FrameEvent } from "./events";
 import { Drawing, type Picture } from "./drawing";
 import { BsmError, type Described } from "./errors";
@@ -108,12 +109,7 @@ export function serveWith(open: Open): void {
     end.postMessage({ ready: true } satisfies Answer, []);
 }
 
-export interface Decoding {
-    receiveData(data: Uint8Array): void;
-    receiveEof(): void;
-    nextEvent(): Event | Signal | typeof NEED_BLOCK;
-    release(): void;
-}
+type Decoding = Pick<Decoder, "receiveData" | "receiveEof" | "nextEvent" | "release">;
 
 export class Reporter {
     private readonly drawing?: Drawing;

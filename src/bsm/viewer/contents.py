@@ -90,8 +90,8 @@ def compared(
     first = Layer("Original", "" if size else "as plain arrays", size or plain, encode(original, preset="lossless"))
     off = _off(decoded, source)
     diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
-    theta = Reference(source.positions, source.faces).theta(in_order_of(source, used))
-    facts = {"preset": preset, "diagonal": diagonal, "theta": theta}
+    angle = Reference(source.positions, source.faces).angle(in_order_of(source, used))
+    facts = {"preset": preset, "diagonal": diagonal, "angle": angle}
     facts["farthest"] = float(np.nanmax(off, initial=0.0)) / diagonal
     rival: tuple[Layer, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes

@@ -1,4 +1,4 @@
-/** The bytes of a stream as they come, and how many of them are decoded: the settings cut the stream, or slow it down. */
+/** The bytes of a stream that have arrived, and how many of them are decoded; the settings stop or slow the stream. */
 import type { BSMGeometry } from "../geometry";
 import type { StreamDecoding } from "../pool";
 import { counted, spent } from "./facts";
@@ -74,7 +74,7 @@ export class Arrival {
     report(geometry: BSMGeometry, missed: number): void {
         const { form, fed, length, first, complete } = this;
         const share = length ? Math.round((100 * fed) / length) : 0;
-        form.say("bytes", `${counted(fed)} of ${counted(length)} bytes (${share} %)${this.whole ? "" : ", more are to come"}`);
+        form.say("bytes", `${counted(fed)} of ${counted(length)} bytes (${share} %)${this.whole ? "" : ", more to come"}`);
         form.say("status", statusOf(geometry, missed));
         const moments = [["first faces", first], ["complete", complete]] as const;
         form.say("times", moments.flatMap(([name, time]) => (time === undefined ? [] : [`${name} after ${spent(time)}`])).join("; "));

@@ -1,21 +1,21 @@
-/** From where one looks: at first from before the front of a mesh, so that it fills the picture, then from where the reader goes. */
+/** The camera: it shows the front of a mesh first, as large as the picture, and follows mouse, touch and keys. */
 import { MathUtils, Matrix4, PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
 const ZOOM = 1.1;
-const FIELD = (30 / 180) * Math.PI; // that is seen of the shorter side
-const AROUND = 1.06 / Math.sin(FIELD / 2); // distance from which a ball of radius 1 is seen whole
+const FIELD = (30 / 180) * Math.PI; // of view, along the shorter side
+const AROUND = 1.06 / Math.sin(FIELD / 2); // distance that shows a whole ball of radius 1
 const FILLED = 0.94; // of the picture
 const DOCK = 70; // pixels of the controls at the bottom
-const VIEW = new Spherical(1, 72 * MathUtils.DEG2RAD, 35 * MathUtils.DEG2RAD); // from where one looks first
+const VIEW = new Spherical(1, 72 * MathUtils.DEG2RAD, 35 * MathUtils.DEG2RAD); // the first view
 const OPEN = 0.35; // length of the mean normal of a mesh that has a front
 
 /** The corners of all meshes, one after the other: what `act` is given is used again. */
 export type Points = (act: (point: Vector3) => void) => void;
 
 export class Camera extends PerspectiveCamera {
-    /** Whether the reader has chosen a place. */
+    /** Whether the reader has moved it. */
     touched = false;
     /** Pixels of the picture. */
     size = [1, 1];
@@ -50,7 +50,7 @@ export class Camera extends PerspectiveCamera {
         return (this.size[1] * devicePixelRatio) / (2 * Math.tan(this.fov / 2 / MathUtils.RAD2DEG));
     }
 
-    /** Look at points, which a matrix puts around the middle, from a place before their front, if they have one. */
+    /** Show points, which a matrix puts around the origin, from the side of their front, if they have one. */
     aim(points: Points, matrix: Matrix4, front: Vector3): void {
         const begin = VIEW.clone();
         if (Math.hypot(front.x, front.z) > OPEN) begin.theta += Math.atan2(front.x, front.z);
@@ -69,7 +69,7 @@ export class Camera extends PerspectiveCamera {
         this.redraw();
     }
 
-    /** Where it is around what it looks at. */
+    /** Its position around the target. */
     get place(): Spherical {
         return new Spherical().setFromVector3(this.position.clone().sub(this.controls.target));
     }

@@ -1,13 +1,13 @@
-/** A picture of the stage, and a film of one turn around it, with what stands below each side. */
+/** Save a picture of the stage, or a film of one turn around it, with captions. */
 import type { Stage } from "./stage";
 
 const FILM = 5000; // milliseconds of a turntable
 const RATE = 30;
 
-/** The picture as it is seen on the page. */
+/** Draw the stage as the page shows it. */
 export function pictureOf(stage: Stage, labels: string[], canvas = document.createElement("canvas")): HTMLCanvasElement {
     stage.draw();
-    const { canvas: drawn, ratio } = stage;
+    const [drawn, ratio] = [stage.canvas, stage.renderer.getPixelRatio()];
     const { width, height } = drawn;
     [canvas.width, canvas.height] = [width, height];
     const { color, borderTopColor } = getComputedStyle(drawn.parentElement!); // of the background
@@ -27,7 +27,7 @@ export function pictureOf(stage: Stage, labels: string[], canvas = document.crea
     return canvas;
 }
 
-/** A film of one turn; `report` hears what share of it there is. */
+/** Record a film of one turn; `report` is called with the share done. */
 export async function filmOf(stage: Stage, labels: string[], report: (share: number) => void): Promise<Blob> {
     const canvas = pictureOf(stage, labels);
     const type = ["video/mp4", "video/webm"].find((name) => MediaRecorder.isTypeSupported(name));

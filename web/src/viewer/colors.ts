@@ -1,12 +1,10 @@
-/** What colors say of a mesh: how far each vertex is off, its block, or whether it is refined. */
+/** Colors of vertices: their errors, blocks, or refinement. */
 import { Color } from "three";
 import type { BSMGeometry } from "../geometry";
 
 export type Scheme = "plain" | "own" | "blocks" | "refined" | "error";
 
-export const LEGENDS: Record<Scheme, string> = {
-    plain: "",
-    own: "",
+export const LEGENDS: Partial<Record<Scheme, string>> = {
     blocks: "Order in which blocks arrive",
     refined: "Vertices that refinement has moved",
     error: "Distance from the original",

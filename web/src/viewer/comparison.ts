@@ -1,4 +1,4 @@
-/** The original, the stream and Draco's file: which of them are shown, side by side or alone, and in what colors. */
+/** The compared meshes (original, stream, Draco's file): which are shown, how, and in which colors. */
 import { BufferAttribute } from "three";
 import type { BSMGeometry } from "../geometry";
 import { imagesOf, materialsOf, turnOf } from "../materials";
@@ -32,7 +32,7 @@ export class Comparison {
         form.on("color", "change", () => (this.stale = true));
     }
 
-    /** Begin with other meshes; those that are not there yet cannot be chosen. */
+    /** Start with other meshes; they can be chosen once they have arrived. */
     open(content: Content): void {
         const { form } = this;
         const { layers, main } = (this.content = content);
@@ -54,7 +54,7 @@ export class Comparison {
         this.compare();
     }
 
-    /** Begin with the stream's mesh anew; the one before stays on the stage until there is something of it. */
+    /** Start with a new mesh of the stream; the previous one stays on the stage until it can be drawn. */
     begin(geometry: BSMGeometry): void {
         const { main } = this.content;
         this.geometries[main] = geometry;
@@ -70,7 +70,7 @@ export class Comparison {
         this.stage.place(center, diagonal, turnOf(geometry.metadata));
     }
 
-    /** Fetch and decode the other meshes, then wipe between the first and the stream's; `mine` says whether they are still wanted. */
+    /** Fetch and decode the other meshes as long as `mine` holds, then wipe between the original and the stream. */
     async accompany(pool: Pool, mine: () => boolean): Promise<void> {
         const { layers, main } = this.content;
         const { form, geometries, offs, stage } = this;
@@ -86,14 +86,14 @@ export class Comparison {
             geometries[i] = geometry;
             stage.show(i, geometry);
             await this.dress(i);
-            this.recolor(); // it is seen only as it is to look
+            this.recolor(); // before it is first drawn
             form.root.querySelector<HTMLInputElement>(`[name=layer][value="${i}"]`)!.disabled = false;
             if (i === 0) form.pick("mode", "wipe");
         }
         form.root.dataset.layers = String(layers.length);
     }
 
-    /** Make materials of what the metadata say, once images are there; offer them and colors. */
+    /** Make materials from the metadata and images; offer them and the colors. */
     async dress(index = this.content.main): Promise<void> {
         const { geometries, scheme } = this;
         const { metadata, color, pieces } = geometries[index]!;
@@ -151,8 +151,8 @@ export class Comparison {
             const colors = colorsOf(geometry, scheme, offs[i], top);
             stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
         });
-        form.part("scale").hidden = LEGENDS[scheme] === "";
-        form.say("legend", LEGENDS[scheme]);
+        form.part("scale").hidden = !LEGENDS[scheme];
+        form.say("legend", LEGENDS[scheme] ?? "");
         const unit = geometries[content.main]?.metadata.get("unit");
         const tick = (share: number): HTMLElement => {
             const far = `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`;
@@ -163,12 +163,12 @@ export class Comparison {
         form.part("scale").querySelector("ol")!.replaceChildren(...ticks);
     }
 
-    /** Show what is chosen: one mesh, or the original on the left and another one on the right. */
+    /** Show the chosen mesh, or the original on the left and the chosen mesh on the right. */
     private compare(): void {
         const { content, form, stage } = this;
         const wipe = form.control("wipe");
         const chosen = Number(form.picked("layer") || content.main);
-        // The original beside itself says nothing.
+        // The original is not compared with itself.
         form.part("modes").toggleAttribute("disabled", chosen === 0 && content.main > 0);
         stage.mode = chosen === 0 ? "one" : ((form.picked("mode") || "one") as Mode);
         stage.sides = [0, chosen];

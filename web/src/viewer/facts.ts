@@ -24,7 +24,7 @@ export interface Content {
         farthest?: number;
         /** The largest error of each frame of a sequence. */
         errors?: number[];
-        theta?: number;
+        angle?: number;
         seconds?: number;
         diagonal?: number;
         draco?: { bytes: number; bits: number } | null;
@@ -50,7 +50,7 @@ export function sized(bytes: number): string {
 }
 
 export function percent(share: number): string {
-    return `${Number((100 * share).toPrecision(2))}\u00a0%`;
+    return `${Number((100 * share).toPrecision(3))}\u00a0%`;
 }
 
 function times(ratio: number): string {
@@ -71,15 +71,15 @@ export function factsOf({ layers, main, facts }: Content, length: number, frames
     const plain = main > 0 ? layers[0].size : 12 * (vertices * Math.max(frames, 1) + faces);
     const ratio = plain / Math.max(size, 1);
     const than = main > 0 ? "" : frames > 1 ? " than its frames as float32" : " than plain arrays";
-    const { look, farthest, theta, seconds, promised = {}, draco } = facts;
+    const { look, farthest, angle, seconds, promised = {}, draco } = facts;
     const looks = look === undefined ? "" : promised.look ? `look ${look.toFixed(2)} of ${promised.look}` : `look ${look.toFixed(2)}`;
     const rows: Row[] = [];
     if (look !== undefined) rows.push(["Look distance", looks.slice(5), `${promised.look ? "promised; " : ""}at 1, both look the same`]);
-    if (farthest !== undefined) rows.push(["Vertex error", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
-    if (theta !== undefined) rows.push(["Normal error", `${theta.toFixed(1)}°`, "on average"]);
-    if (draco) rows.push(["Draco at this look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
+    if (farthest !== undefined) rows.push(["Largest vertex error", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
+    if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
+    if (draco) rows.push(["Draco at the same look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
     if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
-    if (took !== undefined) rows.push(["Decoded here in", spent(took)]);
+    if (took !== undefined) rows.push(["Decoded in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     return { plain, size, claim: [size > 0 && ratio > 1 ? `${times(ratio)} times smaller${than}` : "", looks].filter(Boolean).join(", "), rows };

@@ -1,4 +1,4 @@
-/** The controls of the page by their names, and its texts and cards by those of their parts. */
+/** The controls of the page by name, and its texts and panels by the name of their part. */
 export class Form {
     constructor(readonly root: HTMLElement) {}
 
@@ -19,7 +19,7 @@ export class Form {
         if (element.textContent !== text) element.textContent = text;
     }
 
-    /** The chosen one of the radio buttons of a name. */
+    /** The value of the chosen radio button. */
     picked(name: string): string {
         return this.root.querySelector<HTMLInputElement>(`[name=${name}]:checked`)?.value ?? "";
     }
@@ -28,7 +28,7 @@ export class Form {
         this.root.querySelector<HTMLInputElement>(`[name=${name}][value="${value}"]:not(:disabled)`)?.click();
     }
 
-    /** Unfold a panel, or fold it if it is unfolded; the others are folded. */
+    /** Open a panel, or close it if it is open; close the others. */
     unfold(part: string): void {
         for (const each of ["panel", "keys"]) {
             const hidden = each !== part || !this.part(each).hidden;

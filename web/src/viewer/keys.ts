@@ -1,4 +1,4 @@
-/** What keys do. */
+/** Keyboard shortcuts. */
 import type { Comparison } from "./comparison";
 import type { Form } from "./form";
 import type { Stage } from "./stage";

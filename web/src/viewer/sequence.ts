@@ -1,10 +1,8 @@
-/** The controls of a sequence: they play it, hold it and seek in it. */
+/** The controls of a sequence: play, pause, seek, speed and loop, and a plot of the errors. */
 import type { BSMGeometry } from "../geometry";
 import { BSMSequence } from "../sequences";
 import { percent, type Content } from "./facts";
 import type { Form } from "./form";
-
-const SECOND = 1000;
 
 export class SequenceBar {
     private sequence?: BSMSequence;
@@ -20,7 +18,7 @@ export class SequenceBar {
         form.on("loop", "change", ({ checked }) => this.sequence && (this.sequence.loop = checked));
     }
 
-    /** Begin with another one, whose largest error in each frame is a small plot if it is known. */
+    /** Start with another sequence; plot the largest error of each frame, if it is known. */
     open({ errors = [], farthest }: Content["facts"]): void {
         [this.sequence, this.shown, this.errors] = [undefined, -1, errors];
         const points = errors.map((error, i) => `L${i / (errors.length - 1)},${1 - error / (farthest || 1)}`);
@@ -28,20 +26,20 @@ export class SequenceBar {
         this.form.part("errors").querySelector("path")!.setAttribute("d", `M0,1${points.join("")}L1,1z`);
     }
 
-    /** Frames are there: begin to play them, unless the page's reader wants less motion. */
+    /** Play the frames of a geometry, unless the reader prefers reduced motion. */
     begin(geometry: BSMGeometry): void {
         this.sequence ??= new BSMSequence(geometry, !matchMedia("(prefers-reduced-motion: reduce)").matches);
         this.sequence.loop = this.form.control("loop").checked;
     }
 
-    /** Show the frame that is due, of those that there are; return whether it is another one. */
+    /** Show the frame that is due; return whether it differs from the last one. */
     step(now: number, over: boolean, missed: number): boolean {
         const { sequence, form } = this;
         form.part("sequence").hidden = !sequence;
         if (!sequence) return false;
         sequence.complete = over;
         sequence.speed = Number(form.control<HTMLSelectElement>("speed").value);
-        sequence.update((now - this.before) / SECOND);
+        sequence.update((now - this.before) / 1000);
         this.before = now;
         this.report(sequence, missed);
         const isAnother = sequence.frame !== this.shown;

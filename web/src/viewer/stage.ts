@@ -55,7 +55,7 @@ export class Stage {
     sides: [number, number] = [0, 0];
     wipe = 0.5;
     readonly camera: Camera;
-    private readonly renderer: WebGLRenderer;
+    readonly renderer: WebGLRenderer;
     private readonly scene = new Scene();
     private readonly fast = isFast();
     private readonly key = new DirectionalLight(WHITE, 1.5);
@@ -207,11 +207,6 @@ export class Stage {
         const now = performance.now();
         if (this.stale) this.renew(1, now);
         else if (!this.fast && now - this.moved > QUIET && this.renderer.getPixelRatio() === devicePixelRatio) this.renew(SMOOTH, this.moved);
-    }
-
-    /** Pixels of the canvas to one of the page. */
-    get ratio(): number {
-        return this.renderer.getPixelRatio();
     }
 
     dispose(): void {

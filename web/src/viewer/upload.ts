@@ -1,9 +1,9 @@
-/** Files that the reader opens or drops on the page: streams are shown, and meshes are encoded by its server. */
+/** Show files that are opened or dropped on the page: its server encodes meshes. */
 import type { Content } from "./facts";
 import type { Form } from "./form";
 import { bytesOf } from "./inlined";
 
-/** Encodes a file: lines of what is done, and the share of it; then what there is to be shown. */
+/** Encode a file; `report` is called with each stage and the share done. */
 export type Encode = (file: File, preset: string, report: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
 
 export class Upload {
@@ -57,7 +57,7 @@ export class Upload {
 
     private encoded(file: File, signal: AbortSignal): Promise<Content> {
         const { form } = this;
-        if (!this.encode) throw new Error(`This page has no encoder beside it, and shows .bsm alone. To see a mesh: bsm view ${file.name}`);
+        if (!this.encode) throw new Error(`This page opens only .bsm files. To view this mesh, run: bsm view ${file.name}`);
         [form.part("invite").hidden, form.part("work").hidden] = [true, false];
         const bar = form.root.querySelector("progress")!;
         const report = (stage: string, share: number): void => {

@@ -308,7 +308,7 @@ export class View {
         stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
-        const told = (error: unknown): void => this.form.say("problem", `Only the stream is shown. ${error instanceof Error ? error.message : error}`);
+        const told = (error: unknown): void => this.form.say("problem", `The original cannot be shown. ${error instanceof Error ? error.message : error}`);
         void (meshes.accompanied ? meshes.dress() : this.accompany()).catch(told);
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
