@@ -65,7 +65,6 @@ NB_MODULE(_kernels, m) {
           "local_neighbors"_a, "scratch"_a, Unlocked());
     m.def("add_copies", &add_copies, "sums"_a, "total"_a, "vertices"_a, "positions"_a, "weights"_a, Unlocked());
     m.def("collect_edges", &collect_edges, "faces"_a, "offsets"_a, "filled"_a, "ends"_a, "second"_a, Unlocked());
-    m.def("minus_mean", &minus_mean, "values"_a, "starts"_a, "members"_a, "rest"_a, Unlocked());
     m.def("patch_scores", &patch_scores, "normals"_a, "areas"_a, "starts"_a, "members"_a, "steps"_a,
           "inner_starts"_a, "inner"_a, "scores"_a, "means"_a, Unlocked());
     m.def("most_consistent", &most_consistent, "scores"_a, "means"_a, "starts"_a, "members"_a, "guide"_a, Unlocked());

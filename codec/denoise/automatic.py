@@ -1,4 +1,4 @@
-"""Denoising that chooses its own settings, and does not change meshes that it cannot improve."""
+"""Denoising that chooses its own settings, and does not change a mesh that it cannot improve."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
 from bsm.codec.denoise.learnt.cascade import joined
-from bsm.codec.denoise.noise.causes import Grid, weld_seams
+from bsm.codec.denoise.noise.causes import Grid
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import NO_OUTLIERS, Outliers, find_outliers
 from bsm.codec.denoise.noise.ripples import NO_RIPPLES, Ripples, find_ripples
@@ -50,28 +50,32 @@ def sample(faces: Faces, levels: Floats) -> tuple[npt.NDArray[np.int64], Faces]:
 BASE = Recipe("normals", 0.2, "patches", 0.35)
 CANDIDATES = (
     BASE,
-    *(Recipe("normals", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4, 0.55)),
+    *(Recipe("normals", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4)),
+    Recipe("heights", 0.2, "own", 0.4),
+    Recipe("none", 0.2, "local", 0.45),
+    Recipe("normals", 0.2, "own", 0.55),
     Recipe("normals", 0.1, "own", 0.4),
     Recipe("normals", 0.3, "own", 0.4),
-    *(Recipe("heights", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4, 0.55)),
+    *(Recipe("heights", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.55)),
     Recipe("heights", 0.1, "own", 0.4),
     Recipe("heights", 0.3, "own", 0.55),
     Recipe("heights", 0.4, "own", 0.55),
     Recipe("heights", 0.2, "patches", 0.35),
     Recipe("none", 0.2, "own", 0.4),
     Recipe("none", 0.2, "patches", 0.35),
-    *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
+    *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.6)),
 )
-SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 0.1, 1.0, 3.0) for sigma_r in (0.4, 0.25, 0.55))
-"""For scans of one view; the first one is the base."""
-SEEN_HERALDS = (*SEEN[:3], *SEEN[7:9])
+"""The first one makes the first guess, the first `HERALDS` the second one."""
+HERALDS = 5
+SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 1.0, 0.1, 3.0) for sigma_r in (0.4, 0.25, 0.55))
+"""For scans of one view."""
 FINE = (("patches", 0.35), ("own", 0.25), ("own", 0.4))
 FUSED = tuple(Recipe("positions", keep, *fine) for keep in (0.2, 0.1, 0.3) for fine in FINE)
 """For views that are fused, whose triangles are slivers: their vertices slide."""
 _OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for width in (0.4, 0.25, 0.55)]
 AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
-GROUPS = {"fused": (FUSED, FUSED), "axis": (AXIAL, AXIAL[:5])}
+GROUPS = {"fused": FUSED, "axis": AXIAL}
 UNEVEN_FUSED, UNEVEN_RATIO, UNEVEN_MOST = Recipe("positions", 0.1, "own", 0.4), 3.0, 150
 """For fused views of a real camera. Their noise is broader than any that is drawn here, so nothing is rehearsed: the
 filter goes on until vertices have moved this many times the fine noise."""
@@ -81,9 +85,9 @@ STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flatteni
 LEFT_UNEVEN = 0.55  # share of the angle that stays then
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
-HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])  # those that compete for the second guess
-LEARNT_MORE = 0.025
-"""Movement over noise with the learnt normals, above that without them, from which on they are left out."""
+LEARNT, LEARNT_MORE = 0.4, 0.025
+"""Share of the learnt normals in the mean with those of the recipes; and movement over noise with them, above that
+without them, from which on they are left out."""
 SLIDING = 0.6  # noise across the normals, over noise along them, from which on vertices slide along the surface
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
@@ -128,8 +132,8 @@ class AutomaticChoice:
     def seen(
         self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology
     ) -> AutomaticChoice:
-        """Return the choice with the angles of the whole mesh: a partial treatment leaves the rest of the noise, and
-        has that share of the faults."""
+        """Return the choice with the angles of the whole mesh: noise remains where the full treatment is not applied,
+        and its errors count by the share that is applied."""
         assert self.forecast is not None
         ends = (face_geometry(positions, topology.faces).normals for positions in (full, result))
         undone = np.degrees(2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(np.subtract(*ends), axis=1), 1.0)))
@@ -146,19 +150,6 @@ class AutomaticChoice:
         if lengths:
             return replace(choice, kind="ripples", reason=ripples.description)
         return replace(choice, kind="outliers", reason=f"{counted(vertices=count)} that stood out")
-
-
-def denoise_automatically(
-    positions: Positions, faces: Faces, goal: str = "shading"
-) -> tuple[Positions, AutomaticChoice]:
-    given = np.array(positions, dtype=np.float64)
-    welded, faces, index = weld_seams(given, faces)
-    patient = Patient(faces, len(welded))
-    calmed, outliers, ripples, finding = calm(welded, patient)
-    choice = choose(calmed, finding, patient, goal).after(outliers, ripples)
-    result, choice = treat(choice, calmed, finding, patient)
-    moved = (result != welded).any(axis=1)[index]
-    return np.where(moved[:, None], result[index], given), choice
 
 
 def calm(positions: Positions, patient: Patient) -> tuple[Positions, Outliers, Ripples, Finding]:
@@ -188,34 +179,30 @@ def choose(
     if len(members) < patient.topology.n:
         positions, patient = positions[members], Patient(part, len(members))
     patient.view, patient.bound = finding.view, finding.bound
-    base, candidates, heralds = BASE, CANDIDATES, HERALDS
-    if finding.view is not None:
-        base, candidates, heralds = SEEN[0], SEEN, SEEN_HERALDS
-    else:
+    candidates = SEEN if finding.view is not None else GROUPS.get(finding.kind, CANDIDATES)
+    share = LEARNT if candidates is CANDIDATES else 0.0
+    if finding.view is None:
         patient.expect(LARGEST_KEEP)
-        if finding.kind in GROUPS:
-            (base, *_), _ = candidates, heralds = GROUPS[finding.kind]
-    rehearsal = Rehearsal(positions, finding.on(members), patient, base, named("goal", GOALS, goal), progress)
-    candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (candidates, heralds))
-    winner = rehearsal.compete(heralds, most, HERALDED)
-    share, gain = rehearsal.weigh(winner)
-    if candidates != heralds:
-        # What a few make, with the learnt normals, is a better guess. A third round would believe its own mistakes.
-        rehearsal.rehearse(rehearsal.perform(winner.steps, share))
-        winner = rehearsal.compete(candidates, most, REHEARSED)
-    untreated = rehearsal.untreated
-    steps, expected = winner.steps, gain * winner.error
+    goals = named("goal", GOALS, goal)
+    rehearsal = Rehearsal(positions, finding.on(members), patient, candidates[0], goals, progress)
+    candidates = _suited(candidates, rehearsal.level, finding.edge)
+    winner = rehearsal.compete(candidates[:HERALDS], most, HERALDED)
+    # The result of a few recipes is a better guess. A third round would repeat its own mistakes.
+    rehearsal.rehearse(rehearsal.perform(winner.steps, share))
+    winner = rehearsal.compete(candidates, most, REHEARSED)
+    taught, untreated = rehearsal.taught(winner, share), rehearsal.untreated
+    steps, expected = taught.steps, taught.error
     reason = finding.reason
     if expected > WORTH * untreated:
         steps, expected = (), untreated
         reason = f"{reason}, but any filter would cost more than it gains"
     elif expected > HARMFUL * rehearsal.changed(steps, share):
         steps, expected = (), untreated
-        reason = f"{reason}, but the expected error of the result is as large as the change"
+        reason = f"{reason}, but the expected error is as large as the change"
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     choice = AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
-    return replace(choice, forecast=rehearsal.forecast(winner, share, gain)) if goal == "shading" else choice
+    return replace(choice, forecast=rehearsal.forecast(taught)) if goal == "shading" else choice
 
 
 def _persist(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:
@@ -244,17 +231,17 @@ def _bounded(finding: Finding) -> AutomaticChoice:
 def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:
     """The recipes to try: those that let vertices slide along the surface only where noise has moved them there, or
     drowns the surface."""
-    sliding = tuple(replace(recipe, hand_over="positions") for recipe in recipes if recipe.hand_over == "heights")
+    sliding = {recipe: replace(recipe, hand_over="positions") for recipe in recipes if recipe.hand_over == "heights"}
     if level.tangential > SLIDING * level.normal:
-        return (*(recipe for recipe in recipes if recipe.hand_over != "heights"), *sliding)
-    return (*recipes, *sliding) if level.normal > DROWNED * edge else recipes
+        return tuple(sliding.get(recipe, recipe) for recipe in recipes)
+    return (*recipes, *sliding.values()) if level.normal > DROWNED * edge else recipes
 
 
 def treat(
     choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient, strength: float = 1.0
 ) -> tuple[Positions, AutomaticChoice]:
-    """Apply the choice to `noisy`, shape (n, 3), where there is noise and as far as the safety checks allow; return
-    the applied part of the choice, and the expected error if vertices move by a fraction, `strength`."""
+    """Apply the choice to `noisy`, shape (n, 3), where there is noise and as far as the safety checks allow. Also
+    return the choice as it was carried out, with the angles to expect if vertices move only a part of the way."""
     if not choice.steps:
         return noisy, choice
     patient.view, patient.bound = finding.view, finding.bound

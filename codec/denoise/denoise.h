@@ -15,7 +15,6 @@ void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances);
 void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, Doubles2 averaged);
 void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, ConstDoubles2 normals,
                     int64_t iterations, ConstBytes free, Doubles2 planes, Doubles2 sums);
-void minus_mean(ConstDoubles2 values, ConstLongs starts, ConstInts members, Doubles2 rest);
 void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
     ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed, Doubles2 filtered);
 void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,

@@ -77,7 +77,7 @@ class GuidedFilter:
         return self._within(follow_normals(positions, self.topology, normals, VERTEX_ITERATIONS))
 
     def iterates(self, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Iterator[Positions]:
-        """Yield the start, shape (n, 3), and the results of the filter after 1, 2, ... iterations, without end."""
+        """Yield the positions, shape (n, 3), after 0, 1, 2, ... iterations of the filter, without end."""
         positions = self.positions
         while True:
             yield positions

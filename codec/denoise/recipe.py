@@ -1,4 +1,4 @@
-"""Recipes for any mesh: the hand-over of the coarse mesh, then iterations of a filter of normals."""
+"""Recipes for any mesh: a hand-over from the coarse step, then iterations of a normal filter."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -103,7 +103,7 @@ class DenoiseOptions:
 
 @dataclass(frozen=True)
 class Recipe:
-    """The treatment of the noisy mesh, without the number of iterations."""
+    """Settings of one way to filter a noisy mesh, without the number of iterations."""
 
     hand_over: str
     keep: float
@@ -122,7 +122,7 @@ class Step:
 
 
 class Treatments:
-    """What recipes make of one mesh: where they start is found once for all that start there, and so are results."""
+    """Results of recipes on one mesh; those with the same hand-over share their start."""
 
     def __init__(
         self,
@@ -203,7 +203,7 @@ class Patient:
         return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology, self.view, self.bound)
 
     def treatments(self, positions: Positions) -> Treatments:
-        """What `treated` makes of `positions`, shape (n, 3), kept until others are asked for; by any thread."""
+        """Return `treated` of `positions`, shape (n, 3), and keep it until others are asked for; thread-safe."""
         last = self._last
         if last is None or last[0] is not positions:
             self._last = last = positions, self.treated(positions)

@@ -16,9 +16,8 @@ import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.learnt.cascade import joined
-from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.noise.search import MANY_WINDOWS
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
 from bsm.codec.denoise.recipe import Patient, Recipe, Step, blend
 from bsm.codec.denoise.surface import face_geometry, pair_distances
@@ -29,21 +28,18 @@ MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
 PATIENCE = 3  # iterations behind the best one that are looked at
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01
-"""Members join while the error stays below this multiple: several recipes miss less detail than the guess."""
-LEARNT_SHARES = (0.0, 0.2, 0.4)
-"""Of the learnt normals in the mean with those of the recipes; more of them costs up to two thirds on dodecahedra where
-it gains a fifteenth on a scan, and alone they are worse on half of the meshes tried."""
+"""Members join while the error stays below this multiple, as several recipes make fewer mistakes than one."""
 SEED = 1
 ROUND = 0.1  # of all work, what the recipes of a round take, more or less
 DISCREPANCY, MOST_DISCREPANT, DISCREPANCY_PASSES = 2.2, 60, 8
 """Noise of fused views is this much stronger than its fine level (a discrepancy principle, Morozov 1966): a guess that
 has lost less still has such noise, which looks like shape."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
-"""The loss of a guess's roughness (a logarithm, within bounds), and the further loss of the mesh."""
+"""Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
 UNSURE, LEAST = {"correlated": 0.87, "grid": 0.87, "axis": 0.7, "impulses": 0.87}, 0.87
-"""Kinds whose rehearsal does not show losses, as none does on few vertices; and the least share of the expected noise
-that is found there."""
+"""Kinds whose rehearsal does not show whether detail is lost, as on meshes of few vertices; and the least error there,
+over the rehearsed one."""
 MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
 OF_MIRRORED = 0.78  # share of a rehearsed error that comes, of mirrored noise: it has the guess's own mistakes
@@ -54,7 +50,7 @@ Progress = Callable[[str, float], None]
 
 
 def silent(stage: str, share: float) -> None:
-    """Not requested."""
+    """Ignore the progress."""
 
 
 def shape(reference: Reference, positions: Positions) -> float:
@@ -87,7 +83,7 @@ def discrepant(
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Steps, the error of their mean in a rehearsal, and its result for the noisy mesh there."""
+    """Steps, the error of their mean in a rehearsal, and the mean itself, shape (n, 3)."""
 
     steps: tuple[Step, ...]
     error: float
@@ -113,7 +109,7 @@ class Rehearsal:
         self._patient, self._topology, self._goal, self._progress = patient, patient.topology, goal, progress
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
         smooth = patient.smooth(noisy, base.keep) if base.needs_coarse else noisy
-        self.level = estimate_noise(noisy, smooth, patient.topology)
+        self.level = estimate_noise(noisy, smooth, patient.probe)
         guesses = patient.treatments(noisy).iterates(base)
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
         given, done, self.rounds = 1, -1, 0
@@ -146,21 +142,17 @@ class Rehearsal:
         """How far the mesh that is rehearsed for is from the result, in the unit of the errors."""
         return self._goal(Reference(self.perform(steps, share), self._topology.faces), self._given)
 
-    def weigh(self, winner: Outcome) -> tuple[float, float]:
-        """The share of the learnt normals in the mean with the winner's, and the mean's error over the winner's."""
-        learnt = self._treatments.learnt
-        means = (joined(winner.result, learnt, share, self._topology) for share in LEARNT_SHARES)
-        errors = np.array([self._goal(self.truth, self._within(mean, self.noisy)) for mean in means])
-        best = int(np.flatnonzero(errors <= GAIN * errors.min())[-1])
-        return LEARNT_SHARES[best], float(errors[best]) / (winner.error or 1.0)
+    def taught(self, winner: Outcome, share: float) -> Outcome:
+        """The winner with `share` of the learnt normals."""
+        if share == 0.0:
+            return winner
+        result = self._within(joined(winner.result, self._treatments.learnt, share, self._topology), self.noisy)
+        return Outcome(winner.steps, self._goal(self.truth, result), result)
 
-    def forecast(self, winner: Outcome, share: float, gain: float) -> Forecast:
-        """Angles to expect on the mesh of the rehearsal. The loss of the guess is also a loss of the mesh: the guess is
-        the mesh after it."""
-        result = winner.result
-        if share > 0.0:
-            result = self._within(joined(result, self._treatments.learnt, share, self._topology), self.noisy)
-        guess, left = self._roughness(self.truth.positions), self._roughness(result)
+    def forecast(self, winner: Outcome) -> Forecast:
+        """Return the angles to expect on the rehearsed mesh. Detail that the filter removes from the guess was already
+        removed from the mesh to make the guess."""
+        guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
         scanned = self._finding.kind in ("view", "fused")  # whose noise is known so well that rehearsals say enough
         lost = float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 and not scanned else 0.0
         clean = guess * np.exp(LOST_MORE * max(lost, 0.0))
@@ -172,7 +164,7 @@ class Rehearsal:
         few = int(self._patient.probe.windows.valid.sum()) < MANY_WINDOWS
         sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
         least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
-        expected = float(after) * gain * winner.error / noisy * least
+        expected = float(after) * winner.error / noisy * least
         known = self._finding.clear and self._drowned < MOST_DROWNED
         return Forecast(before * self.untreated / noisy, expected, sure, known)
 

@@ -1,7 +1,7 @@
-"""Checks of a result without the clean mesh.
+"""Check a result without the clean mesh.
 
-Only noise may be removed. So the removed part is compared, window by window, with the noise that the finest frequencies
-of the input show there: where more than the noise is removed, shape is lost.
+In each window the movement is compared with the noise in the finest frequencies of the input: if vertices moved by more
+than the noise, the filter removed shape as well.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
 """Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
 NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.92, 5.0, 0.4
-"""Movement over noise where there is no detail; the reduction for each unit more; and the largest reduction."""
+"""Movement over noise on meshes without detail; the share that is not applied for each unit more; and its maximum."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
@@ -30,7 +30,6 @@ FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 class Verdict:
     good: Mask
     movement: float
-    failed: float
     reason: str
 
     @property
@@ -40,17 +39,17 @@ class Verdict:
 
 
 def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> Verdict:
-    """Compare the removed part with the noise."""
+    """Compare the movement in each window with the noise there."""
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
     if finding.kind in ("cells", "steps"):
-        return Verdict(everywhere, 1.0, 0.0, "")  # within the bound of the cause
+        return Verdict(everywhere, 1.0, "")  # within the bound of the cause
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
     if not finding.noisy and not unsure:
         # No statistics here: they may be what is missing.
         if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINT * finding.edge:
-            return Verdict(everywhere, 0.0, 0.0, "")
-        return Verdict(~everywhere, np.inf, 1.0, f"{finding.reason}, and the result moves vertices nevertheless")
+            return Verdict(everywhere, 0.0, "")
+        return Verdict(~everywhere, np.inf, f"{finding.reason}, and the result moves vertices nevertheless")
     normals = probe.smooth_normals(result, passes=0)
     removed = probe.levels(np.einsum("ij,ij->i", noisy - result, normals))
     found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
@@ -70,7 +69,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     if failed > FAILED_SHARE:
         reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
     good: Mask = ~bad[windows.labels]
-    return Verdict(good, movement, failed, reason)
+    return Verdict(good, movement, reason)
 
 
 def restraint(movement: float, finding: Finding) -> float:

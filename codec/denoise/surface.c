@@ -180,17 +180,3 @@ KERNEL void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs star
         put_row(positions.data, v, (Vector3){place[0], place[1], place[2]});
     }
 }
-
-/* The random-walk Laplacian: every vertex less the mean of its neighbors; zero where it has none. */
-void minus_mean(ConstDoubles2 values, ConstLongs starts, ConstInts members, Doubles2 rest) {
-    int64_t width = values.columns;
-    for (int64_t v = 0; v < values.rows; v++) {
-        int64_t first = starts.data[v], last = starts.data[v + 1];
-        for (int64_t axis = 0; axis < width; axis++) {
-            double total = 0.0;
-            for (int64_t k = first; k < last; k++) total += values.data[width * members.data[k] + axis];
-            rest.data[width * v + axis] =
-                first == last ? 0.0 : values.data[width * v + axis] - total / (double)(last - first);
-        }
-    }
-}

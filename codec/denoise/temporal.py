@@ -21,7 +21,7 @@ FEWEST_FRAMES = 8
 
 @dataclass(frozen=True, eq=False)
 class Steadied:
-    """Frames after the filter, and its estimate of the noise."""
+    """Frames after the filter, the deviation of their noise, and the share of it that remains."""
 
     frames: Frames
     deviation: float
@@ -73,11 +73,11 @@ def noise_deviation(values: Floats) -> float:
 def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
     """The matrix, shape (k, d), its singular values shrunk for white noise of `deviation`, and how many are left."""
     mean = values.mean(axis=0)
-    centerd = values - mean
+    centered = values - mean
     short, long = int(min(values.shape)), int(max(values.shape))
     if deviation == 0.0:
         return values, short
-    energies, vectors = _components(centerd)
+    energies, vectors = _components(centered)
     ratio = short / long
     above = np.maximum(energies, 0.0) / (long * deviation**2)
     excess = np.maximum((above - ratio - 1.0) ** 2 - 4.0 * ratio, 0.0)
@@ -85,8 +85,8 @@ def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
     factor = np.sqrt(excess[kept]) / above[kept]
     basis = vectors[:, kept]
     if len(vectors) == values.shape[1]:
-        return (centerd @ basis * factor) @ basis.T + mean, int(kept.sum()) + 1
-    return basis @ (factor[:, None] * (basis.T @ centerd)) + mean, int(kept.sum()) + 1
+        return (centered @ basis * factor) @ basis.T + mean, int(kept.sum()) + 1
+    return basis @ (factor[:, None] * (basis.T @ centered)) + mean, int(kept.sum()) + 1
 
 
 def _components(values: Floats) -> tuple[Floats, Floats]:

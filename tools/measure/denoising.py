@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.automatic import denoise_automatically
+from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import mean_edge_length

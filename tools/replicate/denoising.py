@@ -15,8 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise import FrameDenoiser
-from bsm.codec.denoise.automatic import denoise_automatically
+from bsm.codec.denoise import FrameDenoiser, denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.recipe import Recipe, Treatments
 from bsm.codec.denoise.surface import Topology

@@ -59,16 +59,18 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
 
 
 VERTEX_ITERATIONS = 15
-IMAGES = ((False, False), (True, True))  # frames that are averaged over: nothing tells the two ends of an axis apart
 
 
 def regressed_normals(positions: Positions, topology: Topology, network: Network) -> Floats:
+    """Normals by one network, shape (m, 3), whichever way the mesh is turned."""
     found = []
+    order, signs = mirrored(True, True)
     for numbers, frames in descriptions(positions, topology):
-        local = np.zeros((len(numbers), 3))
-        for image in IMAGES:
-            order, signs = mirrored(*image)
-            local += network(numbers[:, order] * signs) * signs[:3]
+        # Nothing tells the two ends of an axis apart but the normal that the network starts from.
+        back = numbers[:, BASE.start] < 0.0
+        numbers[back] = numbers[back][:, order] * signs
+        local = network(numbers)
+        local[back] *= signs[:3]
         found.append(np.einsum("kij,ki->kj", frames, local))
     normals = np.concatenate(found) if found else np.zeros((0, 3))
     return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))

@@ -1,1 +1,1 @@
-"""Noise: synthesis, detection, and its kinds."""
+"""Finding noise in a mesh, and drawing noise of the same kind."""

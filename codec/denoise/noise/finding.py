@@ -1,4 +1,4 @@
-"""The estimated noise of a mesh, and the evidence for it."""
+"""Findings about the noise of a mesh, and the evidence for them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid, Steps
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.surface import Floats
+from bsm.codec.denoise.surface import Floats, Mask
 
 LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has at least, and over the usual
 LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
@@ -40,7 +40,6 @@ def lattice_step(positions: Positions) -> float:
     return step if (lies >= 2).mean() > LATTICE_SHARE else 0.0
 
 
-UNEVEN = 0.26  # largest spread of the levels of strong noise (logarithms) beyond chance
 LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
 ASIDE = 0.2  # largest median of the standardised residual: noise lies on both sides
 CENTER = (0.55, 1.6)  # share of residuals about zero, as a multiple of the normal distribution's
@@ -79,21 +78,62 @@ class Finding:
         return replace(self, levels=self.levels[members], growth=growth)
 
 
+MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "few")
+MANY_WINDOWS = 25  # fewer say less about the spread of levels
+SLOPE, SHIFT = 0.6, 0.15  # of the broad level over the whiteness (logarithms), for all lengths of correlation
+
+
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Fine residuals along the normals, and their levels in the windows, in mean edges."""
+    """What filters leave of a mesh along a direction at each vertex; levels are those of the windows, in mean edges."""
 
     probe: Probe
     normals: Floats
+    edge: float
     along: Floats
     levels: Floats
-    edge: float
+    broad: Floats
+    finest: Floats
+
+    def level(self, windows: Mask) -> float:
+        return float(np.median(self.levels[windows]))
+
+    def whiteness(self, windows: Mask) -> float:
+        """Level of the finest frequencies over the fine ones: 1 for white noise, less if neighbors share it."""
+        return float(np.quantile(self.finest[windows], 0.25) / max(np.quantile(self.levels[windows], 0.25), 1e-9))
+
+    def residuals(self, windows: Mask) -> Floats:
+        """Values of counted vertices of these windows over the levels there."""
+        chosen = windows[self.probe.windows.labels] & self.probe.counted
+        scale = self.levels[self.probe.windows.labels[chosen]]
+        return np.asarray(self.along[chosen][scale > 0.0] / scale[scale > 0.0])
+
+    def measures(self, windows: Mask) -> Floats:
+        """Return what rules weigh, in the order of `MEASURES`: the level and whiteness (logarithms), how far the broad
+        frequencies are from those of such noise, how uneven fine and broad levels are, and the lack of windows."""
+        fine, broad = self.levels[windows], self.broad[windows]
+        broader = np.log(max(np.median(broad / np.maximum(fine, 1e-9)), 1e-9))
+        level, whiteness = np.log(np.maximum([self.level(windows), self.whiteness(windows)], 1e-9))
+        uneven = (min(spread(levels, self.probe.windows), 1.5) for levels in (fine, broad))
+        off = abs(broader + SLOPE * whiteness + SHIFT)
+        return np.array(
+            [level, whiteness, off, *uneven, max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)]
+        )
+
+    def weakened(self, growth: Floats) -> Evidence:
+        """Evidence of noise without its growth, shape (n,)."""
+        here = self.probe.windows.means(growth)
+        levels = (values / here for values in (self.levels, self.broad, self.finest))
+        return Evidence(self.probe, self.normals, self.edge, self.along / growth, *levels)
 
 
-def look(positions: Positions, probe: Probe, edge: float, passes: int) -> Evidence:
-    normals = probe.smooth_normals(positions, passes)
-    along = np.einsum("ij,ij->i", probe.fine(positions / edge), normals)
-    return Evidence(probe, normals, along, probe.levels(along), edge)
+def look(probe: Probe, values: Floats, directions: Floats, edge: float) -> Evidence:
+    """See `values`, shape (n, d), along `directions`, shape (n, d)."""
+    fine, broad, finest = (
+        np.einsum("ij,ij->i", filtered(values), directions) for filtered in (probe.fine, probe.broad, probe.finest)
+    )
+    levels = (probe.levels(along) for along in (fine, broad, finest))
+    return Evidence(probe, directions, edge, fine, *levels)
 
 
 def spread(levels: Floats, windows: Windows) -> float:

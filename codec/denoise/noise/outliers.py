@@ -1,9 +1,9 @@
 """Single vertices that stand out: they are put back, and nothing else is touched.
 
-Those that lie outside the ring of their neighbors are known for it, beside other noise as well. Fainter ones only on a
-mesh that else is clean:
+Vertices outside the ring of their neighbors are found even in noisy meshes. Fainter ones are found only on a mesh that
+is clean otherwise:
 
-A vertex off its place by a leaves ``K a`` after the high-pass filter K: the vertex's own column of K, a pattern that
+A high-pass filter K turns a vertex that is off by a into ``K a``, the vertex's own column of K, a pattern that
 nothing on a clean surface has (creases are lines, detail is everywhere). So the columns that explain most of what is
 around them are peeled off one by one, by matching pursuit, the clearest first. Only where many are perfectly clear,
 and as many to one side of the surface as to the other, are less clear ones believed.
@@ -31,7 +31,7 @@ FAINT, WORTH, STRONG = 0.03, 0.05, 0.15
 """Smallest displacement looked for, in mean edges; the median of those found from which on it is worth it; and the
 median from which on the least clear ones are believed as well: among faint ones they are detail."""
 LARGEST = 1.2
-"""Less clear ones are not larger than the clear ones, of which nine in ten are smaller than this ratio says."""
+"""Largest less clear outlier, over the displacement that nine in ten of the clear ones do not reach."""
 DISTINCT = 4.0  # displacement over what calm surroundings show
 CALM, CALM_BOUND = 0.5, 0.6745
 STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75

@@ -27,18 +27,14 @@ FEWEST_IN_WINDOW = 20  # vertices of a window that say anything
 class Windows:
     """Disjoint connected pieces of about `WINDOW` vertices."""
 
-    def __init__(self, graph: Graph, labels: Indices, counted: Mask, fewest: int = FEWEST_IN_WINDOW) -> None:
+    def __init__(self, graph: Graph, labels: Indices, counted: Mask) -> None:
         self._graph, self.labels = graph, labels
         self.count = int(labels.max()) + 1
         self._members = np.flatnonzero(counted)
         self._windows = labels[self._members]
         self._sizes = np.bincount(self._windows, minlength=self.count)
         self._starts = np.concatenate([[0], np.cumsum(self._sizes)])
-        self.valid: Mask = self._sizes >= fewest
-
-    def counting(self, counted: Mask, fewest: int) -> Windows:
-        """These windows with other vertices counted, shape (n,), `fewest` of them in a valid one."""
-        return Windows(self._graph, self.labels, counted, fewest)
+        self.valid: Mask = self._sizes >= FEWEST_IN_WINDOW
 
     @property
     def usual_size(self) -> float:
@@ -81,7 +77,7 @@ SHARE, BOUND = 0.6, 0.8416
 
 
 class Probe:
-    """Measures noise on the meshes of one connectivity."""
+    """Measures noise on meshes of one connectivity."""
 
     def __init__(self, topology: Topology) -> None:
         self.topology = topology
@@ -107,6 +103,10 @@ class Probe:
         return operator, np.sqrt(np.asarray(operator.multiply(operator).sum(axis=1)).ravel())
 
     @cached_property
+    def _broad_gain(self) -> Floats:
+        return self._gain(self._band)
+
+    @cached_property
     def _finest_gain(self) -> Floats:
         return self._gain(self._repeated)
 
@@ -126,7 +126,7 @@ class Probe:
 
     def broad(self, values: Floats) -> Floats:
         """What two averagings and two Laplacians leave of `values`, shape (n, d), as `fine` does."""
-        return self._band(values) / self._gain(self._band)[:, None]
+        return self._band(values) / self._broad_gain[:, None]
 
     def _band(self, values: Floats) -> Floats:
         operator = self.fine_operator[0]

@@ -1,8 +1,8 @@
 """Ripples: smooth waves that cross a whole mesh, as a scanner that trembles leaves them, found and taken away.
 
 Filters that smooth take a wave of a few edges for shape, or shape with it. But a plane wave is three numbers, and goes
-through the whole mesh with one phase, whichever way the surface faces: detail does not. So the strongest peak of the
-spectrum of the fine filter's response (its values on a grid of space, by FFT) begins a wave, Gauss and Newton's method
+through the whole mesh with one phase, whichever way the surface faces: detail does not. So the strongest peak in
+the spectrum of the fine filter (its values on a grid in space, by FFT) begins a wave, Gauss and Newton's method
 moves its wave vector, phase and height until the filter sees least, and the next peak is looked for in the rest. Waves
 are believed only if most windows of the mesh are calmer without them.
 """
@@ -91,7 +91,7 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
 
 
 class _Fit:
-    """Waves along the normals, and the fine filter's response with and without them; in mean edges."""
+    """Waves along the normals, and the output of the fine filter with and without them; in mean edges."""
 
     def __init__(self, places: Positions, probe: Probe) -> None:
         self._probe, self.given = probe, places - places.mean(axis=0)

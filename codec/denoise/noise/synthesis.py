@@ -1,7 +1,7 @@
 """How strong noise is, and more of it, to rehearse with.
 
-The random-walk Laplacian, applied four times, leaves little of a surface and most of the noise. The medians of the rest
-along the normals and across them are compared with those of white noise on the same mesh.
+The finest filter of a probe leaves little of a surface and most of the noise. Its medians along and across the normals
+give the level of white noise in both directions.
 """
 
 import math
@@ -9,16 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.codec import _kernels
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Floats, Topology, surface_normals
+from bsm.codec.denoise.surface import Floats, surface_normals
 from bsm.codec.geometry.metrics import mean_edge_length
 
-ORDER = 4
+MEDIAN_ALONG, MEDIAN_ACROSS = 0.6745, 1.1774  # of one standard normal number's size, and of the length of two
 IRREGULARITY = 0.15
-"""Largest rest across the normals due to irregular triangles, in mean edges, on the meshes tried."""
+"""Largest level across the normals, in mean edges, that irregular triangles gave on the meshes tried."""
 
 
 @dataclass(frozen=True)
@@ -29,41 +28,22 @@ class NoiseLevel:
     tangential: float
 
 
-def estimate_noise(positions: Positions, smooth: Positions, topology: Topology, seed: int = 0) -> NoiseLevel:
-    normals = surface_normals(smooth, topology)
-    white = np.random.default_rng(seed).normal(size=positions.shape)
-    counted = np.diff(topology.neighbors.starts) > 0
-    if (counted & ~topology.boundary).any():
-        counted &= ~topology.boundary
-    normal, tangential = _split(_high_pass(positions, topology)[counted], normals[counted])
-    white_normal, white_tangential = _split(_high_pass(white, topology)[counted], normals[counted])
-    along = normal / white_normal if white_normal > 0.0 else 0.0
-    across = tangential / white_tangential if white_tangential > 0.0 else 0.0
-    floor = IRREGULARITY * mean_edge_length(positions, topology.faces)
-    return NoiseLevel(along, min(along, math.sqrt(max(across * across - floor * floor, 0.0))))
-
-
-def _split(vectors: Floats, normals: Floats) -> tuple[float, float]:
-    """Medians of the lengths of vectors along normals and across them; 0 where there are none."""
-    if len(vectors) == 0:
-        return 0.0, 0.0
-    along = np.einsum("ij,ij->i", vectors, normals)
-    across = np.linalg.norm(vectors - along[:, None] * normals, axis=1)
-    return float(np.median(np.abs(along))), float(np.median(across))
-
-
-def _high_pass(values: Floats, topology: Topology) -> Floats:
-    for _ in range(ORDER):
-        rest = np.empty_like(values)
-        _kernels.minus_mean(values, *topology.neighbors, rest)
-        values = rest
-    return values
+def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> NoiseLevel:
+    """Return the noise of `positions`, shape (n, 3), along and across the normals of a smooth version of them."""
+    counted = probe.counted if probe.counted.any() else np.ones(len(positions), dtype=np.bool_)
+    normals = surface_normals(smooth, probe.topology)[counted]
+    seen = probe.finest(positions)[counted]
+    along = np.einsum("ij,ij->i", seen, normals)
+    across = float(np.median(np.linalg.norm(seen - along[:, None] * normals, axis=1))) / MEDIAN_ACROSS
+    normal = float(np.median(np.abs(along))) / MEDIAN_ALONG
+    floor = IRREGULARITY * mean_edge_length(positions, probe.topology.faces)
+    return NoiseLevel(normal, min(normal, math.sqrt(max(across * across - floor * floor, 0.0))))
 
 
 MOST_STEPS = 12
 WINDOWED, SHARED = 12, (0.5, 0.75)
-"""Averagings that make the noise shared by the pixels of a camera's window, and its strength relative to the rest, of
-cameras that measure depth and of those that match windows, which are recognized by their steps."""
+"""Averagings for the noise that the pixels of a camera's window share, and its strength over the noise of single
+pixels: for cameras that measure depth, and for those that match windows, which have steps of depth."""
 
 FUSED = ((1.05, 2.0), (8.0, 0.9))
 """Cells of fused views' noise, in mean edges, and its strength over fine levels: the field's, and what poses share."""

@@ -1,7 +1,7 @@
 """Scans of one view: a regular grid of pixels seen from an eye, with noise along the rays of the camera.
 
-Over the pixels a plane's inverse depth is linear. So the view of a camera is fitted by surfaces of few bends,
-each by as much as it takes: ``min sum d (w - w0)^2 + s sum l |bend w|`` (total variation of the gradient, Rudin, Osher,
+The inverse depth of a plane is linear over the pixels. So the filter looks for the surface of fewest bends near the
+measured one: ``min sum d (w - w0)^2 + s sum l |bend w|`` (total variation of the gradient, Rudin, Osher,
 Fatemi 1992; by reweighted least squares), where vertices that stand out count less.
 """
 

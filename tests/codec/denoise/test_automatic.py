@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from bsm import OptionError
-from bsm.codec.denoise.automatic import CANDIDATES, denoise_automatically
+from bsm.codec.denoise import denoise_automatically
+from bsm.codec.denoise.automatic import CANDIDATES
+from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import estimate_noise
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.denoise.surface import Topology
@@ -17,12 +19,12 @@ from tools.noise import gaussian_along_normals, gaussian_isotropic
 @pytest.mark.parametrize("shape", [cube, sphere])
 def test_the_estimate_tells_noise_along_the_normals_from_isotropic_noise(sigma: float, shape) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(20)
-    topology, edge = Topology(faces, len(clean)), mean_edge_length(clean, faces)
-    along = estimate_noise(gaussian_along_normals(clean, faces, sigma, seed=3), clean, topology)
+    probe, edge = Probe(Topology(faces, len(clean))), mean_edge_length(clean, faces)
+    along = estimate_noise(gaussian_along_normals(clean, faces, sigma, seed=3), clean, probe)
     assert along.normal / edge == pytest.approx(sigma, rel=0.2)
     assert along.tangential < 0.5 * along.normal
     if shape is sphere and sigma > 0.3:
-        everywhere = estimate_noise(gaussian_isotropic(clean, faces, sigma, seed=3), clean, topology)
+        everywhere = estimate_noise(gaussian_isotropic(clean, faces, sigma, seed=3), clean, probe)
         assert everywhere.normal / edge == pytest.approx(sigma, rel=0.15)
         assert everywhere.tangential / edge == pytest.approx(sigma, rel=0.3)
 

@@ -5,12 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.denoise import automatic, recipe
-from bsm.codec.denoise.learnt.cascade import WEIGHTS, Learnt, Network, joined, learnt, read_networks
-from bsm.codec.denoise.learnt.descriptors import NUMBERS, descriptions, mirrored
-from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.recipe import Patient
-from bsm.codec.denoise.rehearsal import LEARNT_SHARES
+from bsm.codec.denoise import denoise_automatically, recipe
+from bsm.codec.denoise.automatic import LEARNT
+from bsm.codec.denoise.learnt.cascade import WEIGHTS, Learnt, Network, joined, learnt, read_networks, regressed_normals
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
 from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
@@ -88,12 +86,24 @@ def test_weights_are_small_and_written_as_they_are_read(tmp_path: Path) -> None:
     assert all((network(numbers) == other(numbers)).all() for network, other in zip(networks, again, strict=True))
 
 
-def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As much as networks are worth in the rehearsal: all of what they may have, or nothing."""
+def test_weights_for_other_numbers_are_refused(tmp_path: Path) -> None:
+    short = zeros(5)
+    write_networks(tmp_path / "short.npz", [short])
+    with pytest.raises(ValueError, match="train"):
+        read_networks(tmp_path / "short.npz")
+
+
+def test_a_network_of_zeros_says_the_filtered_normal() -> None:
+    _, noisy, faces = noisy_sphere(8)
+    topology = Topology(faces, len(noisy))
+    numbers, frames = next(descriptions(noisy, topology))
+    filtered = np.einsum("kij,ki->kj", frames, numbers[:, BASE])
+    assert regressed_normals(noisy, topology, zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_learnt_normals_are_left_out_where_they_move_more(kept: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     clean, noisy, faces = noisy_sphere(14)
-    patient = Patient(faces, len(noisy))
-    finding = find_noise(noisy, patient.probe)
-    for known, share in ((clean, LEARNT_SHARES[-1]), (noisy, 0.0)):
-        normals = face_geometry(known, faces).normals
-        monkeypatch.setattr(recipe, "learnt", lambda *_: Learnt(known, normals))  # noqa: B023
-        assert automatic.choose(noisy, finding, patient).learnt == share
+    known = clean if kept else 0.9 * clean
+    monkeypatch.setattr(recipe, "learnt", lambda *_: Learnt(known, face_geometry(known, faces).normals))
+    assert denoise_automatically(noisy, faces)[1].learnt == (LEARNT if kept else 0.0)

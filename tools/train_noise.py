@@ -1,0 +1,189 @@
+"""Fit the rules that tell noise from shape (`RULES` of `codec.denoise.noise.search`).
+
+    python -m tools.train_noise MESHES
+
+Clean examples are meshes of a folder, pieces of large ones, shapes of `tools.made_shapes`, tori with bumps, and views
+of them. Noisy ones are the same with noise of a random kind and strength. Each rule is a logistic regression on a few
+measures, moved until no clean mesh that it was fitted to is taken for noisy, with a margin: first those of many
+windows, then those of few. Meshes of `HELD_OUT` are only judged. The program prints the rules, the clean meshes taken
+for noisy, and how often noise is found.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import product
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.noise.finding import MEASURES
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.search import FEWEST_WINDOWS, RULES, surface, suspects
+from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.files.mesh import read_mesh
+from tools import noise
+from tools.made_shapes import made_shape
+from tools.scans import CAMERAS, view
+
+HELD_OUT = (
+    *("fr_casting", "fr_chinese_lion", "sharpsphere", "block", "trim_star", "c3d_spot", "gargoyle_10002", "dance"),
+    *(f"made {seed}" for seed in range(130, 150)),
+    *(f"bumpy {number}" for number in range(0, 80, 4)),
+)
+MADE = range(100, 150)
+ROWS, WAVES, BUMPS = (36, 48, 60, 90), (4, 6, 9, 13, 18), (0.01, 0.03, 0.08, 0.2)
+PIECES, PIECE, LARGE, LARGEST = 4, (3000, 9000), 20_000, 60_000
+SIGMAS = (0.07, 0.45)
+NOISES: dict[str, Callable[..., Positions]] = {
+    "white": noise.gaussian_along_normals,
+    "isotropic": noise.gaussian_isotropic,
+    "impulses": partial(noise.impulsive, fraction=0.5),
+    "shared 2": partial(noise.correlated_along_normals, rounds=2),
+    "shared 4": partial(noise.correlated_along_normals, rounds=4),
+    "axis": noise.gaussian_along_axis,
+    "range": noise.gaussian_with_range,
+    "part": partial(noise.gaussian_in_part, fraction=0.5),
+}
+WHOLE = ("white", "isotropic", "impulses", "shared 2", "shared 4")
+RIGHT = {"white": WHOLE, "correlated": WHOLE, "local": ("part",), "axis": ("axis", "range"), "view": ("camera",)}
+WRONG = {"axis": WHOLE}
+"""Noises that a rule has to accept, and those that it has to refuse of meshes that face all ways, like none."""
+CLEAN_WEIGHT, RIDGE, MARGIN = 20.0, 1.0, 0.25
+SIGNS = np.array([1.0, 0.0, -1.0, -1.0, -1.0, -1.0])  # of the weights of `MEASURES`; 0: any
+
+
+class Example(NamedTuple):
+    name: str
+    noise: str
+    sigma: float
+    rule: str
+    measures: Floats
+
+
+def bumpy(rows: int, waves: int, bumps: float) -> tuple[Positions, Faces]:
+    """A smooth torus of `rows` by two thirds of as many columns, with regular bumps."""
+    columns = 2 * rows // 3
+    row, column = np.mgrid[:rows, :columns]
+    u, v = 2.0 * np.pi * row / rows, 2.0 * np.pi * column / columns
+    radius = 0.35 * (1.0 + bumps * np.sin(waves * u) * np.sin((waves // 2 + 1) * v))
+    across = 1.0 + radius * np.cos(v)
+    positions = np.stack([across * np.cos(u), across * np.sin(u), radius * np.sin(v)], axis=-1).reshape(-1, 3)
+    number = np.arange(rows * columns).reshape(rows, columns)
+    right, below = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
+    opposite = np.roll(right, -1, axis=1)
+    corners = np.concatenate([np.stack([number, right, opposite], -1), np.stack([number, opposite, below], -1)])
+    return positions, np.ascontiguousarray(corners.reshape(-1, 3), np.int32)
+
+
+def shapes(folder: Path) -> Iterator[tuple[str, Positions, Faces]]:
+    """Names, positions and faces of clean meshes."""
+    for path in sorted((folder / "static").glob("*.ply")):
+        mesh = read_mesh(path).mesh
+        positions, faces = mesh.positions.astype(np.float64), mesh.faces
+        if len(positions) < LARGEST:
+            yield path.stem, positions, faces
+        centroids = positions[faces].mean(axis=1)
+        for seed in range(PIECES if len(positions) > LARGE else 0):
+            random = np.random.default_rng(seed)
+            apart = np.square(centroids - centroids[random.integers(len(centroids))]).sum(axis=1)
+            near = np.argsort(apart, kind="stable")[: int(random.integers(*PIECE))]
+            used, corners = np.unique(faces[near], return_inverse=True)
+            yield f"{path.stem}, piece {seed}", positions[used], corners.reshape(-1, 3).astype(np.int32)
+    for path in sorted((folder / "dynamic").glob("*.npz")):
+        with np.load(path) as arrays:
+            yield path.stem, arrays["positions"][20].astype(np.float64), arrays["faces"]
+    for number, (rows, waves, bumps) in enumerate(product(ROWS, WAVES, BUMPS)):
+        if rows >= 5 * waves:
+            yield f"bumpy {number}", *bumpy(rows, waves, bumps)
+    for seed in MADE:
+        yield f"made {seed}", *made_shape(seed, int(np.random.default_rng(seed).integers(16, 42)))
+
+
+def examples(folder: Path) -> Iterator[Example]:
+    """Measures of whatever is suspected in clean and noisy meshes."""
+    for number, (name, positions, faces) in enumerate(shapes(folder)):
+        random = np.random.default_rng(number)
+        cases = [("clean", 0.0, positions, faces)]
+        for kind, make in NOISES.items():
+            sigma = float(np.exp(random.uniform(*np.log(SIGMAS))))
+            cases.append((kind, sigma, make(positions, faces, sigma, seed=number), faces))
+        camera = CAMERAS[list(CAMERAS)[number % 2]]._replace(pixels=int(random.integers(80, 160)))
+        cameras = (("camera", camera), ("clean", camera._replace(noise=lambda depth, *_: depth)))
+        for kind, made in cameras if "piece" not in name else ():
+            seen = view(positions, faces, made, number)
+            if len(seen.faces) and np.isfinite(seen.positions).all():
+                cases.append((kind, 0.2, seen.positions, seen.faces))
+        probe = Probe(Topology(faces, len(positions)))
+        for kind, sigma, noisy, triangles in cases:
+            probe = probe if triangles is faces else Probe(Topology(triangles, len(noisy)))
+            if probe.windows.valid.sum() >= FEWEST_WINDOWS:
+                evidence = surface(noisy, probe, mean_edge_length(noisy, triangles))
+                for suspect in suspects(noisy, evidence):
+                    yield Example(name, kind, sigma, suspect.rule, suspect.measures)
+
+
+def fit(values: Floats, noisy: Floats) -> Floats:
+    """Weights of a ridged logistic regression by Newton's method, the constant last, with signs as `SIGNS` says."""
+    middle, scale = values.mean(axis=0), values.std(axis=0) + 1e-9
+    used = np.ones(len(scale) + 1)
+    trust = np.where(noisy > 0.0, 1.0, CLEAN_WEIGHT)
+    ridge = np.diag([*np.full(len(scale), RIDGE), 1e-6])
+    while True:
+        columns = np.column_stack([(values - middle) / scale, np.ones(len(values))]) * used
+        weights = np.zeros(columns.shape[1])
+        for _ in range(50):
+            chance = 1.0 / (1.0 + np.exp(-np.clip(columns @ weights, -30.0, 30.0)))
+            slope = columns.T @ (trust * (chance - noisy)) + ridge @ weights
+            curvature = (columns * (trust * chance * (1.0 - chance))[:, None]).T @ columns + ridge
+            weights -= np.linalg.solve(curvature, slope)
+        wrong = np.append(weights[:-1] * SIGNS < 0.0, False)
+        if not wrong.any():
+            return np.append(weights[:-1] / scale, weights[-1] - weights[:-1] @ (middle / scale))
+        used[wrong] = 0.0
+
+
+def report(rule: str, cases: list[Example]) -> None:
+    """Fit one rule to its cases, and print it and its results."""
+    counted = [
+        case
+        for case in cases
+        if case.rule == rule
+        and (case.noise in ("clean", *RIGHT[rule]) or (case.noise in WRONG.get(rule, ()) and "piece" not in case.name))
+    ]
+    values = np.stack([case.measures for case in counted])
+    noisy = np.array([float(case.noise in RIGHT[rule]) for case in counted])
+    held = np.array([case.name.split(",")[0] in HELD_OUT for case in counted])
+    weights = fit(values[~held], noisy[~held])
+    clean, few = values[~held & (noisy == 0.0)], MEASURES.index("few")
+    weights[-1] -= (clean @ weights[:-1] + weights[-1])[clean[:, few] == 0.0].max(initial=-MARGIN) + MARGIN
+    excess = clean @ weights[:-1] + weights[-1] + MARGIN
+    weights[few] -= (excess / np.maximum(clean[:, few], 1e-9)).max(initial=0.0)
+    print(f'    "{rule}": ({", ".join(f"{weight:.2f}" for weight in weights)}),')
+    found = values @ weights[:-1] + weights[-1] > 0.0
+    wrong = [f"{case.name} {case.noise}" for case, yes, no in zip(counted, found, noisy, strict=True) if yes and not no]
+    print(f"        # of {(noisy == 0.0).sum()} wrongly:", ", ".join(wrong) or "none")
+    for kind, (least, most) in product(RIGHT[rule], ((0.07, 0.1), (0.1, 0.15), (0.15, 0.25), (0.25, 0.45))):
+        among = np.array([case.noise == kind and least <= case.sigma < most for case in counted])
+        if among.any():
+            shares = [float(found[among & which].mean()) if (among & which).any() else 0.0 for which in (~held, held)]
+            print(f"        # {kind}, {least} to {most}: found {shares[0]:.2f}, of those held out {shares[1]:.2f}")
+
+
+def main() -> None:
+    """Print the rules."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("meshes", type=Path)
+    cases = list(examples(parser.parse_args().meshes))
+    print("   ", ", ".join(MEASURES))
+    for rule in RULES:
+        report(rule, cases)
+
+
+if __name__ == "__main__":
+    main()
