@@ -440,7 +440,7 @@ def decode_sequence(
         return decode_frames(read_bytes(stream), limits, threads, reported)
 
 
-def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None = None) -> TriangleMesh:
+def load(source: Source, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
     """Read a mesh from a mesh file or a stream.
 
     `read_mesh` also returns notes on changes and losses.
@@ -452,8 +452,6 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
         glTF, 3MF, DAE and others.
     limits : Limits
         Largest memory and work that the file may take.
-    reader : str, optional
-        "bsm" or "trimesh": use this reader. None: trimesh only for formats that bsm does not know.
 
     Returns
     -------
@@ -471,7 +469,7 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
     >>> [attribute.name for attribute in mesh.attributes][:1]
     ['texcoord']
     """
-    return read_any(Input(source), limits=limits, reader=reader)
+    return read_any(Input(source), limits=limits)
 
 
 def save(

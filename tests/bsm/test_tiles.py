@@ -241,39 +241,23 @@ def test_a_tileset_says_where_tiles_are_and_how_far_off(mesh, folder, tmp_path):
     assert seen == sum(level["tiles"] for level in bsm.open_tiles(str(folder)).manifest["levels"])
 
 
-@pytest.mark.parametrize("content", ["bsm", "draco", "meshopt"])
-def test_contents_that_are_compressed(folder, tmp_path, content):
-    if content != "bsm" and not shutil.which("gltf-transform"):
-        pytest.skip("gltf-transform is not here: npm install --global @gltf-transform/cli")
-    output = tmp_path / "tileset.json"
-    assert program("untile", folder, "-o", output, "--content", content).returncode == 0
-    names = {"bsm": "EXT_bsm_compression", "draco": "KHR_draco_mesh", "meshopt": "EXT_meshopt"}
+def test_contents_that_are_compressed(folder, tmp_path):
+    (tmp_path / "plain").mkdir()
+    assert program("untile", folder, "-o", tmp_path / "tileset.json", "--content", "bsm").returncode == 0
+    assert program("untile", folder, "-o", tmp_path / "plain" / "tileset.json").returncode == 0
     tiles = sum(level["tiles"] for level in bsm.open_tiles(str(folder)).manifest["levels"])
-    found = [path.read_bytes() for path in (tmp_path / "glb").iterdir()]
-    assert len(found) == tiles and all(names[content].encode() in data for data in found)
-    if content == "bsm":
-        (tmp_path / "plain").mkdir()
-        assert program("untile", folder, "-o", tmp_path / "plain" / "tileset.json").returncode == 0
-        for path in (tmp_path / "glb").iterdir():
-            coded, plain = (read_document(str(file)) for file in (path, tmp_path / "plain" / "glb" / path.name))
-            views = coded.items("bufferViews")
-            stream = next(view["extensions"][EXTENSION]["stream"] for view in views if "extensions" in view)
-            primitive = next(plain.primitives())
-            corners = plain.array(primitive["indices"]).reshape(-1, 3).astype(np.int32)
-            positions = plain.array(primitive["attributes"]["POSITION"]).astype(float)
-            assert same(bsm.decode(coded.view(stream)), bsm.TriangleMesh(positions, corners))
-
-
-def test_contents_that_cannot_be_made(folder, tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    done = program("untile", folder, "-o", tmp_path / "tileset.json", "--content", "draco", text=True)
-    assert done.returncode == 2 and "needs gltf-transform" in done.stderr and not any(tmp_path.iterdir())
+    found = list((tmp_path / "glb").iterdir())
+    assert len(found) == tiles
+    for path in found:
+        coded, plain = (read_document(str(file)) for file in (path, tmp_path / "plain" / "glb" / path.name))
+        views = coded.items("bufferViews")
+        stream = next(view["extensions"][EXTENSION]["stream"] for view in views if "extensions" in view)
+        primitive = next(plain.primitives())
+        corners = plain.array(primitive["indices"]).reshape(-1, 3).astype(np.int32)
+        positions = plain.array(primitive["attributes"]["POSITION"]).astype(float)
+        assert same(bsm.decode(coded.view(stream)), bsm.TriangleMesh(positions, corners))
     done = program("untile", folder, "-o", tmp_path / "a.ply", "--content", "bsm", text=True)
     assert done.returncode == 2 and "--content says how" in done.stderr
-    (tmp_path / "gltf-transform").write_text("#!/bin/sh\n/bin/echo it broke >&2\nexit 3\n")
-    (tmp_path / "gltf-transform").chmod(0o755)
-    done = program("untile", folder, "-o", tmp_path / "tileset.json", "--content", "draco", text=True)
-    assert done.returncode != 0 and "gltf-transform draco failed: it broke" in done.stderr
 
 
 def test_borders_stay_and_what_is_no_surface_is_left_alone():

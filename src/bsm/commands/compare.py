@@ -18,7 +18,7 @@ from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
 from bsm.codec.sequence.targets import Runs, compare_runs
-from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
+from bsm.commands.flags import add_limits_flag, limits_of
 from bsm.comparison import Pair, compare_meshes, in_order_of, order_of_used, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import GLTF, format_of_name, read_mesh, save_written, written_mesh
@@ -53,7 +53,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--picture", metavar="FILE.png", help=f"{drawn}a curve of the error of each frame")
     colored = "draw the error of each vertex of A in colors, from blue to red: a picture (.png), or A as a mesh with "
     add("--map", metavar="FILE", help=f"{colored}colors (.ply, .obj, .glb)")
-    add_reader_flag(parser)
     add_limits_flag(parser)
     add("--json", action="store_true", help="print the result as JSON")
 
@@ -226,7 +225,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     with about(path):
         if is_stream(path):
             return decode_whole(read_chunks(path), limits_of(args.limits))
-        source = read_mesh(path, reader=args.reader)
+        source = read_mesh(path)
     for note in source.notes:
         console.note(f"{path}: {note}")
     return source.mesh
@@ -275,7 +274,7 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
                 return None
             stream = SequenceStream(chunks, limits=limits_of(args.limits))
             return _pieces_of((frame, stream.faces) for _, frame in stream.changing_frames())
-        source = open_sequence(path, reader=args.reader, wanted=wanted)
+        source = open_sequence(path, wanted=wanted)
         if source is None:
             return None
         if source.meshes is None:

@@ -15,7 +15,7 @@ import numpy as np
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe
+from bsm.commands.flags import add_inputs, asked, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import (
@@ -56,7 +56,6 @@ class DenoiseJob(Task):
     seconds_of_megabyte = 5.0
     of_kinds: ClassVar[Mapping[str, float]] = {**Task.of_kinds, ".npz": 0.2}
     format: str | None = None
-    reader: str | None = None
     goal: str = GOALS[0]
     strength: float = 1.0
     look: bool = False
@@ -72,7 +71,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "encoded near-lossless",
     )
     add("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input and of a piped output")
-    add_reader_flag(parser)
     goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
     add("--for", dest="goal", choices=GOALS, default=GOALS[0], help=goal)
     add("--strength", type=float, default=1.0, metavar="S", help="fraction of every movement, 0 to 1 (default 1)")
@@ -99,7 +97,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    found = {given: separate_meshes(given, args.format, args.reader) for given in args.inputs}
+    found = {given: separate_meshes(given, args.format) for given in args.inputs}
     inputs = [name for given in args.inputs for name in (found[given] or [given])]
     if args.output is not None and any(found.values()) and not Path(args.output).is_dir():
         # A folder of meshes becomes a folder, whether its name ends in / or not.
@@ -115,7 +113,7 @@ def denoise_one(args: DenoiseJob, console: Console) -> Facts:
     from bsm.codec.denoise import DenoiseOptions
 
     options = DenoiseOptions(**args.options) if args.options else None
-    if sequence := open_sequence(args.input, args.format, args.reader):
+    if sequence := open_sequence(args.input, args.format):
         result = _denoise_sequence(args, console, sequence, options)
     else:
         if Path(args.output).is_dir():
@@ -142,7 +140,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     from bsm.codec.denoise import FrameDenoiser
 
     with console.progress("reading", until=0.05):
-        source = read_mesh(args.input, args.format, reader=args.reader)
+        source = read_mesh(args.input, args.format)
     mesh = source.mesh
     begin = time.perf_counter()
     with console.progress("denoising", until=0.95) as progress:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_encode_flags, add_inputs, add_reader_flag, asked, options_of, refuse_two_on_one_pipe
+from bsm.commands.flags import add_encode_flags, add_inputs, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
@@ -38,7 +38,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     made = "store the version of bsm, the preset and its bounds, and the SHA-256 of the input. Without the flag, only "
     made += "for meshes decoded from such a stream"
     add("--provenance", action=argparse.BooleanOptionalAction, help=made)
-    add_reader_flag(parser)
     add_encode_flags(parser)
 
 

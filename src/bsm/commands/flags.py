@@ -1,4 +1,4 @@
-"""Options that several commands take: inputs and outputs, limits, readers."""
+"""Options that several commands take: inputs and outputs, limits."""
 
 import argparse
 import math
@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
-from bsm.files.mesh import READERS
 from bsm.files.output import refuse_terminal
 from bsm.options import suggestion
 
@@ -254,8 +253,3 @@ def add_limits_flag(parser: argparse.ArgumentParser) -> None:
 
 def limits_of(name: str) -> Limits:
     return NAMED_LIMITS[name]()
-
-
-def add_reader_flag(parser: argparse.ArgumentParser) -> None:
-    library = "library that reads mesh files (default: bsm for OBJ, OFF, PLY, STL, VTP and npz, else trimesh)"
-    parser.add_argument("--reader", choices=READERS, help=library)

@@ -20,7 +20,7 @@ from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, sta
 from bsm.jobs.run import Run, run_many
 from bsm.jobs.task import Job, Outcome, came_to
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
-from bsm.tiles.joining import CONTENT_HELP, CONTENTS, packer, write_tileset
+from bsm.tiles.joining import CONTENT_HELP, CONTENTS, write_tileset
 from bsm.tiles.making import TileJob, tile_one
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.reading import read_big
@@ -59,7 +59,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError(f"--grid-origin {args.grid_origin}: must be finite")
     if args.content != CONTENTS[0] and not args.tileset:
         raise OptionError("--content needs --tileset")
-    packer(args.content, 1.0)
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")

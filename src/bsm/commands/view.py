@@ -10,7 +10,7 @@ from threading import Thread
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of, within
+from bsm.commands.flags import add_limits_flag, limits_of, within
 from bsm.console import Console, Progress
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh
@@ -33,7 +33,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--preset", choices=PRESETS, default="balanced", help="preset for meshes and sequences (default: balanced)")
     add("--original", metavar="MESH", help="mesh or sequence to compare the stream with")
     add("--follow", action="store_true", help="keep reading files that are still being written")
-    add_reader_flag(parser)
     add_limits_flag(parser)
     add("--save", metavar="PAGE.html", help="write a page that contains the streams and needs no server")
     add("--port", type=within(0, 65535), default=0, metavar="N", help="port of the server (default: a free one)")
@@ -77,7 +76,7 @@ def _opened(
     if args.follow or (path == "-" and not args.save and not args.original):
         return _growing(name, path)
     with about(path):
-        source: TriangleMesh | Frames | None = open_sequence(path, reader=args.reader)
+        source: TriangleMesh | Frames | None = open_sequence(path)
         if source is None:
             data = b"".join(read_chunks(path))
             if data.startswith(MAGIC[: len(data)]):
@@ -86,12 +85,12 @@ def _opened(
                 if args.original is None:
                     return alone(name, data)
                 with about(args.original):
-                    frames = open_sequence(args.original, reader=args.reader)
-                    original = frames or read_mesh(args.original, reader=args.reader).mesh
+                    frames = open_sequence(args.original)
+                    original = frames or read_mesh(args.original).mesh
                 return compared(name, data, original, size=size_of(args.original), limits=limits_of(args.limits))
             if path == "-":
                 raise FormatError(_NO_STREAM)
-            source = read_mesh(path, reader=args.reader).mesh
+            source = read_mesh(path).mesh
         content = made(name, size_of(path), source, args.preset, progress.stage)
     size = content.layers[content.main].size
     console.note(f"{path}: {size} bytes as a stream of the preset {args.preset}")

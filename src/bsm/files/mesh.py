@@ -29,7 +29,6 @@ USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
 WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")  # what we write
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
-READERS = ("bsm", "trimesh")  # that can be asked to read a file
 
 
 _ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
@@ -40,9 +39,7 @@ def by_name(module: str, function: str) -> Any:
     return getattr(importlib.import_module(module), function)
 
 
-def read_mesh(
-    source: Source, file_format: str | None = None, limits: Limits = DEFAULT_LIMITS, reader: str | None = None
-) -> MeshFile:
+def read_mesh(source: Source, file_format: str | None = None, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
     """Read a mesh file.
 
     Parameters
@@ -54,8 +51,6 @@ def read_mesh(
         One of `MESH_FORMATS`, or a suffix that trimesh knows. None: by the name, or else by the first bytes.
     limits : Limits
         `vertices` and `faces` bound the mesh.
-    reader : str, optional
-        One of `READERS`. None: trimesh only for formats that bsm does not know.
 
     Returns
     -------
@@ -81,8 +76,6 @@ def read_mesh(
     """
     given, limits = as_input(source), as_limits(limits)
     path, name = (given.name if given.is_file else None), given.name
-    if reader not in (None, *READERS):
-        raise OptionError(f"a reader must be one of {', '.join(READERS)}, not {reader!r}")
     head = given.peek(_HEAD)
     require_counts_of_head(file_format or format_of_name(name) or format_of_bytes(head), head, limits)
     data = given.read_all()
@@ -96,16 +89,14 @@ def read_mesh(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
-    if reader == "bsm" and kind not in (*MESH_FORMATS, *GLTF):
-        raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
-    if kind in USD_FORMATS and path and reader is None:
+    if kind in USD_FORMATS and path:
         usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
         return usd
-    if kind in GLTF and reader != "trimesh":
+    if kind in GLTF:
         document = by_name("bsm.gltf.document", "Document")(data, Path(path).parent if path else None, limits)
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
-    if reader == "trimesh" or kind not in MESH_FORMATS:
+    if kind not in MESH_FORMATS:
         from bsm.files.formats.with_trimesh import read_with_trimesh
 
         if data.startswith(b"PK\x03\x04"):

@@ -36,11 +36,7 @@ SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS)  # forms of a whol
 
 
 def open_sequence(
-    source: Source,
-    file_format: str | None = None,
-    reader: str | None = None,
-    wanted: Wanted | None = None,
-    limits: Limits = DEFAULT_LIMITS,
+    source: Source, file_format: str | None = None, wanted: Wanted | None = None, limits: Limits = DEFAULT_LIMITS
 ) -> Frames | None:
     """The sequence that `source` names, or None if it is not one but perhaps a mesh."""
     if is_pipe(source) and file_format != "npy":
@@ -48,7 +44,7 @@ def open_sequence(
     given = as_input(source)
     if not is_url(given.name) and names_many(given.name):
         runs = wanted is not None and wanted.runs
-        return read_files(frame_files(given.name), file_format, reader, limits, runs=runs)
+        return read_files(frame_files(given.name), file_format, limits, runs=runs)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
@@ -56,7 +52,7 @@ def open_sequence(
         if not given.is_file:
             return None
         if kind in CACHES:
-            return read_cache(given.name, kind, reader, wanted or Wanted(), limits)
+            return read_cache(given.name, kind, wanted or Wanted(), limits)
         room = ("bsm.gltf.scene", "read_gltf") if kind in GLTF else ("bsm.files.motion.usd", "read_usd")
         found: Frames | None = by_name(*room)(given.name, wanted or Wanted(), limits)
         return found
@@ -70,11 +66,9 @@ def open_sequence(
     return read_archive(given, limits)
 
 
-def open_frames(
-    names: Sequence[str], file_format: str | None = None, reader: str | None = None, *, runs: bool = False
-) -> Frames:
+def open_frames(names: Sequence[str], file_format: str | None = None, *, runs: bool = False) -> Frames:
     """The sequence of these mesh files, in the order of the numbers in their names; errors as of `open_sequence`."""
-    return read_files(in_order(names), file_format, reader, DEFAULT_LIMITS, runs=runs)
+    return read_files(in_order(names), file_format, DEFAULT_LIMITS, runs=runs)
 
 
 @contextmanager

@@ -37,7 +37,6 @@ class EncodeJob(Task):
     """The task of `bsm encode`; `options` are keywords of `bsm.options`."""
 
     format: str | None = None
-    reader: str | None = None
     permutation: str | None = None
     metadata: Mapping[str, str] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)
@@ -53,11 +52,11 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
         refuse_to_overwrite(path, job.may_replace(path))
     runs = bool(job.options.get("runs"))
     if job.members:
-        return _encode_sequence(job, console, open_frames(job.members, job.format, job.reader, runs=runs))
+        return _encode_sequence(job, console, open_frames(job.members, job.format, runs=runs))
     asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
     plain = all(choice is None for choice in asked)
-    sequence = open_sequence(job.input, job.format, job.reader, None if plain else wanted)
+    sequence = open_sequence(job.input, job.format, None if plain else wanted)
     return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console)
 
 
@@ -69,7 +68,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
     chosen = encode_options(**job.options, threads=job.threads)
     with console.progress("reading", until=READ):
-        source = read_mesh(job.input, job.format, reader=job.reader)
+        source = read_mesh(job.input, job.format)
     mesh = with_metadata(source.mesh, chosen, job.metadata)
     if lengths := in_own_unit(job.options, mesh.metadata):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)

@@ -3,18 +3,15 @@
 import json
 import os
 import shutil
-import subprocess
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from contextlib import ExitStack
-from functools import partial
-from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import OptionError, UnsupportedError
+from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.files.output import by_its_own_name, open_output, write_output
@@ -31,8 +28,8 @@ from bsm.tiles.shards import Tiles
 
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
-CONTENTS = ("none", "bsm", "draco", "meshopt")  # of GLB: plain, our extension, and by gltf-transform
-CONTENT_HELP = "compression of the GLBs of a tileset: bsm; draco or meshopt by gltf-transform (default none)"
+CONTENTS = ("none", "bsm")
+CONTENT_HELP = "compression of the GLBs of a tileset (default none)"
 
 
 def write_joined(
@@ -106,29 +103,8 @@ def write_joined(
     return {"vertices": vertices, "faces": total}
 
 
-def packer(kind: str, cell: float) -> Callable[[bytes], bytes]:
-    """What makes a plain GLB into contents of a kind."""
-    if kind == "bsm":
-        return lambda data: compress(Document(data), {"grid_cell": cell, "quick": True}).data
-    program = shutil.which("gltf-transform")
-    if kind == "none" or program:
-        return bytes if kind == "none" else partial(_transformed, f"{program}", kind)
-    raise OptionError(f"--content {kind} needs gltf-transform: npm install --global @gltf-transform/cli")
-
-
-def _transformed(program: str, kind: str, data: bytes) -> bytes:
-    with tempfile.TemporaryDirectory() as folder:
-        given, made = Path(folder, "given.glb"), Path(folder, "made.glb")
-        given.write_bytes(data)
-        done = subprocess.run([program, kind, str(given), str(made)], capture_output=True, text=True, check=False)
-        if done.returncode or not made.exists():
-            raise UnsupportedError(f"gltf-transform {kind} failed: {(done.stderr or done.stdout).strip()[-300:]}")
-        return made.read_bytes()
-
-
 def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> int:
     """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB; returns how many."""
-    packed = packer(content, tiles.lattice.cell)
     known = {tile.name: (shard, tile) for shard, tile in tiles.all()}
     below: dict[str, set[str]] = {}
     ends: dict[str, npt.NDArray[np.int64]] = {}  # of a node and all below it
@@ -147,7 +123,9 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             table, faces = tiles.decoded(shard, tile)
             moved = ((table[:, :3] - ends[name][0]) * tiles.lattice.cell).astype(np.float32)
             mesh = TriangleMesh(moved.astype(np.float64), faces, tiles.attributes(table), {"up": "z"})
-            data = packed(write_glb(mesh, name).data)
+            data = write_glb(mesh, name).data
+            if content == "bsm":
+                data = compress(Document(data), {"grid_cell": tiles.lattice.cell, "quick": True}).data
             write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             progress(number, len(known))
     diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))

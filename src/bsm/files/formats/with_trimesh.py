@@ -10,7 +10,7 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, MeshError, OptionError, how_to_install, imported
+from bsm.bitstream.errors import BsmError, FormatError, MeshError, how_to_install, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
@@ -48,8 +48,6 @@ def import_trimesh(what: str) -> Any:
 
 def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) -> Polygons:
     """Read a file with trimesh, which neither merges vertices nor splits them here."""
-    if kind in ("glb", "gltf"):
-        raise OptionError("trimesh does not read glTF here: leave out the reader")
     if kind in _ARCHIVES:
         raise FormatError(f".{kind} files contain files: unpack it, and read its contents")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")

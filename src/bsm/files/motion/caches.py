@@ -41,14 +41,14 @@ class Cache:
     timing: dict[str, float | str] | None = None  # as metadata; None: what the file says makes no sense
 
 
-def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames:
+def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
     """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves."""
     cache = read_head(path, kind, wanted.rate)
     require_count("vertices", cache.points, limits)
     require_count("frames", cache.frames, limits)
     beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
     with about(beside):
-        mesh = read_mesh(beside, limits=limits, reader=reader).mesh
+        mesh = read_mesh(beside, limits=limits).mesh
     if len(mesh.positions) != cache.points:
         raise MeshError(
             f"the cache has {cache.points} points and the mesh {beside} has {len(mesh.positions)} vertices; name the "

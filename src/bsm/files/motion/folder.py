@@ -52,14 +52,14 @@ def frame_files(path: str) -> list[str]:
     return in_order(found)
 
 
-def separate_meshes(path: str, file_format: str | None = None, reader: str | None = None) -> list[str]:
+def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
     """The mesh files of a folder or pattern if they are meshes by themselves: one, or the last has other faces than
     the first; none if they are the frames of a sequence, or the path is that of a file."""
     if is_pipe(path) or is_url(path) or not names_many(path):
         return []
     names = frame_files(path)
     if len(names) > 1:
-        first, last = (read_mesh(name, file_format, reader=reader).mesh for name in (names[0], names[-1]))
+        first, last = (read_mesh(name, file_format).mesh for name in (names[0], names[-1]))
         if first.positions.shape == last.positions.shape and np.array_equal(first.faces, last.faces):
             return []
     return names
@@ -131,15 +131,13 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     return [int(of_one[differing[0]]) for of_one in parts]
 
 
-def read_files(
-    names: Sequence[str], file_format: str | None, reader: str | None, limits: Limits, *, runs: bool = False
-) -> Frames:
+def read_files(names: Sequence[str], file_format: str | None, limits: Limits, *, runs: bool = False) -> Frames:
     """The frames in files, each read when it is asked for; with `runs`, their faces may change."""
 
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
             try:
-                return read_mesh(names[number], file_format, limits, reader).mesh
+                return read_mesh(names[number], file_format, limits).mesh
             except NoFacesError as error:
                 if runs:
                     return empty_frame()
