@@ -32,7 +32,7 @@ EVENING, WIDEST = 1.6, 4.0
 """Power of looks that weighs frames so that all look about alike, and the largest weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
 EVENED = 0.1  # by how much weights lower the excess, about
-TRIES = 20
+TRIES, ENOUGH = 20, 5  # attempts at a step: at most, and once one keeps the promise
 _PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
 
@@ -63,16 +63,16 @@ class StepSearch:
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float) -> Found:
         """Return the coarsest encoding that keeps the promise in every frame; `encode` takes step and weights."""
         kept: tuple[float, Found] | None = None
-        least, weights = math.inf, np.ones(len(self._frames))
+        least, tries, weights = math.inf, 0, np.ones(len(self._frames))
 
-        def excess(step: float) -> float:
-            nonlocal kept, least
-            least = min(least, step)
+        def excess(step: float) -> float | None:
+            nonlocal kept, least, tries
+            least, tries = min(least, step), tries + 1
             found = encode(step, weights)
             value = self._measure(found.decoded).excess
             if value <= 0.0 and (kept is None or step > kept[0]):
                 kept = step, found
-            return value
+            return value if kept is None or tries < ENOUGH else None
 
         many = len(self._frames) > 1
         slack = SLACK if many else SLACK_OF_ONE
