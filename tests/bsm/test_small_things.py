@@ -1,7 +1,6 @@
 """What people see first: short names, sizes in words, folders mirrored, sentences with units, maps and curves."""
 
 import inspect
-import json
 
 import numpy as np
 import pytest
@@ -121,15 +120,6 @@ def loop(tmp_path_factory):
     np.savez(tmp_path / "loop.npz", positions=frames, faces=MESH.faces)
     (tmp_path / "loop.bsm").write_bytes(bsm.encode_sequence(frames, MESH.faces, preset="near-lossless"))
     return tmp_path
-
-
-def test_info_says_which_frames_repeat_others(loop, capsys):
-    assert main(["info", str(loop / "loop.bsm"), "--loops"]) == 0
-    assert "frames 12 to 23 repeat 0 to 11" in capsys.readouterr().out.splitlines()
-    assert main(["info", str(loop / "loop.bsm"), "--loops", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["loops"] == ["frames 12 to 23 repeat 0 to 11"]
-    assert main(["info", str(loop / "loop.bsm")]) == 0
-    assert "repeat" not in capsys.readouterr().out
 
 
 def test_the_errors_of_frames_are_drawn_as_a_curve(loop, capsys):

@@ -23,7 +23,7 @@ from bsm.comparison import Pair, compare_meshes, in_order_of, order_of_used, pai
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import GLTF, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
-from bsm.files.motion.frames import Loops, Wanted
+from bsm.files.motion.frames import Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
@@ -316,17 +316,13 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
 
         refuse_to_overwrite(args.picture, args.force)
         write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)
-    loops = Loops()
-    for frame in runs[0][0] if len(runs) == 1 else ():
-        loops.take(frame)
-    repeats = loops.descriptions()
     if args.json:
         numbers = {name: finite(value) for name, value in result.items()}
-        return as_json({**numbers, "frames": of_frames, "loops": list(repeats)})
+        return as_json({**numbers, "frames": of_frames})
     worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
     lines = explained(result)
     lines.append(f"{'worst_frame':<18} {worst:<12} the frame with the largest vertex error")
-    return "\n".join([*lines, *repeats])
+    return "\n".join(lines)
 
 
 def _of_frames(original: Positions, decoded: Positions) -> list[dict[str, float]]:

@@ -11,9 +11,8 @@ from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import GLTF, by_name
-from bsm.files.motion.frames import MOST_LISTED, Loops, describe_runs
+from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import SequenceStream
 from bsm.jobs.plan import input_names
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task
@@ -24,12 +23,10 @@ from bsm.tiles.shards import is_tiles, open_tiles
 class InfoJob(Task):
     seconds_of_megabyte = 0.05
     limits: str = "default"
-    loops: bool = False
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(parser, "stream, scene of glTF with streams, folder of tiles, or - for standard input")
-    parser.add_argument("--loops", action="store_true", help="decode sequences, and list frames that repeat others")
     add_limits_flag(parser)
 
 
@@ -46,17 +43,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
         streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
         return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
-    chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
-    summary = summarize(inspect_stream(iter(chunks), limits))
-    if args.loops and summary["header"]["sequence"]:
-        found, stream = Loops(), SequenceStream(iter(chunks), limits=limits)
-        with console.progress("looking for loops") as progress:
-            for number, frame in stream.changing_frames():
-                found.take(frame)
-                if stream.header.frames:
-                    progress(number + 1, stream.header.frames)
-        summary["loops"] = list(found.descriptions())
-    return {"input": args.input, **summary}
+    return {"input": args.input, **summarize(inspect_stream(read_chunks(args.input), limits))}
 
 
 def summarize(info: StreamInfo) -> dict[str, Any]:
@@ -171,7 +158,6 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
         f"of {' to '.join(str(size) for size in sorted({min(sizes), max(sizes)}))} bytes, "
         f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame",
         *_run_lines(summary["runs"]),
-        *summary.get("loops", ()),
     ]
 
 

@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from bsm.bitstream.errors import OptionError, counted
@@ -14,7 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
 from bsm.files.mesh import read_mesh
-from bsm.files.motion.frames import Frames, Loops, Wanted, describe_runs
+from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
@@ -126,33 +127,34 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     entries = {**source.metadata, **rate, **job.metadata}
     metadata, generations = with_provenance(entries, job.provenance, job.input, job.options, chosen)
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
-    loops, size = Loops(), 0
+    numbers, size = count(), 0
     overwrite = job.may_replace(job.output)
     with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
         frames = source.frames if source.meshes is None else source.meshes
-        given = _staged(frames, source.count, chosen, loops, progress)
+        given = _staged(zip(frames, numbers), source.count, chosen, progress)
         for chunk in encoder.chunks(given, progress):
             size += file.write(chunk)
             file.flush()
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
-    notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else loops.descriptions())]
+    notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else [])]
     look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
     if look == math.inf and seen is not None:
         notes.append(f"no look is promised; measured: look {seen:.2g} in the worst frame (the default keeps 1)")
     kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame, "
-    vertices, faces, bpvf = len(encoder.vertex_order), len(encoder.face_order), 8 * size / encoder.samples
+    done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
+    bpvf = 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
     _finish(
         job,
         console,
         notes,
         encoder.vertex_order,
-        f"{counted(frames=loops.frames)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
+        f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
         f"KG error {encoder.kg:.3g} %; {seconds:.2f} s",
     )
-    counts = {"input": job.input, "output": job.output, "frames": loops.frames, "vertices": vertices, "faces": faces}
+    counts = {"input": job.input, "output": job.output, "frames": done, "vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
     return {**counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
 
@@ -166,14 +168,12 @@ def _finish(job: EncodeJob, console: Console, notes: list[str], order: Order, su
 
 
 def _staged(
-    frames: Iterator[Positions | TriangleMesh], count: int, chosen: SequenceOptions, loops: Loops, progress: Progress
+    frames: Iterator[tuple[Positions | TriangleMesh, int]], all_frames: int, chosen: SequenceOptions, progress: Progress
 ) -> Iterator[Positions | TriangleMesh]:
     """Yield the frames; begin a stage of the progress with each GOP."""
-    for number, frame in enumerate(frames):
-        positions = frame.positions if isinstance(frame, TriangleMesh) else frame
-        loops.take(positions)
-        longest = chosen.longest(len(positions))
+    for frame, number in frames:
+        longest = chosen.longest(len(frame.positions if isinstance(frame, TriangleMesh) else frame))
         if not chosen.low_delay and number and number % longest == 0:
-            gops = f" of {-(-count // longest)}" if count else ""
+            gops = f" of {-(-all_frames // longest)}" if all_frames else ""
             progress.stage(f"encoding GOP {1 + number // longest}{gops}")
         yield frame

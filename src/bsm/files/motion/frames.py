@@ -9,7 +9,6 @@ from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Positions
@@ -185,54 +184,6 @@ def _times_in(text: str) -> list[float]:
 
 def _finite(value: object, usual: float) -> float:
     return float(value) if isinstance(value, int | float) and np.isfinite(value) else usual
-
-
-_POINTS = 64
-MOST_FRAMES = 4096  # not for longer sequences: each frame is compared with each
-
-
-class Loops:
-    """Remembers a few vertices of each frame, and tells which frames repeat others."""
-
-    def __init__(self) -> None:
-        self.frames = 0
-        self._kept: list[npt.NDArray[np.float64]] = []
-        self._diagonal = 0.0
-
-    def take(self, frame: Positions) -> None:
-        self.frames += 1
-        if not self._kept:
-            with np.errstate(over="ignore"):  # what is as large as that is refused elsewhere
-                self._diagonal = float(np.linalg.norm(np.ptp(frame, axis=0)))
-        if len(self._kept) <= MOST_FRAMES:
-            rows = np.linspace(0, len(frame) - 1, min(_POINTS, len(frame))).astype(np.int64)
-            self._kept.append(frame[rows].reshape(-1))
-
-    def found(self, tolerance: float = 1e-4) -> tuple[range, int] | None:
-        """The frames that repeat, and how many frames before them those are that they repeat."""
-        count = len(self._kept)
-        if not 4 <= count <= MOST_FRAMES or len({len(kept) for kept in self._kept}) > 1:
-            return None  # or frames of other numbers of vertices
-        table, near = np.array(self._kept), tolerance * self._diagonal
-        if np.abs(table - table[0]).max() <= near:
-            return None
-        for period in range(2, count // 2 + 1):
-            alike = np.abs(table[period:] - table[:-period]).max(axis=1) <= near
-            edges = np.flatnonzero(np.diff(np.concatenate([[0], alike.astype(np.int8), [0]])))
-            runs = [(end - start, -start) for start, end in zip(edges[::2].tolist(), edges[1::2].tolist())]
-            length, start = max(runs, default=(0, 0))  # of the longest ones the first
-            start = -start
-            if length >= period and np.abs(table[start : start + period] - table[start]).max() > near:
-                return range(start + period, start + period + length), period
-        return None
-
-    def descriptions(self) -> tuple[str, ...]:
-        found = self.found()
-        if found is None:
-            return ()
-        frames, period = found
-        first, last = frames.start, frames.stop - 1
-        return (f"frames {first} to {last} repeat {first - period} to {first - 1}",)
 
 
 MOST_LISTED = 12
