@@ -6,6 +6,7 @@ Progress = Callable[[int, int], None]
 """Is called with how much is done, and of how much in all."""
 
 PARTS = 1000
+STEP = 0.25  # of the rest, what a step of unknown length is thought to take
 
 
 def silent(done: int, total: int) -> None:
@@ -26,10 +27,10 @@ class Nearing:
     def to(self, share: float) -> None:
         self.at(max(self._share, share))
 
-    def by(self, part: float) -> None:
-        self.to(self._share + part * (1.0 - self._share))
+    def step(self) -> None:
+        self.to(self._share + STEP * (1.0 - self._share))
 
-    def within(self, part: float) -> Progress:
+    def within(self, part: float = STEP) -> Progress:
         """Report a step of known length."""
         begin = self._share
         return lambda done, total: self.to(begin + part * (1.0 - begin) * done / max(total, 1))

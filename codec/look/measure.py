@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass
@@ -42,11 +43,20 @@ TURNED = 1.5  # degrees that normals may be turned, on average over the picture 
 MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
 _LARGEST = 1e150
-MOST_WORK, WORK_PER_FACE = 12_000_000, 30_000
-"""Samples to draw before an encoder no longer looks for still smaller streams: about 50 ms, and 150 us a face."""
 
 Paint = Callable[[Canvas, Faces, Matrix], list[Picture]]
 Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
+
+
+def _earlier(name: str, now: str) -> property:
+    """A number of earlier versions of `Look`, as the closest one of this version."""
+
+    def read(look: Look) -> float:
+        message = f"Look.{name} is no longer measured; Look.{now} is returned, on another scale"
+        warnings.warn(message, DeprecationWarning, stacklevel=2)
+        return float(getattr(look, now))
+
+    return property(read, doc=f"Deprecated: `{now}` is returned.")
 
 
 @public
@@ -75,6 +85,10 @@ class Look:
     distance: float
     unlike: float
     gone: float
+
+    dissimilarity = _earlier("dissimilarity", "unlike")
+    visible = _earlier("visible", "unlike")
+    striking = _earlier("striking", "gone")
 
     @property
     def moving(self) -> float:
@@ -130,7 +144,6 @@ class LookMetric:
             raise MeshError("the mesh cannot be looked at: its faces have no area")
         own = own_normals(mesh)
         self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
-        self._drawn_pictures = len(self._cameras) * (1 if own is None else 2)  # sooner or later
         self._shading = shading
         self._known: dict[bytes, Look] = {}
         self._turned: dict[bytes, float] = {}
@@ -140,11 +153,6 @@ class LookMetric:
         other = copy(self)
         other._shading, other._known = shading, {}
         return other
-
-    @property
-    def spent(self) -> float:
-        """How much was drawn, over that from which on nothing should be drawn that need not be."""
-        return self._drawn_pictures * self._size.work / (MOST_WORK + WORK_PER_FACE * len(self._mesh.faces))
 
     def look(self, positions: Positions) -> Look:
         """How these positions, shape (n, 3), look on the faces of the original; with its own normals, too."""
@@ -279,7 +287,6 @@ class LookMetric:
             self._idle.append(canvas)
             return result
 
-        self._drawn_pictures += len(sides)
         return list(ordered_map(done, sides, self._threads))
 
     def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:

@@ -36,7 +36,6 @@ samples that take as long to cover as a row of a face takes."""
 CHECKS, DARK, TEXELS = 8, 0.35, 128  # of a checker: squares a side, how bright dark ones are, texels of their sides
 STEADY = 0.02  # variance of shades that hides half of a squared difference
 _GRID = 2.0**24
-EMPTY = 2  # work of a sample that no face covers, where covering one is 1
 _SPREAD, _REACH = 1.5, 5  # standard deviation of the blur, and its reach, in pixels
 _SCRATCH_ROWS, _SCRATCH_COLUMNS, _TILE = 52, 18, 8
 
@@ -141,10 +140,9 @@ def cameras(positions: Positions, pixels: int) -> list[Matrix]:
 
 @dataclass(frozen=True)
 class Size:
-    """How large pictures are, and the work of one: pixels to clear and compare, and those that faces cover."""
+    """How large pictures are."""
 
     pixels: int
-    work: float
     largest: float  # of the areas of faces, in a box of diagonal 1
 
     @classmethod
@@ -158,7 +156,7 @@ class Size:
         extent = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
         edge = float(lengths.sum()) / (3 * len(faces))
         if not edge > 0.0:
-            return cls(LEAST_PIXELS, 0.0, 0.0)
+            return cls(LEAST_PIXELS, 0.0)
         # On average over all sides, a face covers half of its area, and has rows for half of its longest side.
         areas = np.sqrt(np.einsum("fd,fd->f", crosses, crosses)) / 2.0
         covered = float(areas.sum()) / (2.0 * extent**2)
@@ -169,7 +167,7 @@ class Size:
         grown = math.isqrt(LEAST_PIXELS**2 + FACE_PIXELS * len(faces))
         pixels = max(FEWEST_PIXELS, min(wanted, grown, most_pixels, int(min(most, MOST_PIXELS))))
         pixels -= pixels % SAMPLES
-        return cls(pixels, (EMPTY + covered) * pixels**2 + rows * pixels, float(areas.max()))
+        return cls(pixels, float(areas.max()))
 
 
 def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Matrix:

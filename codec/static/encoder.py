@@ -18,6 +18,7 @@ from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.attributes import Input, smallest
 from bsm.codec.static.choice.blocks import Spectral
+from bsm.codec.static.choice.bounds import MARGIN
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
@@ -50,9 +51,6 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
-UNCERTAIN = 1e-9  # of a target, in logarithms: rounding of the measures
-PREPARED, TRY = 0.04, 0.3  # of the time, what preparing takes; of what is left, a try
-VERIFIED, VERIFIED_GRID = 0.1, 0.4  # of the time, what the check takes
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
@@ -168,7 +166,8 @@ class Encoder:
     def _begun(self, progress: Progress | None) -> Nearing:
         """Prepare, and return what reports the rest."""
         near = Nearing(progress)
-        near.by(PREPARED if self._input.prepared.graph.size else 0.0)
+        _ = self._input.prepared
+        near.step()
         return near
 
     def _bare(self, near: Nearing) -> Draft:
@@ -209,7 +208,7 @@ class Encoder:
             found = self._judged(smallest(self._input, contract, near))
         self._verified(found.draft, near, None if self.options.sets_coding else contract)
         over = target.excess(found)
-        require(over <= UNCERTAIN, f"the target is {target.value:g} and {target.reached(found):g} was reached")
+        require(over <= MARGIN, f"the target is {target.value:g} and {target.reached(found):g} was reached")
         return found
 
     def _within_error(self, target: Target) -> Contract:
@@ -245,7 +244,7 @@ class Encoder:
         """Blocks, coded as the options say, at the step that meets a target."""
 
         def attempt(step: float) -> Attempt:
-            draft = self._spectral.base(step, near.within(TRY)).draft
+            draft = self._spectral.base(step, near.within()).draft
             return self._judged(self._input.dressed(draft) if target.shrinks_with_step else draft)
 
         with as_of_decoders(self.options.limits):
@@ -267,7 +266,7 @@ class Encoder:
 
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
-        near.to(1.0 - (VERIFIED_GRID if self.options.is_grid else VERIFIED))
+        near.step()
         original = Original(self._input.given, self._input.joined, self._input.prepared)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads

@@ -27,7 +27,6 @@ from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepare
 from bsm.codec.static.targets import SLACK, TRIES, Contract
 
 ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
-FINER = 2.0  # budgets of pictures up to which finer positions are tried for normals that decoders make: they save most
 
 
 class Input:
@@ -200,7 +199,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
         return given.dressed(bare)
     given.carried = given.carry_with(free, finer[_first(enough, 0, len(finer) - 1)])
     kept = given.dressed(bare)
-    if may and metric.spent <= FINER and looks(recomputed, given.prepared.positions):
+    if may and looks(recomputed, given.prepared.positions):
         other_search = search.shaded_by(recomputed[free].normals)
         with suppress(TargetError):
             for _ in range(TRIES):

@@ -28,7 +28,6 @@ from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
 SMOOTHING_FACES = 1 << 12  # on more faces than these, smoothing is not tried
-BLOCKS = 0.3  # of the time that is left before them, what blocks take
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 """Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %."""
 
@@ -266,7 +265,7 @@ class Plain:
         self.first = ALONE * bounds.first_step
 
     def at(self, step: float) -> Candidate:
-        base = self._spectral.base(step, self._bounds.measures.near.within(BLOCKS))
+        base = self._spectral.base(step, self._bounds.measures.near.within())
         reaches = self._bounds.reaches
         out = np.square(base.positions - base.prepared.positions).sum(axis=1) > reaches**2
         if not out.any():
@@ -341,7 +340,7 @@ class Refined:
     def _base(self) -> RefinementBase:
         """The blocks of all steps: those of about the right one."""
         step = max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size))
-        return self._spectral.base(step, self._bounds.measures.near.within(BLOCKS))
+        return self._spectral.base(step, self._bounds.measures.near.within())
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""

@@ -23,12 +23,11 @@ from bsm.codec.static.targets import ANY_ANGLE, Contract
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 """Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
-MARGIN = 1e-9  # of a bound on distances, for what rounding may add
+MARGIN = 1e-9  # of a bound, for what rounding of measures may add
 SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther ones stand out as spikes
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512."""
-DRAWN, TRY = 0.12, 0.25  # of the time that is left, what drawing an original takes, and a try
 LEAST_GAP, MOST_PARTS = 2e-4, 64
 """Parts nearer to each other than this, in BSM units, touch, so that none is before the other; and of more parts than
 these, none is asked how near it is to others."""
@@ -72,7 +71,7 @@ class Measures:
         except MeshError:
             return None
         finally:
-            self.near.by(DRAWN)
+            self.near.step()
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +113,7 @@ class Bounds:
         """The logarithm of the largest share of a bound that depends on the step."""
         farther, angle, visual, look = self._shares(candidate.positions)
         shares = (angle, visual, look) if candidate.settled and farther <= 1.0 else (farther, angle, visual, look)
-        self.measures.near.by(TRY)
+        self.measures.near.step()
         return math.log(max(*shares, LEAST))
 
     def folds(self, positions: Matrix) -> bool:
