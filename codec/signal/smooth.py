@@ -14,7 +14,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Levels, Matrix, Positions
@@ -59,10 +58,6 @@ class Spectrum:
         smoothed = np.empty(self.positions.shape)
         _kernels.combine_powers(self.positions, self.terms.reshape(-1), filter_polynomial(amount), smoothed)
         return smoothed
-
-    def only(self, vertices: npt.NDArray[np.integer]) -> Spectrum:
-        """Smoothing of some of the vertices only, shape (k,)."""
-        return Spectrum(self.positions[vertices], np.ascontiguousarray(self.terms[:, vertices]))
 
     def __post_init__(self) -> None:
         if self.terms.shape != (DEGREE - 1, *self.positions.shape):

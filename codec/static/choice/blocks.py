@@ -9,7 +9,7 @@ import numpy as np
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Indices, Levels, Matrix
+from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
@@ -27,7 +27,6 @@ from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
-SMOOTHING_FACES = 1 << 12  # on more faces than these, smoothing is not tried
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 """Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %."""
 
@@ -54,11 +53,10 @@ class Planner:
 
     def smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers the error of the options most."""
-        vertices, reference = self._sample
-        spectrum = smoothing_spectrum(self._prepared.graph, blended).only(vertices)
-        best, least = 0.0, self._badness(reference, spectrum.smoothed(0.0))
+        spectrum = smoothing_spectrum(self._prepared.graph, blended)
+        best, least = 0.0, self._badness(spectrum.smoothed(0.0))
         for amount in SMOOTHING_STEPS:
-            badness = self._badness(reference, spectrum.smoothed(amount))
+            badness = self._badness(spectrum.smoothed(amount))
             if badness >= least:
                 break
             best, least = amount, badness
@@ -114,32 +112,17 @@ class Planner:
         return self._prepared.spectrum(self._options.paper.shift)
 
     @cached_property
-    def _sample(self) -> tuple[Indices, Reference]:
-        """Vertices on which smoothing is tried, and the original there: all of them, unless they are very many."""
-        positions = self._prepared.positions
-        faces = _spread(self._prepared.mesh.faces, SMOOTHING_FACES)
-        used = np.zeros(len(positions), np.bool_)
-        used[faces] = True
-        vertices = np.flatnonzero(used).astype(np.int32)
-        number = np.cumsum(used) - 1
-        return vertices, Reference(positions[vertices], number[faces])
+    def _reference(self) -> Reference:
+        return Reference(self._prepared.positions, self._prepared.mesh.faces)
 
-    def _badness(self, reference: Reference, decoded: Matrix) -> float:
+    def _badness(self, decoded: Matrix) -> float:
         """What smoothing shall lower: the target's own measure, or else theta and NMSVE together."""
-        target = self._options.target
+        target, reference = self._options.target, self._reference
         if target is not None and target.kind == "theta_deg":
             return reference.theta(decoded)
         if target is not None and target.kind == "nmsve_db":
             return reference.nmsve(decoded)
         return reference.theta(decoded) * reference.nmsve(decoded)
-
-
-def _spread(faces: Faces, most: int) -> Faces:
-    """Return all faces if they are at most `most`; otherwise `most` of them, in sixteen runs of successive faces."""
-    if len(faces) <= most:
-        return faces
-    starts = np.linspace(0, len(faces) - most // 16, 16).astype(np.int64)
-    return np.concatenate([faces[start : start + most // 16] for start in starts])
 
 
 WIDEST = 0.14
@@ -148,7 +131,6 @@ are worth."""
 BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
-ALIKE = 2.0  # the same as `RATIO`, where errors in all directions count alike
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 ROOM = 1.8  # of steps that are within reach: their diagonal over the reach
 FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
@@ -325,16 +307,11 @@ class Refined:
         """Levels that are worth their bits; and their known steps."""
         base, reaches = self._base, self._bounds.reaches
         room = (ROOM * float(reaches.min()) / step) ** 2 - 1.0
-        ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self._most_ratio)
+        ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), RATIO)
         layer = Layer(single(step), ratio)
         steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
         levels = self._settler.levels(base.offsets, base.frames, steps, known, PULLED, self._near(steps))
         return layer, *base.within(reaches, layer, levels)
-
-    @property
-    def _most_ratio(self) -> float:
-        """How much coarser levels in the plane may be: the visual error counts errors in all directions."""
-        return RATIO if self._bounds.contract.visual == math.inf else ALIKE
 
     @cached_property
     def _base(self) -> RefinementBase:

@@ -22,7 +22,7 @@ from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid, encode_grid
 
-EXACT_CELLS = 65535  # along the longest side, where floats are exact; from 2^15 to 2^20 bytes are the same within 0.1 %
+MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
 
 
@@ -78,7 +78,7 @@ def exact(prepared: Prepared) -> Draft:
     coarsest = 2.0 * float(np.spacing(np.abs(narrow).max()))  # in a smaller cell there may be no float
     step = _decimal(narrow, coarsest)
     if step is None:
-        step = max(float(np.ptp(held, axis=0).max()) / EXACT_CELLS, coarsest)
+        step = max(float(np.ptp(held, axis=0).max()) / MOST_CELLS, coarsest)
     origin = (np.floor(held.min(axis=0) / step) - 1.0) * step
     places = np.floor((held - origin) / step + 0.5).astype(np.int64)
     grid = Grid(tuple(map(float, origin)), step, tuple(int(value) for value in places.max(axis=0) + 1), exact=True)
@@ -128,9 +128,6 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
     )
 
 
-FINEST_BITS = 16  # along the longest side of the finest grid on which a mesh may have been made
-
-
 def made_on(positions: Matrix) -> float | None:
     """The step of the coarsest grid from the lower corner on that all positions are on, but for rounding to floats."""
     extent = float(extent_of(positions).max())
@@ -148,7 +145,7 @@ def made_on(positions: Matrix) -> float | None:
                 reach = max(step, float(values[0]))
             else:
                 step, reach = float(counts @ near / (counts @ counts)), 4.0 * reach
-            if step * 2.0**FINEST_BITS < 1.0:
+            if step * MOST_CELLS < 1.0:
                 return None
         if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
             return None

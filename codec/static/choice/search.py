@@ -18,7 +18,7 @@ from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
-QUICK_TRIES = 3  # steps of each way, where encoding shall be quick
+QUICK_TRIES = 5  # steps of each way, where encoding shall be quick
 
 
 class Way(Protocol):

@@ -81,6 +81,5 @@ def test_smoothing_is_the_polynomial_of_the_sparse_matrix():
         term = laplacian @ term
         expected += p * term
     assert np.allclose(smooth(graph, mesh.positions, 4.0), expected, atol=1e-13)
-    rows = np.array([3, 500, 77])
-    part = smoothing_spectrum(graph, mesh.positions).only(rows)
-    assert np.array_equal(part.smoothed(4.0), smooth(graph, mesh.positions, 4.0)[rows])
+    spectrum = smoothing_spectrum(graph, mesh.positions)
+    assert np.array_equal(spectrum.smoothed(4.0), smooth(graph, mesh.positions, 4.0))
