@@ -27,8 +27,8 @@ class Nearing:
     def to(self, share: float) -> None:
         self.at(max(self._share, share))
 
-    def step(self) -> None:
-        self.to(self._share + STEP * (1.0 - self._share))
+    def by(self, part: float = STEP) -> None:
+        self.to(self._share + part * (1.0 - self._share))
 
     def within(self, part: float = STEP) -> Progress:
         """Report a step of known length."""

@@ -167,7 +167,7 @@ class Encoder:
         """Prepare, and return what reports the rest."""
         near = Nearing(progress)
         _ = self._input.prepared
-        near.step()
+        near.by()
         return near
 
     def _bare(self, near: Nearing) -> Draft:
@@ -266,7 +266,7 @@ class Encoder:
 
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
-        near.step()
+        near.by()
         original = Original(self._input.given, self._input.joined, self._input.prepared)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads

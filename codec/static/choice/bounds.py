@@ -71,7 +71,7 @@ class Measures:
         except MeshError:
             return None
         finally:
-            self.near.step()
+            self.near.by()
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +113,7 @@ class Bounds:
         """The logarithm of the largest share of a bound that depends on the step."""
         farther, angle, visual, look = self._shares(candidate.positions)
         shares = (angle, visual, look) if candidate.settled and farther <= 1.0 else (farther, angle, visual, look)
-        self.measures.near.step()
+        self.measures.near.by()
         return math.log(max(*shares, LEAST))
 
     def folds(self, positions: Matrix) -> bool:
