@@ -533,6 +533,7 @@ def _unread(document: Document) -> tuple[str, ...]:
         found += ["morph targets"] if primitive.get("targets") else []
     for node in document.items("nodes"):
         given = node.get("extensions", {}).get(INSTANCING, {}).get("attributes", {})
+        found += ["extras of nodes"] if node.get("extras") else []
         found += [f"{name} of instances" for name in given if "skin" in node or name not in _OF_INSTANCES]
     return tuple(dict.fromkeys(found))
 
@@ -617,22 +618,15 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
     numbers = np.repeat([part.material for part in parts], [len(part.faces) for part in parts])
     used = [int(number) for number in np.unique(numbers)]
     absent = _absent_images(document)
-    notes = [*lacking, *absent.values()]
     if any(number >= 0 for number in used):
-        places = np.searchsorted(used, numbers)
         words, images = _materials(document, used, absent)
         metadata |= described(words) | images
-        if len(used) > 1:
-            columns.append(shapes.Column("material", places[:, None].astype(np.int32), "face"))
-    if len(parts) > 1:
-        note, column, names = shapes.sorted_into_parts(
-            [part.name for part in parts], [len(part.faces) for part in parts]
-        )
-        notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
-    elif parts[0].name:
+    if len(parts) == 1 and parts[0].name:
         metadata["name"] = parts[0].name
     shape = (scene.at(time), np.full(len(faces), 3), faces.reshape(-1))
-    return shapes.Polygons(*shape, tuple(notes), (), tuple(columns), metadata)
+    whole = shapes.Polygons(*shape, (*lacking, *absent.values()), (), tuple(columns), metadata)
+    names, counts = [part.name for part in parts], [len(part.faces) for part in parts]
+    return shapes.sorted_into_parts(whole, names, counts, np.searchsorted(used, numbers))
 
 
 def _extras(document: Document) -> dict[str, Value]:

@@ -105,13 +105,6 @@ def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
     return unit
 
 
-def sorted_into_parts(names: Sequence[str], faces: Sequence[int]) -> tuple[list[str], list[Column], dict[str, str]]:
-    """What says which faces are of which part: a note, a column, and the names of the parts as metadata."""
-    owner = np.repeat(np.arange(len(names), dtype=np.int32), faces)
-    notes = [f"{len(names)} parts were joined to one mesh"]
-    return notes, [Column("part", owner[:, None], "face")], named(names, "part")
-
-
 def grouped(what: str, names: Sequence[str], of_face: Ints) -> tuple[list[Column], dict[str, str]]:
     """Return the groups of faces: numbers if there are several groups, and their names as metadata."""
     changes, places = np.unique(of_face, return_inverse=True)
@@ -240,6 +233,18 @@ class Polygons:
         notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
         faces = corners[places].astype(np.int32)
         return MeshFile(TriangleMesh(positions, faces, attributes, metadata), tuple(notes), dropped)
+
+
+def sorted_into_parts(whole: Polygons, names: Sequence[str], faces: Sequence[int], materials: Array) -> Polygons:
+    """Say which faces are of which part, if there are several, and of which material."""
+    notes, columns, metadata = whole.notes, whole.columns, whole.metadata
+    if len(np.unique(materials)) > 1:
+        columns = (*columns, Column("material", materials.astype(np.int32)[:, None], "face"))
+    if len(names) > 1:
+        owner = np.repeat(np.arange(len(names), dtype=np.int32), faces)
+        notes = (f"{len(names)} parts were joined to one mesh", *notes)
+        columns, metadata = (*columns, Column("part", owner[:, None], "face")), {**metadata, **named(names, "part")}
+    return replace(whole, notes=notes, columns=columns, metadata=metadata)
 
 
 def _finite(column: Column, notes: list[str]) -> Column:

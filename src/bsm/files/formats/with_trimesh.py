@@ -218,13 +218,9 @@ def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
     metadata, left = _metadata(parts, of_scene)
     of_materials, numbers = _materials(parts)
     metadata |= of_materials
-    if len(np.unique(numbers)) > 1:
-        columns.append(Column("material", numbers[:, None], "face"))
-    if len(parts) > 1:
-        note, column, names = sorted_into_parts([part.name for part in parts], [len(part.mesh.faces) for part in parts])
-        notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
-    sizes = np.full(len(triangles), 3)
-    return Polygons(positions, sizes, triangles.reshape(-1), tuple(notes), tuple(left), tuple(columns), metadata)
+    shape = (positions, np.full(len(triangles), 3), triangles.reshape(-1))
+    whole = Polygons(*shape, tuple(notes), tuple(left), tuple(columns), metadata)
+    return sorted_into_parts(whole, [part.name for part in parts], [len(part.mesh.faces) for part in parts], numbers)
 
 
 def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> tuple[dict[str, Value], dict[str, None]]:

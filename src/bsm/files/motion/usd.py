@@ -564,8 +564,6 @@ class _Stage:
         materials = self._materials
         of_parts = [materials.of_faces(part.prim, len(part.shape.counts), part.shape.time) for part in parts]
         numbers = np.concatenate(of_parts)
-        if len(np.unique(numbers)) > 1:
-            columns.append(shapes.Column("material", numbers[:, None], "face"))
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
         metadata |= of_materials
         left = dict.fromkeys(name for shape in each for name in shape.left_out)
@@ -573,12 +571,9 @@ class _Stage:
         notes += [f"left out, face sets without a material: {', '.join(materials.sets)}"] if materials.sets else []
         if len(parts) == 1:
             metadata["name"] = parts[0].prim.GetName()
-        else:
-            counts = [len(shape.counts) for shape in each]
-            note, column, names = shapes.sorted_into_parts([part.name for part in parts], counts)
-            notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
         polygons = shapes.Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata)
-        return polygons.checked(self._limits)
+        names, counts = [part.name for part in parts], [len(shape.counts) for shape in each]
+        return shapes.sorted_into_parts(polygons, names, counts, numbers).checked(self._limits)
 
 
 def _turned(sizes: Ints, turned: shapes.Array) -> Ints:
