@@ -19,11 +19,10 @@ from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.attributes.levels import Values, restored
 from bsm.codec.static.attributes.quality import Quality
+from bsm.codec.static.targets import secant
 
-TRIES, ENOUGH = 16, 3  # attempts at a step for a GOP: at most, and once the bound is kept
-SPARE = 0.8  # share of a bound that an attempt may leave unused without another one
-AIM, RANGE = 0.93, (0.3, 3.0)
-"""Share of the bound that another attempt aims at, and how far its step goes from the one before at once."""
+SLACK = 0.2  # part of a bound that may be left, in logarithms
+LEAST = 1e-6  # of a bound, an error that counts as none; and of the first step, the finest one
 FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0  # that of the first attempt, in bounds of every value and on average
 OUTLIER = 10.0  # how many times as far as all are on average a single value may be off
 MARGIN = 1e-6  # by which integers keep away from halves, which processors may round either way
@@ -200,19 +199,21 @@ class MovingAttributeEncoder:
             self._encoder.stay(body.frames, body.method)
             self._latest = before
             return still(values.shape[2])
-        reach = self.bound.reach
-        step = self._step or self.bound.first_step
+        reach, encoder = self.bound.reach, self._encoder
         kept: tuple[GopEncoder, GopField, Values] | None = None
-        for tries in range(TRIES):
-            twin = self._encoder.copy()
+
+        def excess(step: float) -> float:
+            nonlocal kept
+            twin = encoder.copy()
             twin.step = step
             field, changes = self._attempt(twin, body, values)
             off = max(self.bound.off(own, self.first, change) for own, change in zip(values, changes, strict=True))
             if off <= reach and (kept is None or twin.step > kept[0].step):
                 kept = twin, field, changed(self.first, changes[-1])
-            if kept is not None and (off >= SPARE * reach or tries >= ENOUGH):
-                break
-            step *= float(np.clip(AIM * reach / max(off, 1e-300), *RANGE))
+            return math.log(max(off / reach, LEAST))
+
+        first = self._step or self.bound.first_step
+        secant(excess, first, LEAST * first, first / LEAST, slack=SLACK)
         if kept is None:
             raise self._refusal("ask for less")
         self._encoder, field, self._latest = kept

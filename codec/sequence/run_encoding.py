@@ -111,6 +111,10 @@ class EncodedGops:
     learnt: tuple[LearntGop, ...] = ()
 
     @property
+    def cost(self) -> float:
+        return sum(gop.cost for gop in self.learnt)
+
+    @property
     def decoded(self) -> Positions:
         """The decoded frames, shape (T, n, 3), in BSM units; not kept, because they are large."""
         if self.encoder.latest is not None:
@@ -215,54 +219,36 @@ def _encoded(
         field = encoder.encode_next(frames, progress, key=key)
         return EncodedGops(first_frame, encoder, (GopBody(method, len(frames), (field,)),))
     weights = np.ones(len(frames)) if asked.weights is None else asked.weights
-    learnt = _learnt(first_frame, encoder, frames, weights, group.same(encoder.step), asked.cut, progress)
-    return EncodedGops(first_frame, learnt.encoder, learnt.bodies, learnt.gops)
-
-
-@dataclass(frozen=True, eq=False)
-class _Learnt:
-    """GOPs with a basis, and the encoder after them."""
-
-    bodies: tuple[GopBody, ...]
-    gops: tuple[LearntGop, ...]
-    encoder: GopEncoder
-
-    @property
-    def cost(self) -> float:
-        return sum(gop.cost for gop in self.gops)
+    same = group.same(encoder.step)
+    return _learnt(EncodedGops(first_frame, encoder, ()), frames, weights, same, asked.cut, progress)
 
 
 def _learnt(
-    first_frame: FirstFrame,
-    encoder: GopEncoder,
-    frames: Positions,
-    weights: Matrix,
-    same: Order,
-    cut: bool | None,
-    progress: Progress,
-) -> _Learnt:
-    """Frames as one GOP, or as more where that costs less or decoders would lack the memory."""
+    before: EncodedGops, frames: Positions, weights: Matrix, same: Order, cut: bool | None, progress: Progress
+) -> EncodedGops:
+    """Encode frames as one GOP with a basis, or as more where that costs less or decoders would lack the memory."""
     half = len(frames) // 2
-    whole: _Learnt | None = None
+    whole: EncodedGops | None = None
     if not (cut and half):
-        whole = _whole(encoder.copy(), frames, weights, same, progress)
-        has_room = first_frame.has_room(*whole.bodies)
+        whole = _whole(before, frames, weights, same, progress)
+        has_room = before.first_frame.has_room(*whole.bodies)
         if not half or (has_room and (cut is not None or len(frames) <= HARDLY_CUT)):
             return whole
         if not has_room:
             whole = None
-    first = _learnt(first_frame, encoder, frames[:half], weights[:half], same[:half], False, silent)
-    second = _learnt(first_frame, first.encoder, frames[half:], weights[half:], same[half:], False, silent)
-    halves = _Learnt(first.bodies + second.bodies, first.gops + second.gops, second.encoder)
+    first = _learnt(before, frames[:half], weights[:half], same[:half], False, silent)
+    second = _learnt(first, frames[half:], weights[half:], same[half:], False, silent)
+    halves = replace(second, bodies=first.bodies + second.bodies, learnt=first.learnt + second.learnt)
     return halves if whole is None or halves.cost < whole.cost else whole
 
 
-def _whole(encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order, progress: Progress) -> _Learnt:
-    """Frames as one GOP, with one of those that are the same."""
+def _whole(before: EncodedGops, frames: Positions, weights: Matrix, same: Order, progress: Progress) -> EncodedGops:
+    """Encode frames as one GOP with a basis, repeated frames once."""
     kept, places = distinct_frames(same)
+    encoder = before.encoder.copy()
     method = encoder.method_with_basis(TOGETHER)
     repeats = len(kept) < len(frames)
     weights = np.sqrt(np.bincount(places, weights**2))
     learnt = encoder.encode_learnt(frames[kept] if repeats else frames, weights, method, progress)
     body = GopBody(method, len(frames), (learnt.field,), places if repeats else None)
-    return _Learnt((body,), (learnt,), encoder)
+    return EncodedGops(before.first_frame, encoder, (body,), (learnt,))
