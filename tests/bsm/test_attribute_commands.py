@@ -165,7 +165,7 @@ def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     ("name", "bounds"),
     [
         ("spot_uv.obj", {"texcoord": 1.5e-3}),
-        ("fuze_colors.ply", {"color": 0, "face_color": 0, "texcoord": 1.5e-3}),
+        ("fuze_colours.ply", {"color": 0, "face_color": 0, "texcoord": 1.5e-3}),
         ("cortex_sulc.ply", {"sulc": 5e-5}),
         ("Duck.glb", {"normal": 4.0, "texcoord": 1.5e-3}),
     ],

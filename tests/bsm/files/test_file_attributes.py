@@ -539,7 +539,7 @@ def test_materials_of_any_kind_are_written_or_left_out(statements, images, kind)
     ("name", "expected"),
     [
         ("spot_uv.obj", {"texcoord": 3225}),
-        ("fuze_colors.ply", {"color": 502, "face_color": 1000, "texcoord": 3000}),
+        ("fuze_colours.ply", {"color": 502, "face_color": 1000, "texcoord": 3000}),
         ("cortex_sulc.ply", {"sulc": 32492}),
         ("robot_hand.obj", {"normal": 10542}),
         ("stirrer.obj", {"normal": 10658, "object": 20736}),
