@@ -229,7 +229,7 @@ class TestCommands:
     def test_curve_knows_its_codecs(self, tmp_path, capsys):
         write_mesh(tmp_path / "torus.npz", torus(20, 20))
         assert main(["curve", str(tmp_path / "torus.npz"), "-o", str(tmp_path), "--codecs", "mp3"]) == 2
-        assert "no codec is called mp3" in capsys.readouterr().err
+        assert "unknown codec mp3" in capsys.readouterr().err
 
 
 def test_table():

@@ -42,7 +42,7 @@ def test_streams_of_version_0_are_named(commit, tmp_path, capsys, monkeypatch):
 
 def test_a_later_minor_version_is_read_and_reported(capsys):
     assert main(["info", str(FOLDER / "good-minor.bsm")]) == 0
-    assert "version 1.15, the core alone" in capsys.readouterr().out
+    assert "version 1.15, core only" in capsys.readouterr().out
 
 
 def test_the_vectors_of_1_0_are_what_they_were():

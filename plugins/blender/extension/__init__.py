@@ -9,7 +9,7 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 PRESETS = [
-    ("balanced", "Balanced", "Nobody can tell it from the original; the farthest vertex within 1 % of the diagonal"),
+    ("balanced", "Balanced", "The same at a glance in smooth shading; vertex error up to 1 % of the diagonal"),
     ("fine", "Fine", "Twice as close to the original, larger"),
     ("small", "Small", "A preview, smaller"),
 ]

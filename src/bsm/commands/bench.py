@@ -1,4 +1,4 @@
-"""bsm bench: how fast it is, against exact eigensolvers and against Draco."""
+"""bsm bench: measure speed against exact eigensolvers and Draco."""
 
 import argparse
 

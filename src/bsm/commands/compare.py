@@ -1,4 +1,4 @@
-"""bsm compare: how far one mesh or sequence is from another of the same faces."""
+"""bsm compare: measure the error of a mesh or sequence against an original with the same faces."""
 
 from __future__ import annotations
 
@@ -197,7 +197,7 @@ def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
         whole = args.map or args.picture or args.look or args.permutation
         if whole or listed[0] != listed[1]:
             if not whole:
-                console.note("the scenes have different primitives: they are compared as one mesh each")
+                console.note("the scenes have different primitives; each is compared as one mesh")
             return False
         rows: list[dict[str, Any]] = []
         for number, primitives in enumerate(zip(*(side.primitives() for side in sides), strict=True)):
@@ -242,9 +242,9 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
         original, decoded = sides
         if original is None or decoded is None:
             moving, still = reversed(paths) if original is None else paths
-            raise MeshError(f"{moving} is a sequence and {still} one mesh")
+            raise MeshError(f"{moving} is a sequence, but {still} is a single mesh")
         if args.map:
-            raise OptionError("--map shows one mesh; of sequences, --picture draws the errors of each frame")
+            raise OptionError("--map is for single meshes; for sequences, --picture draws the error of each frame")
         progress.stage("comparing")
         text = _compared_sequences(args, original, decoded, progress)
     print(text)
@@ -283,7 +283,7 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
 
 
 def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:
-    """How far one sequence is from the other, as it is printed."""
+    """Return the errors of a sequence, as text."""
     counts = [[len(frames) for frames, _ in side] for side in (original, decoded)]
     if sum(counts[0]) != sum(counts[1]):
         raise MeshError(f"{args.original} has {sum(counts[0])} frames and {args.decoded} {sum(counts[1])}")

@@ -1,4 +1,4 @@
-"""bsm curve: rate against error for several codecs, as JSON first and pictures drawn from it."""
+"""bsm curve: measure rate against error for several codecs; write JSON, and draw pictures from it."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     folder = Path(args.output)
     if folder.suffix.lower() in (".png", ".svg", ".json", ".pdf"):
-        raise OptionError(f"{folder}: -o names a folder, where pictures and results go by the names of meshes")
+        raise OptionError(f"{folder}: -o must be a folder; results and pictures are named after the meshes")
     _refuse_missing(args.codecs if args.meshes else "ours")
     meshes = [path for path in args.meshes if not _run_sequence(path, folder, args, console)]
     if args.meshes and not meshes:
@@ -66,7 +66,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
             console.note(f"{write_result(result, folder)}")
     results = list(read_results(folder))
     if not results:
-        raise OptionError(f"{folder} holds no results; name meshes to run")
+        raise OptionError(f"{folder} contains no results; name meshes to measure")
     draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
     tested = [result for result in results if result["codec"] != "draco" and result["mesh"]["name"] in draco]
     comparisons = [compare_curves(draco[result["mesh"]["name"]], result) for result in tested]
@@ -79,7 +79,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _refuse_missing(codecs: str) -> None:
-    """Refuse before anything is measured, with everything that is missing."""
+    """Raise an error that names all missing packages, before anything is measured."""
     wanted = ["scipy", "matplotlib", *(name for word in codecs.split(",") for name in _NEEDS.get(word, _PAPER_NEEDS))]
     missing = sorted(name for name in set(wanted) if importlib.util.find_spec(name) is None)
     if missing:
@@ -130,7 +130,7 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
     groups |= {line.name: (line,) for line in paper}
     unknown = [name for name in names.split(",") if name not in groups]
     if unknown:
-        raise OptionError(f"no codec is called {', '.join(unknown)}; there are {', '.join(groups)}")
+        raise OptionError(f"unknown codec {', '.join(unknown)} ({', '.join(groups)})")
     return [curve for name in names.split(",") for curve in groups[name]]
 
 

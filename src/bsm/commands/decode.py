@@ -83,7 +83,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
     if args.frames is not None:
-        raise OptionError("--frames is for sequences, and this is one mesh")
+        raise OptionError("--frames is for sequences; this is a single mesh")
     output = args.output
     if Path(output).is_dir():
         output = output_inside(output, args.input, f".{args.format or 'ply'}")
@@ -141,9 +141,9 @@ def _saved(
 
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
-    """Decode one sequence; every frame is written as soon as it is known."""
+    """Decode one sequence; write each frame as soon as it is decoded."""
     if args.blocks is not None:
-        raise OptionError("--blocks is for meshes, and this is a sequence")
+        raise OptionError("--blocks is for single meshes; this is a sequence")
     # The output by default: an npz, or a folder if the format is one of meshes.
     suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
     output = default_output(args.input, suffix) if args.given is None else str(args.output)
@@ -174,7 +174,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
             if number >= last:
                 break
             if args.permutation and stream.faces is not present:
-                raise OptionError(f"--permutation is the order of one mesh, and the faces change at frame {number}")
+                raise OptionError(f"--permutation is the order of one mesh, but the faces change at frame {number}")
             write(frame[order], None if stream.faces is present else stream.faces)
             present = stream.faces
             vertices = vertices or len(frame)
@@ -182,7 +182,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
             if expected:
                 progress(count, expected)
         if count == 0:
-            raise OptionError("the stream has none of these frames")
+            raise OptionError("the stream does not contain these frames")
     lost = [attribute.name for attribute in stream.attributes] if args.permutation else shared.left_out
     if lost:
         because = " with --permutation" if args.permutation else ""
@@ -205,5 +205,5 @@ def _range(text: str | None) -> tuple[int, int]:
     except ValueError:
         chosen = -1, -1
     if not colon or not 0 <= chosen[0] < chosen[1]:
-        raise OptionError(f"--frames {text}: write A:B with 0 <= A < B, or leave one of them out")
+        raise OptionError(f"--frames {text}: give A:B with 0 <= A < B; either may be left out")
     return chosen

@@ -51,7 +51,7 @@ _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 @dataclass(frozen=True, kw_only=True)
 class DenoiseJob(Task):
-    """What `bsm denoise` is asked for: formats, the goal of the automatic mode, and options instead of it."""
+    """The task of `bsm denoise`: formats, the goal of the automatic mode, or options instead of it."""
 
     seconds_of_megabyte = 5.0
     of_kinds: ClassVar[Mapping[str, float]] = {**Task.of_kinds, ".npz": 0.2}
@@ -77,9 +77,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--look", action="store_true", help="print the look distance between the input and the result")
     ways = parser.add_argument_group(
         "instead of the automatic mode",
-        "Without these options, bsm chooses everything by the noise of the mesh, or of the first frame.\n"
-        "If you give one, the others have the values of the paper. A result that removes more than noise\n"
-        "is written only with --force.",
+        "Without these options, bsm chooses the method by the noise of the mesh, or of the first frame.\n"
+        "If you give one, the others have the values of the paper. A result that loses detail is written\n"
+        "only with --force.",
         argument_default=argparse.SUPPRESS,
     )
     ways.add_argument("--fine", choices=FINE, help="method of the fine step (default guided)")
@@ -158,7 +158,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     same = not touched and kind == format_of_name(args.input) and Path(args.input).is_file()
     for note in source.notes if not same else ():
         console.note(f"{args.input}: {note}")
-    copy = ", and the file is copied" if same else ""
+    copy = "; the file is copied" if same else ""
     console.note(f"moved      {who}, {how}" if touched else f"moved      no vertex{copy}")
     seconds = time.perf_counter() - begin
     moved, stale = mesh.moved(positions) if touched else (mesh, ())
@@ -224,17 +224,17 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         return []
     lines = []
     if choice.outliers:
-        lines.append(f"put back   {counted(vertices=choice.outliers)} that stood out")
+        lines.append(f"outliers   {counted(vertices=choice.outliers)} moved back")
     if choice.ripples:
         waves = ", ".join(f"{length * edge:.2g}" for length in choice.ripples)
-        lines.append(f"took away  waves of {waves} {unit}".rstrip() + " across the whole mesh")
+        lines.append(f"removed    waves of {waves} {unit}".rstrip() + " across the whole mesh")
     if not choice.steps:
         if not (choice.outliers or choice.ripples):
-            line = "steadied   " if choice.kind == "unsteady" else "left       as it was: "
+            line = "steadied   " if choice.kind == "unsteady" else "unchanged  "
             lines.append(f"{line}{choice.reason}")
             if choice.kind != "unsteady":
                 ask = "--hand-over none --iterations 5 --force"
-                lines.append(f"           if you see noise nevertheless, ask for a filter: bsm denoise IN {ask}")
+                lines.append(f"           if you see noise, choose a filter: bsm denoise IN {ask}")
         return lines
     noise = choice.noise
     lines.append(f"found      {choice.reason}")
@@ -242,12 +242,12 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     if goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
     elif not choice.reliable:
-        line += "; how far off normals are cannot be estimated here"
+        line += "; the normal error cannot be estimated here"
     elif choice.kind != "unsteady":
         least, most = round(choice.expected), round(choice.at_most)
         then = "below 2" if most < 2 else f"{least} to {most}" if least < most else f"{least}"
         line += f"; normals about {choice.untreated:.0f} -> {then} degrees off"
-        line += ", the more the finer the detail" if least < most else ""
+        line += ", more for finer detail" if least < most else ""
     lines.append(line)
     for step, times in Counter(choice.steps).items():
         share = times / len(choice.steps) * (1.0 - choice.learnt)

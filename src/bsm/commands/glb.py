@@ -25,12 +25,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="OUT.glb", required=True, help="the compressed scene")
     promised = "quality of each mesh (default: grid14, as exact as Draco with 14 bits)"
     add("--preset", choices=PRESETS, default=PRESETS[-1], help=promised)
-    quick = "code grids only: pages decode them several times as fast, with a small decoder "
+    quick = "code only grids: pages decode them several times as fast, with a small decoder "
     quick += f"(default: for scenes of {MANY} primitives and more)"
     add("--quick", action=argparse.BooleanOptionalAction, help=quick)
     kept = "quality of an attribute in the words of glTF (TEXCOORD_0=14bits, _ID=exact, COLOR_0=none); repeatable"
     add("--attribute", action="append", default=[], metavar="NAME=QUALITY", help=kept)
-    shared = "one grid for all meshes that are scaled and turned alike, so that what touches goes on touching"
+    shared = "one grid for all meshes with equal scale and rotation, so that touching meshes still touch"
     add("--one-grid", action="store_true", help=shared)
     add(
         "-j",
@@ -51,16 +51,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> None:
     rule = ImageRule.parse(args.images) if args.images else None
     if Path(args.output).suffix.lower() != ".glb":
-        raise OptionError(f"the output is a .glb, not {args.output}")
+        raise OptionError(f"{args.output}: the output must be a .glb")
     if is_stream(args.input):
         if any((args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)) or (
             args.preset != PRESETS[-1]
         ):
-            raise OptionError("a stream is wrapped unchanged: only -o, -f and -q apply")
+            raise OptionError("a stream is wrapped unchanged; only -o, -f and -q apply")
         stream = read_bytes(args.input)
         scene = moving_scene(stream)
         write_output(args.output, scene, overwrite=args.force)
-        console.note(f"{args.input} -> {args.output}: a mesh that moves, {len(stream)} -> {len(scene)} bytes")
+        console.note(f"{args.input} -> {args.output}: a sequence, {len(stream)} -> {len(scene)} bytes")
         return
     document = read_document(args.input)
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
@@ -78,7 +78,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     write_output(args.output, found.data, overwrite=args.force)
     console.note(
         f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
-        f"{document.received} -> {len(found.data)} bytes; the farthest vertex is {found.error[0]:.3g} off, at most "
+        f"{document.received} -> {len(found.data)} bytes; largest vertex error {found.error[0]:.3g}, at most "
         f"{100 * found.error[1]:.3g} % of the diagonal of its component"
     )
     if found.error[1] > VISIBLE:
@@ -90,7 +90,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if not rule and 2 * images > len(found.data):
         console.note(f"{args.input}: {images} bytes are unchanged images; --images webp:85 makes them smaller")
     for reason, count in found.left.items():
-        console.note(f"{args.input}: {count} stayed as {'it was' if count == 1 else 'they were'}: {reason}")
+        console.note(f"{args.input}: {count} unchanged: {reason}")
 
 
 def _qualities(args: argparse.Namespace) -> dict[str, str]:
@@ -98,7 +98,7 @@ def _qualities(args: argparse.Namespace) -> dict[str, str]:
     found = dict(entry.partition("=")[::2] for entry in args.attribute)
     for name, quality in found.items():
         if not name or not quality or quality == "recompute":
-            raise OptionError(f"--attribute {name}={quality}: write NAME=QUALITY; scenes have no recompute")
+            raise OptionError(f"--attribute {name}={quality}: give NAME=QUALITY; recompute is not for scenes")
         if quality == "none" and not name.startswith(("NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "_")):
-            raise OptionError(f"--attribute {name}=none: without {name} the scene would be another; name the others")
+            raise OptionError(f"--attribute {name}=none: a scene needs {name}")
     return found

@@ -98,7 +98,7 @@ def _worded(summary: Facts) -> str:
     shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
     rates = []
     if not summary["frames"]:
-        rates = [f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"]
+        rates = [f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"]
         packed, *_ = summary["header"]["paper"] or (0,)
         rates[0] += f", {summary['bpv_paper']:.3f} by the paper's formula" if packed else ""
     counts = summary["metadata_bytes"]
@@ -111,7 +111,7 @@ def _worded(summary: Facts) -> str:
         positions = f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
         positions += f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     lines = [
-        f"version {summary['version']}, {', '.join(summary['extensions']) or 'the core alone'}: "
+        f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "
         f"{summary['vertices']} vertices, {summary['faces']} faces",
         positions,
         *_sequence_lines(summary),

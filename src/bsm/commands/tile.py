@@ -76,7 +76,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> int:
-    """Do the work in folders that this process holds; `left`: a killed process held one before."""
+    """Do the work in folders that this process has locked; `left`: a killed process had locked one before."""
     unfinished = is_unfinished(args.output)
     if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
         message = "these tiles are unfinished: --resume continues, -f starts again"
@@ -118,9 +118,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     finally:
         state.update(sys.float_info.max)
     if failed := [facts for facts in done if "error" in facts]:
-        console.note(
-            f"{len(failed)} of {len(done)} tiles failed; --resume makes these again, and the tiles made of them"
-        )
+        console.note(f"{len(failed)} of {len(done)} tiles failed; --resume repeats these and the tiles above them")
         return int(failed[0]["exit"])
     done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
     state.write()
@@ -139,14 +137,14 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
 
 
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
-    """The plan of a run that is gone on with, or that of a new one."""
+    """Return the plan of the resumed run, or of a new one."""
     options: dict[str, Any] = {name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin")}
     asked_for = repr((options, state_of(args.input)))
     note = work / NOTE
     if args.resume and (work / "plan.json").is_file():
         if note.read_text() != asked_for:
             raise FormatError(
-                f"{work} belongs to another mesh or other options: leave out --resume, or name another --work"
+                f"{work} belongs to another mesh or other options; leave out --resume, or give another --work"
             )
         return load_plan(work / "plan.json")
     remove_made(work)

@@ -1,4 +1,4 @@
-"""bsm untile: one mesh out of a folder of tiles."""
+"""bsm untile: join a folder of tiles into one mesh."""
 
 import argparse
 from pathlib import Path
@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("input", metavar="FOLDER", help="folder of tiles, or its URL")
     output = ".ply of any size, - for a pipe, or .../tileset.json (3D Tiles). Other formats must fit into memory"
     add("-o", "--output", metavar="OUT", required=True, help=output)
-    reaching = "only triangles that reach into this box; they must fit into memory"
+    reaching = "only triangles that meet this box; they must fit into memory"
     add("--box", type=numbers(6), metavar="X,Y,Z,X,Y,Z", help=reaching)
     of = parser.add_mutually_exclusive_group()
     of.add_argument("--level", type=int, metavar="N", help="level of detail; 0 is the coarsest (default: the finest)")
@@ -31,13 +31,13 @@ def run(args: argparse.Namespace, console: Console) -> None:
     tiles = open_tiles(args.input, limits_of(args.limits))
     refuse_to_overwrite(args.output, args.force)
     if args.content != CONTENTS[0] and Path(args.output).name != TILESET:
-        raise OptionError(f"--content says how {TILESET} has its tiles; the output is {args.output}")
+        raise OptionError(f"--content is for {TILESET}; the output is {args.output}")
     levels = [level["level"] for level in tiles.manifest["levels"]]
     if args.level is not None and not levels[0] <= args.level <= levels[-1]:
-        raise OptionError(f"--level {args.level}: these tiles have the levels {levels[0]} to {levels[-1]}")
+        raise OptionError(f"--level {args.level}: these tiles have levels {levels[0]} to {levels[-1]}")
     if Path(args.output).name == TILESET:
         if args.box or args.level is not None or args.error is not None:
-            raise OptionError(f"{TILESET} is of all tiles: no --box, --level or --error")
+            raise OptionError(f"{TILESET} contains all tiles; leave out --box, --level and --error")
         folder = args.output[: -len(TILESET)].rstrip("/") or "."
         count = write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
         console.note(f"{args.input} -> {args.output}: {counted(tiles=count)} as GLB")

@@ -1,4 +1,4 @@
-"""bsm verify: whether streams are whole and can be decoded."""
+"""bsm verify: check that streams are complete and can be decoded."""
 
 import argparse
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from bsm.tiles.shards import is_tiles, open_tiles
 
 @dataclass(frozen=True, kw_only=True)
 class VerifyJob(Task):
-    """What `bsm verify` is asked for: the limits, and whether only structure is checked."""
+    """The task of `bsm verify`: the limits, and whether only structure is checked."""
 
     seconds_of_megabyte = 10.0
     limits: str = "default"
@@ -46,7 +46,7 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
         if not args.quick:
             decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
     checked = not args.quick and info.checksum is not None
-    checksum, size = ", positions as the encoder saw them" if checked else "", info.sizes["total"]
+    checksum, size = ", positions match the encoder's" if checked else "", info.sizes["total"]
     console.note(f"{args.input}: whole, {counted(blocks=info.header.blocks)}, {size} bytes{checksum}")
     return {"input": args.input, "ok": True, "decoded": not args.quick, "checked": checked, "bytes": size}
 

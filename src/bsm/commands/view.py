@@ -41,9 +41,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.follow and (args.save or args.original):
-        raise OptionError(f"{'--save' if args.save else '--original'} needs complete streams: no --follow")
+        raise OptionError(f"{'--save' if args.save else '--original'} needs complete streams; leave out --follow")
     if (args.save or args.original or args.follow) and any(map(is_tiles, args.inputs)):
-        raise OptionError("tiles are loaded on demand: no --save, --original or --follow")
+        raise OptionError("tiles are loaded on demand; leave out --save, --original and --follow")
     if args.original and len(args.inputs) != 1:
         raise OptionError("--original is for one input")
     with console.progress("reading and comparing") as progress:
@@ -68,7 +68,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _opened(
     name: str, path: str, args: argparse.Namespace, console: Console, progress: Progress
 ) -> Content | Growing | Tiled:
-    """An input; a damaged stream is for the page to tell, unless it is to be compared, or the page to be kept."""
+    """Open an input. The page reports a damaged stream, unless it is compared or the page is saved."""
     if is_tiles(path):
         manifest = open_tiles(path, limits_of(args.limits)).manifest
         shards = {shard["file"]: Ranged(path, shard["file"], shard["size"]) for shard in manifest["shards"]}
@@ -93,7 +93,7 @@ def _opened(
             source = read_mesh(path).mesh
         content = made(name, size_of(path), source, args.preset, progress.stage)
     size = content.layers[content.main].size
-    console.note(f"{path}: {size} bytes as a stream of the preset {args.preset}")
+    console.note(f"{path}: {size} bytes as a stream with preset {args.preset}")
     return content
 
 
@@ -107,7 +107,7 @@ def _growing(name: str, path: str) -> Growing:
 
 
 def _named(paths: list[str]) -> dict[str, str]:
-    """Paths under names of their own."""
+    """Return paths by unique names."""
     named: dict[str, str] = {}
     for path in paths:
         name = Path(path).name

@@ -560,7 +560,7 @@ def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
     figure = new_figure(7.0, 4.0)
     axes = figure.subplots()
     axes.grid(alpha=0.3)
-    for name, label in (("max_error_relative", "farthest vertex"), ("rms_relative", "root mean square")):
+    for name, label in (("max_error_relative", "largest vertex error"), ("rms_relative", "root mean square")):
         axes.plot([100.0 * frame[name] for frame in frames], lw=1.2, label=label)
     axes.set_ylim(bottom=0.0)
     axes.set(xlabel="frame", ylabel="% of the diagonal", title=title)
