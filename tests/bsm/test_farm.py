@@ -358,25 +358,6 @@ def test_a_report_holds_bounds_that_are_infinite(sources, tmp_path):
     assert "error" not in first[0] and "resumed" in again[0]
 
 
-def test_what_was_written_and_not_yet_reported_is_known_again(sources, tmp_path):
-    """A run that is killed between an output and its line in the report."""
-    output, report = tmp_path / "out", tmp_path / "r.json"
-    bsm.encode_many(sources[:2], output, report=report, grid=8)
-    content = json.loads(report.read_text())
-    forged(
-        report,
-        content["command"],
-        content["options"],
-        *({k: f[k] for k in ("input", "output")} for f in content["files"]),
-    )
-    before = {path.name: path.stat().st_mtime_ns for path in output.iterdir()}
-    done = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
-    assert not any("error" in facts for facts in done)
-    assert {path.name: path.stat().st_mtime_ns for path in output.iterdir()} == before
-    again = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
-    assert all("resumed" in facts for facts in again)
-
-
 NOBODYS = Path("/sys/kernel")
 """A folder in which not even root makes files."""
 

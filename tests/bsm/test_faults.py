@@ -82,20 +82,6 @@ def test_the_reader_of_a_pipe_goes_away(command, folder):
     assert (done.returncode, done.stderr) == (141, b"")
 
 
-def test_a_read_only_folder(folder, tmp_path):
-    tmp_path.chmod(0o555)
-    closed = tmp_path
-    if os.access(tmp_path, os.W_OK):  # nothing is closed to the superuser but what is no disk
-        closed = Path("/proc")
-        if not closed.is_dir():
-            pytest.skip("the superuser may write everywhere")
-    done = run("encode", folder / "sample.ply", "-o", closed / "a.bsm", *OPTIONS["encode"])
-    tmp_path.chmod(0o755)
-    assert done.returncode == 9
-    assert str(closed) in printed(done)
-    assert not (closed / "a.bsm").exists()
-
-
 def test_a_file_that_is_replaced_is_whole_or_the_old_one(folder, tmp_path):
     output = tmp_path / "a.ply"
     output.write_bytes(b"old")

@@ -105,17 +105,3 @@ def test_curves_are_measured_beside_ours():
     assert [len(result["points"]) for result in found.values()] == [3, 3]
     with pytest.raises(bsm.OptionError, match="choose another one"):
         research.curves(MESH, {"ours": research.Idea()})
-
-
-def test_blocks_are_those_that_encode_meets():
-    soup = bsm.TriangleMesh(MESH.positions[MESH.faces].reshape(-1, 3), np.arange(3 * len(MESH.faces)).reshape(-1, 3))
-    met = []
-
-    def noted(site, width):
-        met.append(site.vertices)
-        return site.ours(width)
-
-    research.encode(soup, research.Idea(noted), bits=12, threads=1)
-    found = [block.site.vertices for block in research.blocks(soup, bits=12)]
-    assert 0 < len(found) == len(met) / 2  # it is encoded twice
-    assert all(map(np.array_equal, found, met))

@@ -1,5 +1,6 @@
 """Small files that take long to encode: their pictures are bounded, and the search for worse ones is sound."""
 
+import json
 from contextlib import suppress
 from random import Random
 
@@ -8,6 +9,7 @@ import pytest
 import bsm
 from bsm.codec.look.measure import LookMetric
 from tools.attack.costly import Recipe, changed, drawn, encoded, search
+from tools.attack.manifests import Folder, used, walk
 
 FEWER = 2.5e8  # samples that a search may draw, about a second
 WORST = 6e8  # and where it looks at attributes, too
@@ -60,3 +62,21 @@ def test_what_is_drawn_for_the_worst_files_that_a_search_has_found_is_bounded(me
         bsm.encode(bsm.load(recipe.ply), preset=recipe.preset, threads=1)
     drawn = sum(metric._drawn_pictures * metric._size.work for metric in metrics)
     assert 0 < drawn < WORST
+
+
+def test_mutated_manifests_end_in_results_or_errors_of_ours():
+    assert not list(walk(60, "sample"))
+
+
+@pytest.mark.slow
+def test_many_mutated_manifests_end_in_results_or_errors_of_ours():
+    assert not list(walk(2000, "many"))
+
+
+def test_a_sound_folder_is_used_and_what_escapes_is_seen(tmp_path, monkeypatch):
+    folder = Folder(tmp_path / "tiles")
+    used(str(folder.path))
+    assert json.loads((folder.path / "manifest.json").read_text()) == folder.manifest
+    monkeypatch.setattr("tools.attack.manifests.used", lambda path: 1 // 0)
+    (problem,) = walk(1, "a")
+    assert "ZeroDivisionError" in problem

@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -10,8 +11,9 @@ from bsm import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
 from tools.attack.growth import growth
-from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up
+from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up, written
 from tools.attack.taken import Taken
+from tools.attack.uses import cases, uses
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 
@@ -73,3 +75,17 @@ def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
     tree["accessors"][0]["count"] = 10**400
     (tmp_path / "a.gltf").write_text(json.dumps(tree))
     assert "Error: " in read_all(tmp_path / "a.gltf", Limits()).outcome
+
+
+USES = dict(uses())
+
+
+@pytest.mark.parametrize("name", USES)
+def test_a_few_uses_are_read(name, tmp_path):
+    taken = read_all(written(USES[name](2000, 3), Path(tmp_path))[0], Limits())
+    assert taken.outcome == "read" or "instancing" in name or "PointInstancer" in taken.outcome, taken.outcome
+
+
+def test_files_have_the_size_that_is_asked_for():
+    sizes = {case.name: len(case.make().data) for case in cases(20_000, (0.5,))}
+    assert all(2000 < size < 40_000 for size in sizes.values()), sizes

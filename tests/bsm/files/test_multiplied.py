@@ -1,13 +1,20 @@
 """Files that become much more than their bytes: counted in triangles and vertices before these are made."""
 
+import gzip
+import io
 import sys
+import zipfile
 
+import numpy as np
 import pytest
 
-from bsm import LimitError, Limits, MeshError
-from bsm.files.mesh import read_mesh
+from bsm import CorruptError, LimitError, Limits, MeshError, TruncatedError
+from bsm.files.mesh import format_mesh, format_of_bytes, read_mesh
+from bsm.files.room import gunzipped
 from tests.bsm.program import bsm
+from tests.streams import peak_of
 from tools.attack.readers import Case, _grown, chained_objects, problems, three_mf, warm_up
+from tools.vectors.meshes import torus
 
 LARGE = (
     *("ply, quads of bytes", "ply, long polygons of bytes", "glb, accessors of no bytes"),
@@ -64,3 +71,109 @@ def test_an_element_without_properties_is_no_obstacle_to_tiles(tmp_path):
     (tmp_path / "a.ply").write_bytes((head + lists).encode() + body)
     done = bsm("tile", tmp_path / "a.ply", "-o", tmp_path / "t")
     assert done.returncode == 0, done.stderr
+
+
+MIB = 1 << 20
+SMALL = Limits(memory=8 * MIB)
+TEXTS = {
+    "vertices": ("obj", b"v 0 0 0\n"),
+    "empty lines": ("obj", b"\n"),
+    "words": ("obj", b"f" + b" 1" * 200_000 + b"\n"),
+    "corners": ("obj", b"f" + b" 1/1/1" * 100_000 + b"\n"),
+    "keywords": ("obj", b"a\n"),
+    "off": ("off", b"OFF\n1 1\n" + b"0 0 0\n" * 200_000),
+    "ply": ("ply", b"ply\nformat ascii 1.0\nelement vertex 1\nend_header\n" + b"1\n" * 300_000),
+    "stl": ("stl", b"solid\n" + b"x\n" * 300_000),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_texts_take_what_is_granted_or_are_refused(name):
+    kind, piece = TEXTS[name]
+    data = piece * max(1, 500_000 // len(piece))
+
+    def read():
+        with pytest.raises((LimitError, MeshError, TruncatedError, CorruptError, ValueError)):
+            read_mesh(data, kind, SMALL)
+
+    granted = SMALL.memory_for(data.count(b"\n") // 3, len(data))
+    assert peak_of(read) < granted + 4 * MIB
+
+
+def test_more_vertices_than_granted_are_refused_before_they_are_numbers():
+    data = b"v 0 0 0\n" * 100_000
+
+    def read():
+        with pytest.raises(LimitError, match="vertices"):
+            read_mesh(data, "obj", Limits(vertices=1000))
+
+    assert peak_of(read) < 4 * MIB
+
+
+def test_what_gzip_has_compressed_is_bounded():
+    bomb = gzip.compress(b"v 0 0 0\n" * 8_000_000)
+
+    def read():
+        with pytest.raises(LimitError, match="compressed bytes"):
+            read_mesh(bomb, limits=SMALL)
+
+    assert peak_of(read) < 2 * SMALL.memory_for(0, len(bomb)) + 4 * MIB
+
+
+def test_gzip_of_several_members():
+    mesh = torus(6, 6)
+    text = format_mesh(mesh, "obj")
+    both = gzip.compress(text[:100]) + gzip.compress(text[100:]) + bytes(10)
+    assert gunzipped(both, Limits()) == text
+    with pytest.raises(TruncatedError):
+        gunzipped(both[:40], Limits())
+    with pytest.raises(CorruptError):
+        gunzipped(both[:20] + b"\xff" * 40 + both[60:], Limits())
+
+
+def archive_of(**arrays):
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize("name", ["positions", "faces", "extra", "metadata"])
+def test_arrays_of_an_npz_are_bounded(name):
+    mesh = torus(6, 6)
+    arrays = {"positions": mesh.positions, "faces": mesh.faces}
+    arrays[name] = np.zeros(30_000_000, np.uint8) if name == "metadata" else np.zeros((2_000_000, 3))
+    data = archive_of(**arrays)
+
+    def read():
+        try:
+            found = read_mesh(data, "npz", SMALL)
+        except LimitError:
+            return
+        assert found.dropped == (name,)
+
+    assert peak_of(read) < SMALL.memory_for(0, len(data))
+
+
+def test_archives_for_other_readers_are_bounded():
+    pytest.importorskip("trimesh")
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("3D/3dmodel.model", b"<model>" + b" " * 50_000_000)
+    with pytest.raises(LimitError, match="compressed bytes"):
+        read_mesh(buffer.getvalue(), "3mf", SMALL)
+
+
+@pytest.mark.parametrize("piece", [b"\n", b" \n", b"\r\n", b"\n ", b"v", b" v\n"])
+def test_looking_at_content_is_linear(piece):
+    from time import thread_time
+
+    data = piece * (65536 // len(piece))
+    begin = thread_time()
+    format_of_bytes(data)
+    assert thread_time() - begin < 0.25
+
+
+def test_an_obj_is_known_by_its_content():
+    assert format_of_bytes(b"# remark\n\n  v 0 0 0\n") == "obj"
+    assert format_of_bytes(b"v\t0 0 0") == "obj"
+    assert format_of_bytes(b"vt 0 0\n") is None

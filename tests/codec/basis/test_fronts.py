@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -7,17 +6,10 @@ from hypothesis.extra import numpy as hnp
 from bsm.codec import _kernels
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, find_fronts, laplacian_of, solving_room
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.blocks.overlap import Block, derive_partition, grow_blocks
+from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
-from tests.shapes import torus
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 150), st.just(3)), elements=st.integers(0, 69))
-
-
-def whole(faces, size):
-    """All of a mesh as one block, its rows in bisection order."""
-    graph = graph_of_faces(faces, size)
-    return grow_blocks(graph, derive_partition(graph, 1), size).block(0)
 
 
 def solve(factor, columns):
@@ -72,12 +64,3 @@ def test_any_graph_can_be_solved(faces, shift):
     expected = np.linalg.solve(shifted, columns)
     found = solve(factorize(laplacian_of(block), shift), columns)
     assert np.allclose(found, expected, rtol=0, atol=1e-4 / shift**0.5 * np.abs(expected).max())
-
-
-@pytest.mark.parametrize("columns", [1, 31, 32, 33, 100])
-def test_solving_with_a_shift_for_every_row(columns):
-    block = whole(torus().faces, 960)
-    springs = 0.01 + np.abs(hash_columns(960, 1)[:, 0])
-    right = hash_columns(960, columns)
-    expected = np.linalg.solve(dense_laplacian(block) + np.diag(springs), right)
-    assert np.allclose(solve(factorize(laplacian_of(block), springs), right), expected, rtol=1e-4, atol=1e-4)

@@ -174,29 +174,6 @@ def test_what_meshes_take_does_not_grow_with_their_number():
     assert many < 1.5 * few and these < 1.5 * those
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_the_encoder_counts_what_decoders_keep(way, monkeypatch):
-    counted = []
-    own = bsm.SequenceEncoder._run
-
-    def noted(self, run, index, meshes, options, tell):
-        yield from own(self, run, index, meshes, options, tell)
-        counted.append((meshes.kept.memory, meshes.kept.vertices))
-
-    monkeypatch.setattr(bsm.SequenceEncoder, "_run", noted)
-    data = b"".join(encoded(meshes(*PIECES), **way)[1])
-    seen = []
-    with bsm.SequenceDecoder(threads=1) as decoder:
-        decoder.receive_data(data)
-        while not isinstance(event := decoder.next_event(), bsm.Signal):
-            if isinstance(event, bsm.HeaderEvent):
-                *_, vertices, _, memory = decoder._open.state()
-                seen.append((memory, vertices))
-    for (own_memory, own_vertices), (memory, vertices) in zip(counted[:-1], seen[1:], strict=True):
-        assert own_vertices == vertices
-        assert memory - 8 * vertices <= own_memory <= memory
-
-
 # --------------------------------------------------------------------------------------------------- any kind of frame
 
 

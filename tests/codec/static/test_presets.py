@@ -8,11 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import PRESETS, BsmError, Encoder, MeshError, TriangleMesh, decode
+from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode
+from bsm.codec.geometry.metrics import Reference
 from bsm.codec.look.measure import look
+from bsm.codec.static.options import changed
+from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
-from tests.shapes import torus
+from tests.shapes import patch, torus
 
 PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
 ORDER = ("small", "balanced", "fine", "near-lossless")
@@ -81,3 +84,22 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
     most = UNEVEN.get(name, 1.0)
     assert all(coarser <= most * finer + FEW for coarser, finer in pairwise(sizes)), sizes
     assert all(finer <= coarser * math.exp(0.03) for coarser, finer in pairwise(looks)), looks
+
+
+def test_only_the_mode_of_the_paper_has_overlap_unless_it_is_asked_for():
+    assert EncodeOptions().growth == 1.0
+    assert changed(EncodeOptions(), bits=12).growth == 1.15
+    assert changed(EncodeOptions(overlap=1.0), bits=12).growth == EncodeOptions(overlap=1.0).growth == 1.0
+
+
+@pytest.mark.parametrize(("power", "most"), [(1, 1.4), (2, 0.8)])
+def test_orthogonal_iterations_are_near_the_exact_basis(power, most):
+    mesh = patch(45, 45)
+    reference = Reference(mesh.positions, mesh.faces)
+
+    def nmsve_db(**how):
+        return measure(Spectral(paper_options(block_size=300, keep=0.1, **how)), mesh, reference)["nmsve_db"]
+
+    exact, ours = nmsve_db(**EXACT_BASES), nmsve_db(power=power)
+    assert exact <= ours <= exact + most
+    assert ours <= nmsve_db(power=power, overlap=1.0)
