@@ -34,12 +34,12 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_922,
-    "product Python, lines": 33_628,
+    "product in all languages, lines": 62_660,
+    "product Python, lines": 33_430,
     "product C and C++, lines": 21_650,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_728,
-    "product lines over 120 columns": 233,
+    "product lines over 120 columns": 232,
     "all Python, lines": 74_838,
     "product modules": 201,
     "product C files and headers": 74,
