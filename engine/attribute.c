@@ -1,6 +1,8 @@
 /* Values of attributes, from whole numbers to what the user is given (specification, D 4). */
 #include "engine/attribute.h"
 
+#include "codec/geometry/geometry.h"
+
 enum { MOST_WHOLE = (1 << 20) - 1, PIECE_BITS = 16 };
 
 bool take_values(Arena *arena, const Attribute *attribute, void **values) {
@@ -124,15 +126,6 @@ bool restore_values(Context *context, Attribute *attribute, int64_t first, int64
     return true;
 }
 
-static void cross_of(const double *a, const double *b, const double *c, double *across) {
-    double u[3], v[3];
-    for (int d = 0; d < 3; d++) u[d] = b[d] - a[d], v[d] = c[d] - a[d];
-    for (int d = 0; d < 3; d++) {
-        double plus = u[(d + 1) % 3] * v[(d + 2) % 3], minus = u[(d + 2) % 3] * v[(d + 1) % 3];
-        across[d] = plus - minus;
-    }
-}
-
 bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch) {
     int64_t rows = attribute->rows;
     Doubles2 sums; /* of first corners, second ones, third ones */
@@ -142,7 +135,7 @@ bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch) {
         const double *at[3];
         double across[3];
         for (int k = 0; k < 3; k++) at[k] = positions.data + 3 * (int64_t)attribute->vertices.data[face[k]];
-        cross_of(at[0], at[1], at[2], across);
+        cross3(at[0], at[1], at[2], across);
         for (int k = 0; k < 3; k++)
             for (int d = 0; d < 3; d++) sums.data[3 * (k * rows + face[k]) + d] += across[d];
     }

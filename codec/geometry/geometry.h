@@ -9,6 +9,20 @@ INLINE bool fits_graph(ConstInts offsets, ConstInts neighbors) {
     return offsets.size > 0 && offsets.data[offsets.size - 1] >= 0 && neighbors.size >= offsets.data[offsets.size - 1];
 }
 
+INLINE double dot3(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* The normal of a triangle, as long as twice its area. */
+INLINE void cross3(const double *a, const double *b, const double *c, double *n) {
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    n[0] = uy * vz - uz * vy;
+    n[1] = uz * vx - ux * vz;
+    n[2] = ux * vy - uy * vx;
+}
+
+INLINE void cross_of_face(const double *positions, const int32_t *face, double *n) {
+    cross3(positions + 3 * (int64_t)face[0], positions + 3 * (int64_t)face[1], positions + 3 * (int64_t)face[2], n);
+}
+
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
 int64_t component_sizes(ConstInts offsets, ConstInts neighbors, Bytes seen, Ints waiting, Ints sizes);
 int64_t reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);

@@ -1,30 +1,13 @@
 /* Normals of faces, what those of vertices are made of, and the geometric Laplacian of NMSVE (paper, section 8). */
 #include "codec/geometry/geometry.h"
 
-/* The cross product of two edges of a face, and its length: twice the area. */
-typedef struct {
-    double x, y, z, length;
-} Cross;
-
-static Cross cross_of(ConstDoubles2 positions, const int32_t *face) {
-    const double *a = positions.data + 3 * (int64_t)face[0];
-    const double *b = positions.data + 3 * (int64_t)face[1];
-    const double *c = positions.data + 3 * (int64_t)face[2];
-    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    return (Cross){x, y, z, __builtin_sqrt(x * x + y * y + z * z)};
-}
-
 /* Unit normals; zero where a face has no area. */
 void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals) {
     for (int64_t f = 0; f < least(faces.rows, normals.rows); f++) {
-        const int32_t *face = faces.data + 3 * f;
-        const Cross cross = cross_of(positions, face);
         double *normal = normals.data + 3 * f;
-        normal[0] = cross.length > 0.0 ? cross.x / cross.length : 0.0;
-        normal[1] = cross.length > 0.0 ? cross.y / cross.length : 0.0;
-        normal[2] = cross.length > 0.0 ? cross.z / cross.length : 0.0;
+        cross_of_face(positions.data, faces.data + 3 * f, normal);
+        double length = __builtin_sqrt(dot3(normal, normal));
+        for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? normal[d] / length : 0.0;
     }
 }
 
@@ -38,23 +21,20 @@ double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 f
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         if (largest(face[0], largest(face[1], face[2])) >= n || least(face[0], least(face[1], face[2])) < 0) return 0.0;
-        const Cross own = cross_of(original, face), other = cross_of(decoded, face);
+        double own[3], other[3];
+        cross_of_face(original.data, face, own);
+        cross_of_face(decoded.data, face, other);
+        double length = __builtin_sqrt(dot3(own, own));
         for (int k = 0; k < 3; k++) {
             double *sums = around.data + 7 * (int64_t)face[k];
-            sums[0] += own.x;
-            sums[1] += own.y;
-            sums[2] += own.z;
-            sums[3] += other.x;
-            sums[4] += other.y;
-            sums[5] += other.z;
-            sums[6] += own.length;
+            for (int d = 0; d < 3; d++) sums[d] += own[d], sums[3 + d] += other[d];
+            sums[6] += length;
         }
     }
     for (int64_t v = 0; v < n; v++) {
         const double *a = around.data + 7 * v, *b = a + 3;
-        double lengths = __builtin_sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-        lengths *= __builtin_sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-        double cosine = lengths > 0.0 ? (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / lengths : 0.0;
+        double lengths = __builtin_sqrt(dot3(a, a)) * __builtin_sqrt(dot3(b, b));
+        double cosine = lengths > 0.0 ? dot3(a, b) / lengths : 0.0;
         apart += a[6] * __builtin_sqrt(cosine < 1.0 ? 1.0 - cosine : 0.0);
         total += a[6];
     }

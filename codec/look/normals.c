@@ -1,15 +1,6 @@
 /* Normals as viewers shade: at each corner of a face those of the faces around its vertex, but not across creases. */
+#include "codec/geometry/geometry.h"
 #include "codec/look/look.h"
-
-INLINE void cross_product(const double *a, const double *b, const double *c, double *n) {
-    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    n[0] = uy * vz - uz * vy;
-    n[1] = uz * vx - ux * vz;
-    n[2] = ux * vy - uy * vx;
-}
-
-INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* The sum of the faces around a vertex; returns whether each is so near to it that no two of them have a crease
  * between. */
@@ -17,11 +8,11 @@ INLINE bool smoothly(const double *crosses, const int32_t *members, int64_t coun
     sum[0] = sum[1] = sum[2] = 0.0;
     for (int64_t i = 0; i < count; i++)
         for (int d = 0; d < 3; d++) sum[d] += crosses[4 * (int64_t)members[i] + d];
-    double bound = half * __builtin_sqrt(dot(sum, sum));
+    double bound = half * __builtin_sqrt(dot3(sum, sum));
     bool near = true;
     for (int64_t i = 0; i < count; i++) {
         const double *other = crosses + 4 * (int64_t)members[i];
-        near &= dot(sum, other) > bound * other[3];
+        near &= dot3(sum, other) > bound * other[3];
     }
     return near;
 }
@@ -34,7 +25,7 @@ INLINE void sum_around(const double *crosses, const int32_t *members, int64_t co
     for (int d = 0; d < 3; d++) sum[d] = own[d];
     for (int64_t i = 0; i < count; i++) {
         const double *other = crosses + 4 * (int64_t)members[i];
-        if (other == own || !(dot(own, other) > bound * other[3])) continue;
+        if (other == own || !(dot3(own, other) > bound * other[3])) continue;
         for (int d = 0; d < 3; d++) sum[d] += other[d];
     }
 }
@@ -59,11 +50,9 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
         if (faces.data[k] < 0 || faces.data[k] >= positions.rows || joined.data[k] < 0 || joined.data[k] >= n)
             return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
-        const int32_t *face = faces.data + 3 * f;
         double *own = crosses.data + 4 * f;
-        cross_product(positions.data + 3 * (int64_t)face[0], positions.data + 3 * (int64_t)face[1],
-                      positions.data + 3 * (int64_t)face[2], own);
-        own[3] = __builtin_sqrt(dot(own, own));
+        cross_of_face(positions.data, faces.data + 3 * f, own);
+        own[3] = __builtin_sqrt(dot3(own, own));
     }
     for (int64_t v = 0; v < n; v++) {
         int64_t from = starts.data[v], to = starts.data[v + 1];
@@ -75,7 +64,7 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
                 if (joined.data[3 * (int64_t)members[i] + k] != v) continue;
                 if (!smooth)
                     sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], cosine, sum);
-                double length = __builtin_sqrt(dot(sum, sum));
+                double length = __builtin_sqrt(dot3(sum, sum));
                 float *normal = normals.data + 9 * (int64_t)members[i] + 3 * k;
                 for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;
             }

@@ -2,19 +2,10 @@
  * nothing is compared: decoders whose positions differ by rounding get frames that differ by rounding. */
 #include "codec/signal/signal.h"
 
+#include "codec/geometry/geometry.h"
+
 /* Orthonormal. Few surfaces have a normal opposite the first, where the tangents turn fast. */
 static const double POLE[3] = {0.48, 0.6, 0.64}, TANGENTS[2][3] = {{-0.8, 0.0, 0.6}, {0.36, -0.8, 0.48}};
-
-INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/* Twice a face's area, along its normal. */
-INLINE void cross_of(ConstDoubles2 positions, const int32_t *face, double *across) {
-    const double *a = positions.data + 3 * (int64_t)face[0], *b = positions.data + 3 * (int64_t)face[1];
-    const double *c = positions.data + 3 * (int64_t)face[2];
-    double u[3], v[3];
-    for (int j = 0; j < 3; j++) u[j] = b[j] - a[j], v[j] = c[j] - a[j];
-    for (int j = 0; j < 3; j++) across[j] = u[(j + 1) % 3] * v[(j + 2) % 3] - u[(j + 2) % 3] * v[(j + 1) % 3];
-}
 
 /* Rows of `frames` are a vertex's normal and two tangents; `faces` are below the number of rows. */
 int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames) {
@@ -24,22 +15,22 @@ int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames)
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         double across[3];
-        cross_of(positions, face, across);
+        cross_of_face(positions.data, face, across);
         for (int j = 0; j < 3; j++)
             for (int k = 0; k < 3; k++) frames.data[9 * (int64_t)face[k] + j] += across[j];
     }
     double total = 0.0;
-    for (int64_t v = 0; v < frames.rows; v++) total += dot(frames.data + 9 * v, frames.data + 9 * v);
+    for (int64_t v = 0; v < frames.rows; v++) total += dot3(frames.data + 9 * v, frames.data + 9 * v);
     double soft = frames.rows ? __builtin_sqrt(total / (double)frames.rows) * 0x1p-10 + 0x1p-33 : 0.0;
     for (int64_t v = 0; v < frames.rows; v++) {
         double *normal = frames.data + 9 * v;
         for (int j = 0; j < 3; j++) normal[j] += soft * POLE[j];
-        double length = __builtin_sqrt(dot(normal, normal) + 0x1p-200);
+        double length = __builtin_sqrt(dot3(normal, normal) + 0x1p-200);
         for (int j = 0; j < 3; j++) normal[j] /= length;
-        double along = 1.0 + dot(POLE, normal);
+        double along = 1.0 + dot3(POLE, normal);
         if (along < 0x1p-20) along = 0x1p-20; /* continuous, too */
         for (int k = 0; k < 2; k++) {
-            double share = dot(TANGENTS[k], normal) / along;
+            double share = dot3(TANGENTS[k], normal) / along;
             for (int j = 0; j < 3; j++) normal[3 + 3 * k + j] = TANGENTS[k][j] - share * (POLE[j] + normal[j]);
         }
     }
@@ -55,12 +46,12 @@ KERNEL OFTEN static void add_bends(ConstDoubles2 positions, const int32_t *faces
     for (const int32_t *face = faces; face < faces + 3 * count; face += 3) {
         const double *corner[3];
         double across[3], rims[3][3], lengths[4];
-        cross_of(positions, face, across);
-        lengths[0] = dot(across, across);
+        cross_of_face(positions.data, face, across);
+        lengths[0] = dot3(across, across);
         for (int k = 0; k < 3; k++) corner[k] = positions.data + 3 * (int64_t)face[k];
         for (int k = 0; k < 3; k++) {
             for (int j = 0; j < 3; j++) rims[k][j] = corner[(k + 2) % 3][j] - corner[(k + 1) % 3][j];
-            lengths[1 + k] = dot(rims[k], rims[k]);
+            lengths[1 + k] = dot3(rims[k], rims[k]);
         }
         for (int k = 0; k < 4; k++) lengths[k] = __builtin_sqrt(lengths[k]);
         for (int k = 0; k < 3; k++) {
@@ -90,8 +81,8 @@ int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, do
      * corners, half of it of the others', and four times their number. */
     for (int64_t v = 0; v < n; v++) {
         double *at = scratch.data + 8 * v;
-        double open = __builtin_sqrt(dot(at + 4, at + 4)) / (at[7] + 0x1p-200);
-        at[0] = 1.0 - __builtin_sqrt(dot(at, at)) / (at[3] + 0x1p-200) + open;
+        double open = __builtin_sqrt(dot3(at + 4, at + 4)) / (at[7] + 0x1p-200);
+        at[0] = 1.0 - __builtin_sqrt(dot3(at, at)) / (at[3] + 0x1p-200) + open;
         at[1] = at[2] = 0.0;
     }
     for (int64_t f = 0; f < faces.rows; f++) {

@@ -2,21 +2,10 @@
  *
  * Viewers shade faces that are bent by less than some angle as one smooth surface, and others each by itself. Where the
  * bend is near that angle, an error that nobody would see turns one into the other, which is plain to see. */
+#include "codec/geometry/geometry.h"
 #include "codec/static/choice/choice.h"
 
 enum { SIDES = 3 };
-
-INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-INLINE void cross_of(const double *positions, const int32_t *face, double *n) {
-    const double *a = positions + 3 * (int64_t)face[0], *b = positions + 3 * (int64_t)face[1];
-    const double *c = positions + 3 * (int64_t)face[2];
-    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    n[0] = uy * vz - uz * vy;
-    n[1] = uz * vx - ux * vz;
-    n[2] = ux * vy - uy * vx;
-}
 
 INLINE bool has(const int32_t *face, int sides, int32_t vertex) {
     for (int k = 0; k < sides; k++)
@@ -65,8 +54,8 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstL
         if (around.data[i] < 0 || around.data[i] >= faces.rows) return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
         double *cross = crosses.data + 4 * f;
-        cross_of(positions.data, faces.data + SIDES * f, cross);
-        cross[3] = __builtin_sqrt(dot(cross, cross));
+        cross_of_face(positions.data, faces.data + SIDES * f, cross);
+        cross[3] = __builtin_sqrt(dot3(cross, cross));
     }
     for (int64_t v = 0; v < n; v++) {
         int64_t from = starts.data[v], to = starts.data[v + 1];
@@ -74,7 +63,7 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstL
             for (int64_t j = from; j < i; j++) {
                 const double *f = crosses.data + 4 * (int64_t)around.data[i],
                              *g = crosses.data + 4 * (int64_t)around.data[j];
-                double bend = dot(f, g), unit = f[3] * g[3];
+                double bend = dot3(f, g), unit = f[3] * g[3];
                 if (!(bend > least * unit && bend < largest * unit)) continue;
                 const int32_t *face = faces.data + SIDES * (int64_t)around.data[i];
                 const int32_t *other = faces.data + SIDES * (int64_t)around.data[j];
@@ -135,9 +124,9 @@ double wrong_creases(const Creases *c, const double *positions, int64_t vertex) 
     for (int32_t i = c->starts.data[vertex]; i < c->starts.data[vertex + 1]; i++) {
         int64_t pair = c->members.data[i];
         double f[3], g[3];
-        cross_of(positions, c->faces.data + SIDES * (int64_t)c->pairs.data[2 * pair], f);
-        cross_of(positions, c->faces.data + SIDES * (int64_t)c->pairs.data[2 * pair + 1], g);
-        bool sharp = !(dot(f, g) > c->cosine * __builtin_sqrt(dot(f, f) * dot(g, g)));
+        cross_of_face(positions, c->faces.data + SIDES * (int64_t)c->pairs.data[2 * pair], f);
+        cross_of_face(positions, c->faces.data + SIDES * (int64_t)c->pairs.data[2 * pair + 1], g);
+        bool sharp = !(dot3(f, g) > c->cosine * __builtin_sqrt(dot3(f, f) * dot3(g, g)));
         sum += sharp != (c->sharp.data[pair] != 0) ? c->costs.data[pair] : 0.0;
     }
     return sum;

@@ -2,6 +2,7 @@
  *
  * Coordinate descent, vertex after vertex and axis after axis, over the levels that may be best: the nearest one, that
  * of the neighbors, none, and those beside the one at hand. */
+#include "codec/geometry/geometry.h"
 #include "codec/static/choice/choice.h"
 
 /* levels that are compared; classes of surroundings; sizes of what is coded */
@@ -34,16 +35,14 @@ typedef struct {
     double across, more, error[3];
 } Vertex;
 
-INLINE double along(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 INLINE double loss_of(const Vertex *x, const double *error) {
-    double off = along(x->normal, error);
-    return x->more * off * off + x->across * along(error, error);
+    double off = dot3(x->normal, error);
+    return x->more * off * off + x->across * dot3(error, error);
 }
 
 /* The error along an axis that costs least beside those along others. */
 INLINE double best_error(const Vertex *x, int a) {
-    double own = x->normal[a], others = along(x->normal, x->error) - own * x->error[a];
+    double own = x->normal[a], others = dot3(x->normal, x->error) - own * x->error[a];
     double bend = x->more * own * own + x->across;
     return bend > 0.0 ? -x->more * own * others / bend : 0.0;
 }
@@ -120,7 +119,7 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
                 if (tried[i] == *level || tried[i] == before) continue;
                 double error[3] = {x.error[0], x.error[1], x.error[2]};
                 error[a] = step * tried[i] - offset;
-                double then = along(error, error), cost = loss_of(&x, error) + rate[size_of(tried[i], center)];
+                double then = dot3(error, error), cost = loss_of(&x, error) + rate[size_of(tried[i], center)];
                 if (cost >= best || (then > most && then > far)) continue;
                 if (hangs) {
                     place(frame, origin, error, at);

@@ -3,6 +3,7 @@
  * Coordinate descent, vertex after vertex: of the levels nearby, the one at which the faces around are bent least, by
  * area-weighted angle (as the chord, 2 sin(angle / 2)), and cheap to code. A vertex is looked at again when it or a
  * neighbor has moved. */
+#include "codec/geometry/geometry.h"
 #include "codec/static/choice/choice.h"
 
 enum { FAN = 32, LANES = 8 }; /* faces of one vertex that are looked at, and how many of them at once */
@@ -105,7 +106,7 @@ INLINE double bent_by(const Fan *fan, int a, float by) {
     return sum;
 }
 
-INLINE double square(const double *a, const double *b) {
+INLINE double apart(const double *a, const double *b) {
     return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
 }
 
@@ -145,7 +146,7 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
             gather(&wanted, now_at, v, &fan);
             double *at = moved.data + 3 * (int64_t)v, now = bent(&fan);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
-            double far = square(place, at);
+            double far = apart(place, at);
             int32_t first = wanted.beside_starts.data[v], end = wanted.beside_starts.data[v + 1];
             bool any = false;
             for (int a = 0; a < (int)axes; a++) {
@@ -158,7 +159,7 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
                 for (int by = -1; by <= 1; by += 2) {
                     double there[3];
                     for (int j = 0; j < 3; j++) there[j] = at[j] + by * direction[a][j];
-                    double away = square(place, there), most = now + stay - unit * size(*level + by - mean);
+                    double away = apart(place, there), most = now + stay - unit * size(*level + by - mean);
                     if ((away > reach && away > far) || most <= 0.0) continue;
                     double then = bent_by(&fan, a, (float)by);
                     if (then >= most) continue;
@@ -199,7 +200,7 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
             const double *place = wanted.positions.data + 3 * (int64_t)v;
             bool any = false;
             for (int a = 0; a < 3; a++) {
-                double rate[3] = {0.0}, direction[3] = {0.0}, stay = at[a], far = square(place, at), best, then = now;
+                double rate[3] = {0.0}, direction[3] = {0.0}, stay = at[a], far = apart(place, at), best, then = now;
                 for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++)
                     for (int d = -1; d <= 1; d++) {
                         int64_t bend = bends.data[3 * (int64_t)(members.data[i] >> 1) + a];
@@ -212,7 +213,7 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
                 int pick = 0;
                 for (int by = -1; by <= 1; by += 2) {
                     at[a] = stay + by * step;
-                    double away = square(place, at), cost = aim.worth * rate[by + 1];
+                    double away = apart(place, at), cost = aim.worth * rate[by + 1];
                     if ((away > reach && away > far) || cost >= best) continue;
                     double turned = bent_by(&fan, a, (float)by);
                     if (cost + turned < best) best = cost + turned, then = turned, pick = by;
@@ -252,21 +253,13 @@ INLINE double folded_by(const Fan *fan, const float *by, double over) {
     return sum;
 }
 
-/* Twice the area times the normal of a face. */
-INLINE void cross(const double *a, const double *b, const double *c, double *n) {
-    double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    n[0] = u[1] * w[2] - u[2] * w[1], n[1] = u[2] * w[0] - u[0] * w[2], n[2] = u[0] * w[1] - u[1] * w[0];
-}
-
-INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /* Whether an edge between two faces is folded by more than 90 degrees. The vertex `v` lies `there`. */
 INLINE bool is_folded(const double *positions, const int32_t *flap, int32_t v, const double *there) {
     const double *at[4];
     for (int k = 0; k < 4; k++) at[k] = flap[k] == v ? there : positions + 3 * (int64_t)flap[k];
     double n[3], m[3];
-    cross(at[0], at[1], at[2], n), cross(at[1], at[0], at[3], m);
-    return dot(n, m) < 0.0;
+    cross3(at[0], at[1], at[2], n), cross3(at[1], at[0], at[3], m);
+    return dot3(n, m) < 0.0;
 }
 
 /* How many edges between faces are folded by more than 90 degrees. */
@@ -326,9 +319,9 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
         const double *normal = wanted.normals.data + 3 * f, *at[3];
         for (int k = 0; k < 3; k++) at[k] = moved.data + 3 * (int64_t)face[k];
         double n[3];
-        cross(at[0], at[1], at[2], n);
-        double along = dot(normal, n);
-        for (int k = 0; k < 3 && (along < 0.0 || dot(n, n) > 4.0 * along * along); k++) open.data[face[k]] = 1;
+        cross3(at[0], at[1], at[2], n);
+        double along = dot3(normal, n);
+        for (int k = 0; k < 3 && (along < 0.0 || dot3(n, n) > 4.0 * along * along); k++) open.data[face[k]] = 1;
     }
     for (int64_t sweep = 0; sweep < UNFOLDING; sweep++)
         for (int32_t v = 0; v < (int32_t)levels.rows; v++) {
@@ -342,7 +335,7 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
             if (!any) continue;
             const double *direction = directions.data + (directions.rows == 1 ? 0 : 9 * (int64_t)v);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
-            double stay[3] = {at[0], at[1], at[2]}, far = square(place, at), most_far = reach.data[v] * reach.data[v];
+            double stay[3] = {at[0], at[1], at[2]}, far = apart(place, at), most_far = reach.data[v] * reach.data[v];
             for (int a = 0; a < 3; a++) find_turn(&fan, a, direction + 3 * a);
             double best = __builtin_inf();
             int pick[3] = {0};
@@ -353,7 +346,7 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
                     double there[3];
                     for (int j = 0; j < 3; j++)
                         there[j] = stay[j] + by[0] * direction[j] + by[1] * direction[3 + j] + by[2] * direction[6 + j];
-                    double away = square(place, there);
+                    double away = apart(place, there);
                     if (wide && away > most_far && away > far) continue;
                     double then = folded_by(&fan, by, over);
                     if (then >= best) continue;

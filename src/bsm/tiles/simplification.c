@@ -15,13 +15,6 @@ typedef struct {
     int32_t mark;
 } Surface;
 
-INLINE void cross_of(const double *a, const double *b, const double *c, double *n) {
-    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    n[0] = uy * vz - uz * vy;
-    n[1] = uz * vx - ux * vz;
-    n[2] = ux * vy - uy * vx;
-}
-
 /* The quadric of an area: xx, xy, xz, yy, yz, zz, then the linear terms, then the constant. */
 INLINE void add_plane(double *q, const double *n, double weight, const double *at) {
     double away = n[0] * at[0] + n[1] * at[1] + n[2] * at[2];
@@ -104,8 +97,8 @@ static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p
         }
         ++*others;
         double old[3], new[3], along = 0.0, old_square = 0.0, new_square = 0.0;
-        cross_of(before[0], before[1], before[2], old);
-        cross_of(after[0], after[1], after[2], new);
+        cross3(before[0], before[1], before[2], old);
+        cross3(after[0], after[1], after[2], new);
         for (int i = 0; i < 3; i++) {
             along += old[i] * new[i];
             old_square += old[i] * old[i];
@@ -199,7 +192,7 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadric
         const double *at[3];
         for (int i = 0; i < 3; i++) at[i] = positions.data + 3 * (int64_t)face[i];
         double n[3], squared = 0.0;
-        cross_of(at[0], at[1], at[2], n);
+        cross3(at[0], at[1], at[2], n);
         for (int i = 0; i < 3; i++) squared += n[i] * n[i];
         double area = __builtin_sqrt(squared);
         for (int i = 0; area > 0.0 && i < 3; i++) {
