@@ -30,7 +30,7 @@ function busy() {
 /** The picture of a frame, once all have come and edges are smooth, for which the canvas has more pixels than the page. */
 async function pictureOf(page, url) {
     await page.goto(url);
-    await page.waitForSelector("body[data-state=complete]", { timeout: PATIENCE });
+    await page.waitForSelector("body[data-state=complete][data-frame]", { timeout: PATIENCE }); // the sequence has begun
     await page.evaluate((frame, style) => {
         document.head.append(Object.assign(document.createElement("style"), { textContent: style }));
         const [play, slider] = [document.querySelector("[name=play]"), document.querySelector("[name=frame]")];

@@ -318,7 +318,8 @@ export class View {
         const { arrival, content, meshes, pool } = this;
         const mine = (): boolean => this.content === content && !this.closed;
         meshes.accompanied = true;
-        if (content.layers.length > 1 && arrival.whole) {
+        await meshes.accompany(pool, mine);
+        if (mine() && content.layers.length > 1 && arrival.whole) {
             // Once more without drawing, to say how long decoding alone takes.
             const begin = performance.now();
             const geometry = await wholeOf(pool, arrival.bytes.slice());
@@ -327,7 +328,6 @@ export class View {
             this.alone = performance.now() - begin;
             this.headline();
         }
-        await meshes.accompany(pool, mine);
     }
 
     private headline(): void {
