@@ -310,20 +310,6 @@ def test_fallback_holds_what_decoders_fill_in(source, tmp_path):
     assert (plain["WEIGHTS_0"].sum(axis=1) == 255).all() and plain["TEXCOORD_0"].shape[1] == 2
 
 
-VALIDATOR = """
-import { readFileSync } from "node:fs";
-import { pathToFileURL } from "node:url";
-import validator from "gltf-validator";
-const files = process.argv.slice(1);
-const read = (path) => new Uint8Array(readFileSync(path));
-for (const file of files) {
-    const options = { externalResourceFunction: async (uri) => read(new URL(uri, pathToFileURL(file))) };
-    const { issues } = await validator.validateBytes(read(file), options);
-    console.log(JSON.stringify(issues.messages.filter(({ severity }) => severity === 0)));
-}
-"""
-
-
 def waves(count=8):
     mesh = torus(40, 24)
     times = np.linspace(0, 2 * np.pi, count, endpoint=False)

@@ -3,7 +3,6 @@
 import copy
 import io
 import json
-import subprocess
 
 import numpy as np
 import pytest
@@ -13,9 +12,10 @@ from bsm.cli import main
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import Document, read_document
-from tests.bsm.test_gltf import VALIDATOR, WEB, coded_of, glb, waves
+from tests.bsm.test_gltf import WEB, coded_of, glb, waves
 from tests.bsm.test_gltf_reader import Built
 from tests.shapes import torus
+from tools.attack.doors import errors_of
 
 FINE = {"preset": "grid14"}
 
@@ -432,12 +432,6 @@ def test_references_that_lead_nowhere_and_numbers_that_are_none_are_errors():
         document._binary = built.data
         with pytest.raises(bsm.FormatError):
             compress(document, FINE)
-
-
-def errors_of(paths):
-    command = ["node", "--input-type=module", "-e", VALIDATOR, *map(str, paths)]
-    found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=120).stdout
-    return [[message["code"] for message in json.loads(line)] for line in found.splitlines()]
 
 
 @pytest.mark.skipif(not (WEB / "node_modules/gltf-validator").is_dir(), reason="npm ci in web")

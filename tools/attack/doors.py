@@ -29,7 +29,9 @@ import numpy.typing as npt
 import bsm
 from bsm.bitstream.errors import imported
 from bsm.codec.geometry.attributes import at_corners
-from bsm.files.formats.metadata import materials_in, rgba
+from bsm.files.formats.metadata import materials_in, names_in, rgba
+from bsm.gltf.compress import compress, restore
+from bsm.gltf.document import read_document
 from tools.replicate.fetch import unpacked
 
 Array = npt.NDArray[Any]
@@ -41,11 +43,12 @@ KINDS = ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf", "vtp")
 
 @dataclass
 class Read:
-    """Triangles, shape (m, 3, 3), values of their corners, shape (m, 3, c), and names of materials."""
+    """Triangles, shape (m, 3, 3), values of their corners, shape (m, 3, c), and names of materials and groups."""
 
     triangles: Array
     values: dict[str, Array] = field(default_factory=dict)
     materials: set[str] = field(default_factory=set)
+    groups: set[str] = field(default_factory=set)
 
     def count(self) -> int:
         """The number of triangles with an area."""
@@ -82,7 +85,9 @@ def of_ours(mesh: bsm.TriangleMesh) -> Read:
                 plain = bsm.Attribute("x", table[:, :width], attribute.domain, indices=attribute.indices)
                 values[attribute.semantic] = at_corners(plain, mesh.faces)
     names = {str(material.get("name", "")) for material in materials_in(mesh.metadata).values()}
-    return Read(mesh.positions[mesh.faces], values, names - {""})
+    groups = {name for what in ("part", "group", "object") for name in names_in(mesh.metadata, what).values()}
+    groups |= {str(mesh.metadata.get("name", ""))}
+    return Read(mesh.positions[mesh.faces], values, names - {""}, groups - {""})
 
 
 def of_trimesh(path: Path) -> Read:
@@ -105,7 +110,10 @@ def of_trimesh(path: Path) -> Read:
         if "vertex_normals" in part._cache and np.array_equal(matrix, np.eye(4)):
             values.setdefault("normal", []).append(part.vertex_normals[faces])
     whole = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
-    return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"})
+    groups = (
+        {*scene.geometry} if path.suffix.lower() in (".3mf", ".dae") and len(parts) == len(scene.geometry) > 1 else {}
+    )
+    return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"}, {*groups})
 
 
 def of_meshio(path: Path) -> Read:
@@ -141,9 +149,21 @@ def of_pymeshlab(path: Path) -> Read:
     return Read(np.concatenate(triangles), whole)
 
 
+def of_open3d(path: Path) -> Read:
+    library = imported("open3d", "files are compared with Open3D (pip install open3d)", "")
+    mesh = library.io.read_triangle_mesh(str(path))
+    faces, values = np.asarray(mesh.triangles), dict[str, Array]()
+    if mesh.has_vertex_colors():
+        values["color"] = np.asarray(mesh.vertex_colors)[faces]
+    if mesh.has_triangle_uvs():
+        values["texcoord"] = np.asarray(mesh.triangle_uvs).reshape(-1, 3, 2)
+    return Read(np.asarray(mesh.vertices)[faces], values)
+
+
 OTHERS: dict[str, tuple[Callable[[Path], Read], tuple[str, ...]]] = {
     "trimesh": (of_trimesh, ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf")),
     "meshio": (of_meshio, ("ply", "obj", "stl", "off", "vtp")),
+    "open3d": (of_open3d, ("ply", "stl", "off")),
     "pymeshlab": (of_pymeshlab, ("ply", "obj", "stl", "off", "dae", "3mf")),
 }
 _WORDS = {"color": "color", "texcoord": "texture", "normal": "normal"}
@@ -179,8 +199,9 @@ def compared(path: Path, readers: Sequence[str]) -> Iterator[tuple[str, str, str
             off = np.inf if mine is None or mine.shape != value.shape else float(np.abs(mine - value).max())
             if not off <= most * (1 if what != "area" else float(value[0])):
                 differences[what] = "is lost" if mine is None else f"differs by {off:.2g}"
-        if lost := read.materials - ours.materials:
-            differences["materials"] = f"lost: {', '.join(sorted(lost)[:5])}"
+        for what in ("materials", "groups"):
+            if lost := getattr(read, what) - getattr(ours, what):
+                differences[what] = f"lost: {', '.join(sorted(lost)[:5])}"
         if (mine_too := ours.count()) != (count := read.count()) and "without area" not in said:
             differences["triangles"] = f"{mine_too}, by {name} {count}"
         for what, difference in differences.items():
@@ -221,6 +242,69 @@ def listed(folder: Path, names: Sequence[str], most: int) -> Iterator[tuple[str,
                 print(f"missing: {package['package']}: {name} is another file", file=sys.stderr)
 
 
+VALIDATOR = """
+import { readFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+import validator from "gltf-validator";
+const files = process.argv.slice(1);
+const read = (path) => new Uint8Array(readFileSync(path));
+for (const file of files) {
+    const options = { externalResourceFunction: async (uri) => read(new URL(uri, pathToFileURL(file))) };
+    const rejected = () => ({ issues: { messages: [{ severity: 0, code: "REJECTED" }] } });
+    const { issues } = await validator.validateBytes(read(file), options).catch(rejected);
+    console.log(JSON.stringify(issues.messages.filter(({ severity }) => severity === 0).map(({ code }) => code)));
+}
+"""
+"""A module for Node that prints the codes of all errors of each file as a line."""
+WEB = Path(__file__).parents[2] / "web"
+
+
+def errors_of(paths: Sequence[Path]) -> list[list[str]]:
+    """The errors that the Khronos validator finds in glTF files; it must be installed (`npm ci` in web/)."""
+    command = ["node", "--input-type=module", "-e", VALIDATOR, *map(str, paths)]
+    found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
+    return [json.loads(line) for line in found.splitlines()]
+
+
+def rewritten(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str, Counter[str]]]:
+    """Each scene after `bsm glb` and after `bsm decode` of that, "refused" or "read", and the errors that are new."""
+    made: list[tuple[Path, Path]] = []
+    for number, path in enumerate(paths):
+        for kind, preset in {"grid14": "grid14", "lossless": "lossless"}.items():
+            small, plain = (folder / f"{number}.{kind}.{end}.glb" for end in ("small", "plain"))
+            try:
+                document = read_document(str(path))
+                small.write_bytes(compress(document, {"preset": preset, "quick": True}).data)
+                plain.write_bytes(restore(read_document(str(small))))
+            except bsm.BsmError as error:
+                yield path, f"refused: {error}", Counter()
+                break
+            made += [(path, small), (path, plain)]
+    before = dict(zip(paths, errors_of(paths), strict=True))
+    for (path, output), errors in zip(made, errors_of([output for _, output in made]), strict=True):
+        yield path, output.name.partition(".")[2], Counter(errors) - Counter(before[path])
+
+
+def scenes_in(folders: Sequence[Path]) -> int:
+    """Print how scenes in folders fare; return how many errors are new."""
+    known = {digest for source in json.loads(LIST.read_text())["scenes"] for digest in source["files"].values()}
+    paths = [path for folder in folders for path in sorted(folder.rglob("*")) if path.suffix in (".glb", ".gltf")]
+    paths = [path for path in paths if path.stat().st_size <= LARGEST]
+    listed_ones = sum(hashlib.sha256(path.read_bytes()).hexdigest() in known for path in paths)
+    refused, outputs, added = 0, 0, 0
+    with tempfile.TemporaryDirectory() as folder:
+        for path, what, errors in rewritten(paths, Path(folder)):
+            refused += what.startswith("refused")
+            outputs += not what.startswith("refused")
+            added += errors.total()
+            if errors or what.startswith("refused"):
+                print(f"{path}: {what}{': ' if errors else ''}{', '.join(sorted(errors))}", flush=True)
+    print(
+        f"{len(paths)} scenes, {listed_ones} of them listed, {refused} refused; {outputs} outputs, {added} new errors"
+    )
+    return added
+
+
 def main() -> NoReturn:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -231,7 +315,12 @@ def main() -> NoReturn:
     parser.add_argument("--packages", nargs="*", metavar="NAME", help="files of packages of doors.json (default: all)")
     parser.add_argument("--each", type=int, default=0, metavar="N", help="about N files of each package only")
     parser.add_argument("--readers", nargs="+", choices=OTHERS, default=list(OTHERS), help="who is compared with")
+    parser.add_argument(
+        "--scenes", nargs="+", type=Path, metavar="FOLDER", help="rewrite the scenes there, and count new errors"
+    )
     args = parser.parse_args()
+    if args.scenes:
+        sys.exit(min(scenes_in(args.scenes), 1))
     files = list(listed(args.cache, args.packages, args.each)) if args.packages is not None else []
     for folder in args.folders:
         here = [path for path in sorted(folder.rglob("*")) if path.suffix[1:].lower() in KINDS]
