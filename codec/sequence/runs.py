@@ -14,7 +14,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.attributes import Attribute, has
-from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
+from bsm.codec.geometry.mesh import TriangleMesh, box_around, require_sizes
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import JoinedMesh, joined
 
@@ -23,6 +23,8 @@ Frame: TypeAlias = npt.ArrayLike | TriangleMesh
 
 SHOWN = ("material.", "image.")  # metadata of materials and images begin with these
 
+FARTHEST = 1e5
+"""Diagonals of the first frame that a vertex may move away from it; levels of wider motion would overflow."""
 
 EMPTY = "empty_frame"
 """The attribute of faces of a run that stands for frames without faces: its one triangle has no area."""
@@ -176,6 +178,7 @@ class _Frames:
         self._frames = iter(run.frames)
         self._shape = len(run.mesh.positions), 3 + sum(attribute.components for attribute in run.moving)
         self._ahead: Matrix | None = None
+        self._box: tuple[Matrix, Matrix] | None = None
 
     def __iter__(self) -> _Frames:
         return self
@@ -211,8 +214,16 @@ class _Frames:
         if positions.shape != self._shape:
             raise MeshError(f"frame {self.number} has shape {positions.shape}, the first one {self._shape}")
         if not np.isfinite(positions).all():
-            raise MeshError(f"frame {self.number} has a coordinate that is not finite; remove or repair it")
-        require_sizes(positions[:, :3])  # what moves with them stands behind them
+            vertex = int(np.argmin(np.isfinite(positions).all(axis=1)))
+            raise MeshError(f"vertex {vertex} of frame {self.number} has a number that is not finite; repair it")
+        require_sizes(positions[:, :3])  # columns of attributes follow
+        low, high = self._box = self._box or box_around(positions[:, :3])
+        apart, diagonal = np.linalg.norm(positions[:, :3] - low, axis=1), float(np.linalg.norm(high - low))
+        if apart[vertex := int(apart.argmax())] > FARTHEST * diagonal > 0.0:
+            far = apart[vertex] / diagonal
+            raise MeshError(
+                f"vertex {vertex} of frame {self.number} is {far:.2g} diagonals from the first frame; repair it"
+            )
         return positions
 
 

@@ -81,6 +81,8 @@ def sequence_options(
     from bsm.codec.sequence.targets import SequenceTarget
 
     name = "balanced" if preset is None else preset
+    if name in ("none", "lossless", "grid14"):
+        raise OptionError(f"a sequence cannot have preset {name}: GOPs round frames together; try near-lossless")
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
     together = _checked("low_delay", low_delay, int)

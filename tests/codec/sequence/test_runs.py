@@ -219,3 +219,21 @@ def test_attributes_of_faces_that_change_in_a_run_are_reported() -> None:
         encoder = bsm.SequenceEncoder(frames[0].faces, options, 4, attributes=given[0].attributes)
         assert b"".join(encoder.chunks(given))
         assert [note for note in encoder.notes if "changes" in note] == notes
+
+
+@pytest.mark.parametrize(("far", "said"), [(np.nan, "a number that is not finite"), (1e7, "diagonals from the first")])
+def test_a_vertex_that_flies_off_is_named(far: float, said: str) -> None:
+    frames = meshes((7, 4))
+    positions = frames[2].positions.copy()
+    positions[5, 1] = far
+    given = [frame.positions for frame in frames]
+    given[2] = positions
+    with pytest.raises(bsm.MeshError, match=f"vertex 5 of frame 2 .*{said}"):
+        bsm.encode_sequence(given, frames[0].faces, threads=1)
+
+
+@pytest.mark.parametrize("name", ["none", "lossless", "grid14"])
+def test_presets_that_sequences_lack_are_refused_with_the_reason(name: str) -> None:
+    frames = meshes((7, 2))
+    with pytest.raises(bsm.OptionError, match=f"cannot have preset {name}: .* try near-lossless"):
+        bsm.encode_sequence([frame.positions for frame in frames], frames[0].faces, preset=name)
