@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import islice
+from itertools import chain, count, islice
 from typing import Any
 
 import numpy as np
@@ -29,7 +29,6 @@ from bsm.codec.threads import ordered_map
 Frames = npt.NDArray[np.float64]
 Pair = tuple[Positions, Positions]
 
-GROUP = 8  # frames that pass the coarse step together: enough for a matrix product, few enough for any memory
 WINDOW = 64  # frames that the temporal filter sees at once, if they fit
 WINDOW_BYTES = 2**28
 OVERLAP = 8  # frames over which one window fades into the next
@@ -160,8 +159,10 @@ class FrameDenoiser:
         if options.hand_over != "none":
             coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size)
 
-        def finish(task: tuple[int | None, Positions, Positions, Positions]) -> Pair:
-            number, given, noisy, smooth = task
+        def finish(task: tuple[int | None, Positions]) -> Pair:
+            number, given = task
+            noisy = given[self._members]
+            smooth = noisy if coarse is None else coarse(noisy, options.keep)
             result = step(start(noisy, smooth, topology), topology.faces, **iterations)
             if self._force:
                 return given, result
@@ -170,17 +171,9 @@ class FrameDenoiser:
                 raise HarmError(f"{verdict.reason}; nothing is written unless it is forced", frame=number)
             return given, keep_good(noisy, result, verdict.good)
 
-        def tasks() -> Iterator[tuple[int | None, Positions, Positions, Positions]]:
-            count = 0
-            while group := list(islice(frames, GROUP)):
-                noisy = np.stack([frame[self._members] for frame in group])
-                smooth = noisy if coarse is None else filter_frames(coarse, noisy, options.keep)
-                for given, welded, filtered in zip(group, noisy, smooth, strict=True):
-                    alone = count == 0 and len(group) == 1  # a mesh has no frames
-                    yield None if alone else count, given, welded, filtered
-                    count += 1
-
-        yield from ordered_map(finish, tasks(), None)
+        first = list(islice(frames, 2))
+        numbers: Iterable[int | None] = count() if len(first) == 2 else [None]  # a mesh has no frames
+        yield from ordered_map(finish, zip(numbers, chain(first, frames)), None)
 
     def _checked(self, frame: Positions) -> Positions:
         if frame.shape != self._shape:
@@ -189,13 +182,6 @@ class FrameDenoiser:
             raise MeshError("a frame has a coordinate that is not finite; remove or repair it")
         require_sizes(frame, done="denoised")
         return np.ascontiguousarray(frame, dtype=np.float64)
-
-
-def filter_frames(coarse: CoarseFilter, frames: Frames, keep: float) -> Frames:
-    """The coarse step for frames of shape (T, n, 3): one matrix product per block for all of them."""
-    count, n, _ = frames.shape
-    columns = np.ascontiguousarray(frames.transpose(1, 0, 2)).reshape(n, 3 * count)
-    return np.ascontiguousarray(coarse(columns, keep).reshape(n, count, 3).transpose(1, 0, 2))
 
 
 def denoise(mesh: TriangleMesh, options: DenoiseOptions | None = None, **ways: Any) -> TriangleMesh:

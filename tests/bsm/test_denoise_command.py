@@ -13,7 +13,7 @@ import pytest
 
 from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
-from bsm.codec.denoise.frames import GROUP, OVERLAP, WINDOW
+from bsm.codec.denoise.frames import OVERLAP, WINDOW
 from bsm.codec.geometry.metrics import mnd, theta
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.files.mesh import format_mesh, read_mesh, write_mesh
@@ -37,7 +37,7 @@ def noisy_file(tmp_path_factory) -> Path:
 @pytest.fixture(scope="module")
 def frames() -> np.ndarray:
     """More frames than pass the coarse step together."""
-    scales = np.linspace(1.0, 1.5, GROUP + 3)
+    scales = np.linspace(1.0, 1.5, 11)
     return np.stack([gaussian_along_normals(CLEAN.positions * s, CLEAN.faces, 0.2, seed=2) for s in scales])
 
 
