@@ -54,7 +54,7 @@ WHOLE = ("white", "isotropic", "impulses", "shared 2", "shared 4")
 RIGHT = {"white": WHOLE, "correlated": WHOLE, "local": ("part",), "axis": ("axis", "range"), "view": ("camera",)}
 WRONG = {"axis": WHOLE}
 """Noises that a rule has to accept, and those that it has to refuse of meshes that face all ways, like none."""
-CLEAN_WEIGHT, RIDGE, MARGIN = 20.0, 1.0, 0.25
+CLEAN_WEIGHT, RIDGE, MARGIN = 20.0, 1.0, 0.5
 SIGNS = np.array([1.0, 0.0, -1.0, -1.0, -1.0, -1.0])  # of the weights of `MEASURES`; 0: any
 
 
@@ -161,7 +161,7 @@ def report(rule: str, cases: list[Example]) -> None:
     held = np.array([case.name.split(",")[0] in HELD_OUT for case in counted])
     weights = fit(values[~held], noisy[~held])
     clean, few = values[~held & (noisy == 0.0)], MEASURES.index("few")
-    weights[-1] -= (clean @ weights[:-1] + weights[-1])[clean[:, few] == 0.0].max(initial=-MARGIN) + MARGIN
+    weights[-1] -= (clean @ weights[:-1] + weights[-1])[clean[:, few] == 0.0].max(initial=-2.0 * MARGIN) + MARGIN
     excess = clean @ weights[:-1] + weights[-1] + MARGIN
     weights[few] -= (excess / np.maximum(clean[:, few], 1e-9)).max(initial=0.0)
     print(f'    "{rule}": ({", ".join(f"{weight:.2f}" for weight in weights)}),')
