@@ -34,11 +34,11 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_660,
-    "product Python, lines": 33_430,
-    "product C and C++, lines": 21_650,
+    "product in all languages, lines": 62_569,
+    "product Python, lines": 33_397,
+    "product C and C++, lines": 21_575,
     "product Rust, lines": 908,
-    "product TypeScript, lines": 6_728,
+    "product TypeScript, lines": 6_689,
     "product lines over 120 columns": 232,
     "all Python, lines": 74_838,
     "product modules": 201,
