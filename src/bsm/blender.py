@@ -31,6 +31,7 @@ from bsm.files.motion.caches import write_cache
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.libraries import warn
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
 _TYPES = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}
@@ -131,12 +132,15 @@ def triangles_of(data: Any) -> tuple[Faces, Array]:
 def attributes_of(data: Any, corners: Array) -> tuple[Attribute, ...]:
     """Return the attributes of a Blender mesh: texture coordinates, colors, numbers, and the materials of faces."""
     found: dict[str, Attribute] = {}
+    left: list[str] = []
     owner = np.empty(len(corners), np.int32)
     data.loop_triangles.foreach_get("polygon_index", owner)
     for layer in data.attributes:
-        hidden = layer.name in _OWN or layer.name.startswith(".") or layer.is_internal
         kind = "FLOAT_COLOR" if layer.data_type == "BYTE_COLOR" else layer.data_type
-        if hidden or kind not in _WIDTHS or layer.domain == "EDGE":
+        if layer.name in _OWN or layer.name.startswith(".") or layer.is_internal:
+            continue
+        if kind not in _WIDTHS or layer.domain == "EDGE":
+            left.append(layer.name)
             continue
         values, semantic = _values(layer, kind)
         domain: Domain = {"POINT": "vertex", "CORNER": "corner", "FACE": "face"}[layer.domain]  # type: ignore[assignment]
@@ -147,6 +151,7 @@ def attributes_of(data: Any, corners: Array) -> tuple[Attribute, ...]:
     data.polygons.foreach_get("material_index", slots)
     if slots.any() and "material" not in found:
         found["material"] = Attribute("material", slots[owner], "face")
+    warn([f"left out: {', '.join(left)}"] if left else [])
     return tuple(found.values())
 
 
@@ -183,9 +188,16 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
         found[f"material.{number}.baseColorFactor"] = " ".join(f"{component:.6g}" for component in (*color, 1.0))
         for name, socket in (("metallicFactor", "Metallic"), ("roughnessFactor", "Roughness")):
             found[f"material.{number}.{name}"] = float(shader.inputs[socket].default_value)
+        shown = [socket.name for socket in shader.inputs if socket.links and socket.name != "Base Color"]
         links = shader.inputs["Base Color"].links
         image = links[0].from_node.image if links and links[0].from_node.type == "TEX_IMAGE" else None
         packed = bytes(image.packed_file.data) if image is not None and image.packed_file else b""
+        shown += ["Base Color"] if links and not kind_of_image(packed) else []
+        warn(
+            [f"material {material.name}: left out, only packed images of colors are kept: {', '.join(shown)}"]
+            if shown
+            else []
+        )
         if kind_of_image(packed):
             found[f"material.{number}.baseColorTexture"] = images
             found[f"image.{images}.data"] = packed

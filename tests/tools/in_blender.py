@@ -2,6 +2,7 @@
 
 import json
 import sys
+import warnings
 from pathlib import Path
 
 import bpy
@@ -136,6 +137,14 @@ def export():
         bsm.blender.export_object(str(folder / "x.bsm"))
     except OptionError as error:
         found["nothing"] = str(error)
+    fresh()
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    cube.data.attributes.new("crease", "FLOAT", "EDGE")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always", bsm.BsmWarning)
+        bsm.blender.export_object(str(folder / "cube.bsm"), cube, animation=False)
+    found["left out"] = [str(note.message) for note in told if note.category is bsm.BsmWarning]
 
 
 def extension():

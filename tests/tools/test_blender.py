@@ -116,6 +116,7 @@ def test_an_object_is_written_as_it_is_seen(found, folder):
     assert np.abs(decoded - shown[:, same]).max() < 0.01 * diagonal
     assert "the faces of a sequence stay" in found["changing"] and not (folder / "x.bsm").exists()
     assert "no object is active" in found["nothing"]
+    assert found["left out"] == ["left out: crease"]
 
 
 def test_operators_and_dropped_files(found):
