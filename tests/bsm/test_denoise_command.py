@@ -65,7 +65,7 @@ def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
     assert ran.returncode == 0
     assert "unchanged  " in ran.stderr
     assert (read_mesh(tmp_path / "out.npz").mesh.positions == CLEAN.positions).all()
-    command = ran.stderr.split("ask for a filter: bsm ")[1].splitlines()[0].replace("IN", str(tmp_path / "clean.npz"))
+    command = ran.stderr.split("choose a filter: bsm ")[1].splitlines()[0].replace("IN", str(tmp_path / "clean.npz"))
     assert bsm(*command.split(), "-o", tmp_path / "forced.npz").returncode == 0
     assert (read_mesh(tmp_path / "forced.npz").mesh.positions != CLEAN.positions).any()
 

@@ -26,8 +26,8 @@ def test_stream_is_shown_as_it_is():
 def test_mesh_is_encoded_and_compared_with_itself():
     widget = bsm.show((MESH.positions, MESH.faces), theta=4)
     original, decoded = (bsm.decode(base64.b64decode(layer["data"])) for layer in widget.content["layers"][:2])
-    assert widget.content["facts"]["theta"] < 4
-    assert widget.content["facts"]["theta"] == pytest.approx(bsm.compare(MESH, decoded).theta_deg)
+    assert bsm.compare(MESH, decoded).theta_deg < 4
+    assert widget.content["facts"]["angle"] == pytest.approx(bsm.compare(MESH, decoded).angle_deg)
     assert bsm.compare(MESH, original).max_error < 1e-6
 
 

@@ -127,7 +127,7 @@ def test_the_errors_of_frames_are_drawn_as_a_curve(loop, capsys):
     assert main([*words, "--picture", str(loop / "curve.png")]) == 0
     assert (loop / "curve.png").read_bytes().startswith(b"\x89PNG")
     assert main([*words, "--map", str(loop / "map.png")]) == 2
-    assert "of sequences, --picture" in capsys.readouterr().err
+    assert "for sequences, --picture" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -257,7 +257,7 @@ def test_contents_that_are_compressed(folder, tmp_path):
         positions = plain.array(primitive["attributes"]["POSITION"]).astype(float)
         assert same(bsm.decode(coded.view(stream)), bsm.TriangleMesh(positions, corners))
     done = program("untile", folder, "-o", tmp_path / "a.ply", "--content", "bsm", text=True)
-    assert done.returncode == 2 and "--content says how" in done.stderr
+    assert done.returncode == 2 and "--content is for" in done.stderr
 
 
 def test_borders_stay_and_what_is_no_surface_is_left_alone():
