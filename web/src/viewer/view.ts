@@ -208,7 +208,7 @@ export class View {
         const { shards, levels } = tiles.manifest;
         form.say("figures", `${sized(shards.reduce((sum, { size }) => sum + size, 0))} in ${levels.length} levels`);
         form.say("claim", `${sized(tiles.got)} fetched for this view`);
-        const tilesShown = `${counted(faces)} triangles in ${shown.length} tiles`;
+        const tilesShown = `${counted(faces)} triangles in ${shown.length} tile${shown.length === 1 ? "" : "s"}`;
         this.listRows([["Shown", tilesShown], ["Fetched", `${counted(tiles.there)} tiles`]]);
         form.say("problem", tiles.problem);
         root.dataset.tiles = String(shown.length);
