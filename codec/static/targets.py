@@ -59,10 +59,10 @@ class Contract:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.farthest < float("inf"):
-            raise OptionError(f"a bound on the farthest vertex must be above 0, not {self.farthest:g}")
+            raise OptionError(f"a bound on vertex errors must be above 0, not {self.farthest:g}")
         if not self.absolute and self.farthest > WIDEST:
             raise OptionError(
-                f"the farthest vertex may be at most {WIDEST:.0%} of the bounding box's diagonal away, not "
+                f"a bound on vertex errors must be at most {WIDEST:.0%} of the bounding-box diagonal, not "
                 f"{self.farthest:.4g} times it; a number without a unit is a share of the diagonal: 0.001 is 0.1%"
             )
         if not 0.0 < self.angle <= ANY_ANGLE:
