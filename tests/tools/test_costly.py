@@ -4,10 +4,11 @@ import json
 from contextlib import suppress
 from random import Random
 
+import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.pictures import Canvas
 from tools.attack.costly import Recipe, changed, drawn, encoded, search
 from tools.attack.manifests import Folder, used, walk
 
@@ -16,24 +17,28 @@ WORST = 6e8  # and where it looks at attributes, too
 
 
 @pytest.fixture
-def metrics(monkeypatch):
-    """Every `LookMetric` that is made."""
-    made, begin = [], LookMetric.__init__
-    monkeypatch.setattr(
-        LookMetric, "__init__", lambda self, *args, **named: made.append(self) or begin(self, *args, **named)
-    )
-    return made
+def samples(monkeypatch):
+    """About how many samples each picture takes: those of the picture, and on average half the area of each face."""
+    taken, draw = [], Canvas.draw
+
+    def counting(canvas, positions, faces, normals, camera):
+        a, b, c = (positions[corner] for corner in faces.T)
+        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        taken.append((1 + areas / 2 / np.ptp(positions, axis=0).max() ** 2) * canvas.samples.size)
+        return draw(canvas, positions, faces, normals, camera)
+
+    monkeypatch.setattr(Canvas, "draw", counting)
+    return taken
 
 
 @pytest.mark.parametrize(
     ("shape", "vertices", "faces"),
     [("copies", 3, 1000), ("planes", 300, 100), ("slivers", 60, 300), ("random", 10, 800)],
 )
-def test_what_is_drawn_for_small_files_is_bounded_whatever_covers_what(metrics, shape, vertices, faces):
+def test_what_is_drawn_for_small_files_is_bounded_whatever_covers_what(samples, shape, vertices, faces):
     taken = encoded(Recipe(shape, vertices, faces, 0.0, "none", "balanced", 1).ply, "balanced")
     assert taken.outcome.endswith(" bytes")
-    assert metrics
-    assert sum(metric._drawn_pictures * metric._size.work for metric in metrics) < FEWER
+    assert 0 < sum(samples) < FEWER
 
 
 def test_recipes_are_files_that_are_read_and_mutants_are_others():
@@ -56,12 +61,11 @@ def test_a_short_search_finds_no_file_over_the_bound():
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("vertices", "faces"), [(2, 300), (2, 4924), (5, 2075)])
-def test_what_is_drawn_for_the_worst_files_that_a_search_has_found_is_bounded(metrics, vertices, faces):
+def test_what_is_drawn_for_the_worst_files_that_a_search_has_found_is_bounded(samples, vertices, faces):
     with suppress(bsm.TargetError):
         recipe = Recipe("grid", vertices, faces, 0.0, "normal", "near-lossless", 18864366)
         bsm.encode(bsm.load(recipe.ply), preset=recipe.preset, threads=1)
-    drawn = sum(metric._drawn_pictures * metric._size.work for metric in metrics)
-    assert 0 < drawn < WORST
+    assert 0 < sum(samples) < WORST
 
 
 def test_mutated_manifests_end_in_results_or_errors_of_ours():
