@@ -3,6 +3,7 @@ import pytest
 
 import bsm
 from bsm.codec.geometry.metrics import compare
+from bsm.codec.static.units import Units
 from bsm.options import encode_options
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import events_of
@@ -157,3 +158,13 @@ def test_many_bits_hold_a_first_row_that_is_large_beside_nothing():
         decoded = bsm.decode(encoder.encode()).positions
         errors.append(np.abs(decoded - mesh.positions[encoder.vertex_order]).max())
     assert max(errors) < 1.01 * min(errors)
+
+
+@pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan, 1.5e308])
+def test_positions_beyond_the_range_are_an_error(value):
+    positions = np.ones((17, 3))
+    for row in (0, 13, 16):
+        positions[row, row % 3] = value
+        with pytest.raises(bsm.NumericError, match="not finite"):
+            Units((10.0, -20.0, 0.3), 1.7).back(positions)
+        positions[row] = 1.0
