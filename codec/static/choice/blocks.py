@@ -270,7 +270,7 @@ class Refined:
 
     @cached_property
     def first(self) -> float:
-        return self._bounds.first_step
+        return self._bounds.first_step / math.sqrt(2.0)  # all of it is along normals, of a grid's about half
 
     def at(self, step: float) -> Candidate:
         return self._begun if math.isclose(step, self.first) else self._made(step)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from copy import copy
 from operator import attrgetter
@@ -18,7 +18,7 @@ from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
-QUICK_TRIES = 5  # steps of each way, where encoding shall be quick
+SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 
 
 class Way(Protocol):
@@ -60,10 +60,12 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
-        made = Gridded(self._prepared, bounds).made()
-        kept = [candidate for candidate in made if bounds.keeps(candidate.positions)]
-        for way in self._ways(bounds):
+        grid = Gridded(self._prepared, bounds)
+        kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
+        for way in self._ways(bounds, grid):
             least = min((candidate.draft.size for candidate in kept), default=math.inf)
+            if isinstance(way, Gridded) and kept and SHAPED * grid.begun.draft.size > least:
+                continue
             found = widest(way, bounds, least, tries=self._tries)
             kept += [] if found is None else [found]
         if not kept:
@@ -95,8 +97,9 @@ class Search:
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
         """Return the best stream of at most `most_bytes` that keeps a contract, or None."""
         bounds = Bounds(self._measures, contract)
-        found = list(Gridded(self._prepared, bounds).made())
-        for way in self._ways(bounds):
+        grid = Gridded(self._prepared, bounds)
+        found = list(grid.made())
+        for way in self._ways(bounds, grid):
             fitting: dict[float, Candidate] = {}
 
             def excess(fineness: float, way: Way = way, fitting: dict[float, Candidate] = fitting) -> float:
@@ -114,7 +117,7 @@ class Search:
 
     @property
     def _tries(self) -> int:
-        return {"quick": QUICK_TRIES, "best": 3 * TRIES}.get(self._options.effort, TRIES)
+        return {"quick": TRIES - 2, "best": 3 * TRIES}.get(self._options.effort, TRIES)
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
@@ -123,16 +126,21 @@ class Search:
         look = metric.look(self._prepared.units.into(draft.decoded))
         return f"look {look.distance:.3g}"
 
-    def _ways(self, bounds: Bounds) -> Iterator[Way]:
-        """Ways that may be smallest."""
+    def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
+        """Ways that may be smallest, first those that are smaller at their first step."""
         prepared, options = self._prepared, self._options
-        if prepared.has_low_frequencies and not options.quick:
-            yield Refined(prepared, options, bounds)
-            if bounds.contract.angle < ANY_ANGLE:
-                yield Refined(prepared, options, bounds, settled=False)
-            if bounds.contract.look == math.inf:
-                yield Plain(prepared, options, bounds)
-        yield from (Gridded(prepared, bounds, worth) for worth in (1.0, 0.0))
+        grids: list[Way] = [Gridded(prepared, bounds, 1.0), grid]
+        if not prepared.has_low_frequencies or options.quick:
+            return grids
+        blocks: list[Way] = [Refined(prepared, options, bounds)]
+        if bounds.contract.angle < ANY_ANGLE:
+            blocks.append(Refined(prepared, options, bounds, settled=False))
+        if bounds.contract.look == math.inf:
+            blocks.append(Plain(prepared, options, bounds))
+        with suppress(LimitError):  # blocks that decoders would refuse
+            if grid.begun.draft.size < blocks[0].at(blocks[0].first).draft.size:
+                return grids + blocks
+        return blocks + grids
 
 
 def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = TRIES) -> Candidate | None:
