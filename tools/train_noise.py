@@ -54,7 +54,7 @@ WHOLE = ("white", "isotropic", "impulses", "shared 2", "shared 4")
 RIGHT = {"white": WHOLE, "correlated": WHOLE, "local": ("part",), "axis": ("axis", "range"), "view": ("camera",)}
 WRONG = {"axis": WHOLE}
 """Noises that a rule has to accept, and those that it has to refuse of meshes that face all ways, like none."""
-CLEAN_WEIGHT, RIDGE, MARGIN = 20.0, 1.0, 0.5
+CLEAN_WEIGHT, RIDGE, MARGIN = 20.0, 1.0, 0.25
 SIGNS = np.array([1.0, 0.0, -1.0, -1.0, -1.0, -1.0])  # of the weights of `MEASURES`; 0: any
 
 

@@ -25,7 +25,7 @@ from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
 RULES = {
-    "white": (1.95, 11.40, -4.48, -13.59, -4.26, -15.34, 8.46),
+    "white": (1.95, 11.40, -4.48, -13.59, -4.26, -8.42, 8.46),
     "correlated": (1.16, 1.62, -6.12, 0.00, -22.39, -12.03, 14.08),
     "local": (2.25, 21.49, -14.58, -3.51, -12.01, -3.01, 9.82),
     "view": (3.98, 0.19, -3.78, -9.66, -7.22, -18.10, 10.31),
