@@ -133,7 +133,7 @@ UNITS = {
 }
 """Describe a value of a target of a mesh or a sequence."""
 COARSEST_STEP = 0.1
-SLACK, TRIES = 0.05, 7
+SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
 STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
 STRIDE, NEAREST = 2.0, 0.1

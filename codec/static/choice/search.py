@@ -138,7 +138,7 @@ class Search:
         if bounds.contract.look == math.inf:
             blocks.append(Plain(prepared, options, bounds))
         with suppress(LimitError):  # blocks that decoders would refuse
-            if grid.begun.draft.size < blocks[0].at(blocks[0].first).draft.size:
+            if grid.begun.draft.size < blocks[0].at(max(blocks[0].first, blocks[0].least)).draft.size:
                 return grids + blocks
         return blocks + grids
 
@@ -160,7 +160,8 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
         return over if over < sure else None
 
     with suppress(LimitError):  # blocks that decoders would refuse
-        fine = SLACK / 4.0 if tries > TRIES else SLACK
+        slack = 2.0 * SLACK if isinstance(way, Refined) and bounds.contract.look < math.inf else SLACK
+        fine = SLACK / 4.0 if tries > TRIES else slack
         secant(at, min(max(way.first, way.least), way.most), way.least, way.most, tries, slack=fine)
     smallest = min(kept, key=lambda found: (found[0], found[1].draft.size), default=(False, None))[1]
     return None if smallest is None or smallest.draft.size >= most_bytes else smallest

@@ -1,7 +1,6 @@
 """The search for a step: it ends near its bound, asks little, and another way never makes a file larger."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import pytest
 
 from bsm import EncodeOptions, Encoder, TriangleMesh
 from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.search import Search, Way
 from bsm.codec.static.targets import SLACK, secant
 from bsm.files.mesh import read_mesh
@@ -56,10 +56,10 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, lis
     everything = Search._ways
     options = EncodeOptions(threads=1)
     found = [Encoder(mesh, options).draft().size]
-    for alone in range(len(list(everything(*_asked(mesh, options))))):
+    for alone in range(len(everything(*_asked(mesh, options)))):
 
-        def size(search: Search, bounds: Bounds, alone: int = alone) -> Iterator[Way]:
-            yield from (way for number, way in enumerate(everything(search, bounds)) if number == alone)
+        def size(search: Search, bounds: Bounds, grid: Gridded, alone: int = alone) -> list[Way]:
+            return [everything(search, bounds, grid)[alone]]
 
         monkeypatch.setattr(Search, "_ways", size)
         found.append(Encoder(mesh, options).draft().size)
@@ -67,11 +67,12 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, lis
     return found[0], found[1:]
 
 
-def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds]:
+def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, Gridded]:
     encoder, contract = Encoder(mesh, options), options.promise
     assert contract is not None
     search = encoder._input.search(contract, None)
-    return search, Bounds(search._measures, contract)
+    bounds = Bounds(search._measures, contract)
+    return search, bounds, Gridded(search._prepared, bounds)
 
 
 @pytest.mark.parametrize(("mesh", "rough"), [(torus(40, 24), 0.0), (patch(24, 24), 0.002)], ids=["torus", "patch"])
