@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_569,
-    "product Python, lines": 33_397,
+    "product in all languages, lines": 62_589,
+    "product Python, lines": 33_417,
     "product C and C++, lines": 21_575,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_689,
     "product lines over 120 columns": 232,
-    "all Python, lines": 74_849,
+    "all Python, lines": 74_971,
     "product modules": 201,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
