@@ -117,7 +117,7 @@ class _Still(_Scene):
             self.primitives.append((primitive, origin[used]))
         written |= {f"part.{number}.name" for number in names}
         rest = {name: value for name, value in mesh.metadata.items() if name not in written}
-        extras = {name: value for name, value in rest.items() if not isinstance(value, bytes)}
+        extras = {name: value for name, value in rest.items() if isinstance(value, str) or formats.as_numbers(value)}
         self.tree["scenes"][0] |= {"extras": extras} if extras else {}
         self.left_out += formats.left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
 
