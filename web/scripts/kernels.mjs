@@ -28,7 +28,7 @@ const PAGE = [
     "values", "indices", "handed", "room", "add", "lose", "changes", "losses",
 ].map((name) => `page_${name}`);
 /** Kernels of light grids, which TypeScript calls. */
-const LIGHT = ["make_tables", "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "link_corners", "code_light", "place_values"];
+const LIGHT = ["make_tables", "code_one_unsigned", "match_halfedges", "conquer_surface", "code_fans", "code_degenerate", "link_corners", "code_light", "place_values"];
 
 const TARGET = "--target=wasm32";
 const FLAGS = [

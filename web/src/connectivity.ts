@@ -12,7 +12,7 @@ const RARE_KINDS = 6;
 const RARE_SPAN = unsignedSpan(RARE_UNARY);
 const RARE_COUNTS = 5 * RARE_SPAN;
 const FRONT = { columns: 8, buckets: 8, heads: 18, made: 8, alive: 9 };
-const TALLIES = { size: 8, dummies: 3, turns: 4, steps: 5 };
+const TALLIES = { size: 7, dummies: 3, turns: 4, steps: 5 };
 const [NONSENSE, NO_ROOM] = [1, 2];
 /** Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together. */
 const [FACE, VERTEX, FAN] = [100, 400, 240];
@@ -84,11 +84,9 @@ function conquer(memory: Memory, coder: Coder, models: Models, surface: Ints, fa
     tallies.view[TALLIES.turns] = BigInt(4 * surface.rows);
     tallies.view[TALLIES.steps] = BigInt(65536 + 16 * surface.rows);
     const vertices = memory.longs(2 * (fans + loops), 2);
-    const nothing = memory.ints(0);
-    const guide = [[nothing, nothing, nothing, nothing], memory.bytes(0), nothing, nothing, nothing, nothing];
     let nodes = memory.ints(FRONT.columns * (fans + 16), FRONT.columns);
     for (;;) {
-        const end = memory.call("conquer", coder.parts, models, guide, [[nodes, heads], vertices, surface, tallies]);
+        const end = memory.call("conquer_surface", coder.parts, models, [nodes, heads, vertices, surface, tallies]);
         if (end === NONSENSE) throw coder.nonsense(`it does not make ${surface.rows} triangles`);
         if (end !== NO_ROOM) return;
         const before = nodes;
