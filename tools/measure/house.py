@@ -34,12 +34,12 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_589,
+    "product in all languages, lines": 62_633,
     "product Python, lines": 33_417,
-    "product C and C++, lines": 21_575,
+    "product C and C++, lines": 21_621,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_689,
-    "product lines over 120 columns": 232,
+    "product lines over 120 columns": 233,
     "all Python, lines": 74_972,
     "product modules": 201,
     "product C files and headers": 74,
