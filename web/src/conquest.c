@@ -1,4 +1,4 @@
-/* The conquest (specification, C 6) for TypeScript, which keeps what a walk knows between calls in arrays of its own. */
+/* The conquest (specification, C 6) for TypeScript, which keeps the state of a walk between calls in its own arrays. */
 #include "bitstream/connectivity/connectivity.h"
 
 typedef struct {
