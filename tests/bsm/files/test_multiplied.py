@@ -47,6 +47,20 @@ def test_a_3mf_file_is_read_as_a_whole_or_not_at_all(tmp_path):
         read_mesh(path)
 
 
+@pytest.mark.parametrize(("times", "read"), [(5, True), (6, False)])
+def test_placements_that_trimesh_does_not_follow_are_a_limit(tmp_path, times, read):
+    pytest.importorskip("trimesh")
+    components = '<component objectid="0"/>' * times
+    used = f'<object id="9"><components>{components}</components></object>'
+    path = tmp_path / "a.3mf"
+    path.write_bytes(three_mf(chained_objects(0) + used, '<item objectid="9"/>' * times))
+    if read:
+        assert len(read_mesh(path).mesh.faces) == times**2
+    else:
+        with pytest.raises(LimitError, match="of which trimesh reads"):
+            read_mesh(path)
+
+
 def test_a_part_of_a_3mf_file_is_an_error(tmp_path, monkeypatch):
     trimesh = pytest.importorskip("trimesh")
     path = tmp_path / "a.3mf"

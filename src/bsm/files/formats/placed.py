@@ -95,13 +95,22 @@ def placed_triangles(data: bytes, limits: Limits) -> tuple[int, tuple[str, ...]]
                     require_count("vertices" if what == "vertex" else "faces", model.size[what], limits)
     if not model.uses[""]:
         raise MeshError("this 3MF file places no object: its build has no item")
-    return _placed("3MF", model.uses, model.objects, data, limits)[0], tuple(model.left_out)
+    edges, nodes = sum(used.total() for used in model.uses.values()), {*model.uses}.union(*model.uses.values())
+    return _placed("3MF", model.uses, model.objects, data, limits, len(nodes) * edges + 1)[0], tuple(model.left_out)
 
 
 def _placed(
-    kind: str, uses: Mapping[str, Counter[str]], objects: Mapping[str, Counter[str]], data: bytes, limits: Limits
+    kind: str,
+    uses: Mapping[str, Counter[str]],
+    objects: Mapping[str, Counter[str]],
+    data: bytes,
+    limits: Limits,
+    followed: int = _MOST,
 ) -> tuple[int, int]:
-    """Return the triangles and surfaces of all that "" uses; raise `LimitError` if these or the parts are too many."""
+    """Return the triangles and surfaces of all that "" uses; raise `LimitError` if these or the parts are too many.
+
+    Trimesh stops without an error after `followed` parts.
+    """
     sizes: dict[str, tuple[int, int, int, int]] = {}
     try:
         for name in TopologicalSorter(uses).static_order():
@@ -117,6 +126,8 @@ def _placed(
     require_count("faces", triangles, limits)
     if parts > (most := FREE_PARTS + len(data) // BYTES_OF_PART):
         raise LimitError(f"this {kind} file places {parts:,} parts, over the limit of {most:,} for its bytes")
+    if parts > followed:
+        raise LimitError(f"this {kind} file places {parts:,} parts, of which trimesh reads {followed:,}: split it")
     return triangles, surfaces
 
 
