@@ -362,10 +362,10 @@ def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):
     *before, content = uploaded("../../ball.ply", data, "small")
     assert isinstance(content, Content) and content.name == "ball.ply" and content.facts["preset"] == "small"
     assert content.layers[1].stream == bsm.encode(tmp_path / "ball.ply", preset="small")
-    shares = [share for _, share in before]
-    assert shares == sorted(shares) and len({stage for stage, _ in before}) > 2
-    *_, sentence = uploaded("ball.ply", data[:200], "small")
-    assert isinstance(sentence, str) and str(tmp_path) not in sentence
+    shares = [report["share"] for report in before]
+    assert shares == sorted(shares) and len({report["stage"] for report in before}) > 2
+    *_, last = uploaded("ball.ply", data[:200], "small")
+    assert [*last] == ["error"] and str(tmp_path) not in last["error"]
 
 
 def test_an_upload_ends_with_its_page(tmp_path):

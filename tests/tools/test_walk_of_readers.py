@@ -13,9 +13,11 @@ from bsm.files.sequence import SEQUENCES_READ
 from tools.attack.growth import growth
 from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up, written
 from tools.attack.taken import Taken
-from tools.attack.uses import cases, uses
+from tools.attack.uses import cases, of_size, uses
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
+
+USES = dict(uses())
 
 
 def test_the_walk_visits_every_format_that_is_read_here():
@@ -68,16 +70,13 @@ def test_what_takes_longer_than_its_size_grows_is_found(monkeypatch):
 
 @linux
 def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
-    for name in ("glb, a chain of nodes", "glb, materials"):
-        (tmp_path / "a.glb").write_bytes(_grown(1 << 17)[name]().data)
+    for sample in (_grown(1 << 17)["glb, a chain of nodes"](), of_size(USES["glb, materials"], 1 << 17)):
+        (tmp_path / "a.glb").write_bytes(sample.data)
         assert "read" in read_all(tmp_path / "a.glb", Limits()).outcome
     tree = _json_of(samples()["glb"].data)
     tree["accessors"][0]["count"] = 10**400
     (tmp_path / "a.gltf").write_text(json.dumps(tree))
     assert "Error: " in read_all(tmp_path / "a.gltf", Limits()).outcome
-
-
-USES = dict(uses())
 
 
 @pytest.mark.parametrize("name", USES)

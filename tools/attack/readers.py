@@ -477,7 +477,6 @@ def _grown_3mf(size: int) -> dict[str, Callable[[], Sample]]:
 
     item = '<item objectid="{}"/>'
     return {
-        "3mf, items": lambda: made("", item.format(0) * size),
         "3mf, some components": lambda: made(chained_objects(10), item.format(10)),
         "3mf, components": lambda: made(chained_objects(40), item.format(40)),
         "3mf, a chain": lambda: made(chained_objects(size // 90), item.format(size // 90)),
@@ -514,8 +513,8 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
     """What a tree can say many times of the same bytes; each of a mesh that stays, and of one that moves."""
     floats, indices = {"componentType": 5126, "count": 3}, {"componentType": 5125, "count": 3, "type": "SCALAR"}
 
-    def tree(more: bytes, until: float | None) -> tuple[Tree, bytes]:
-        binary = np.eye(3, dtype="<f4").tobytes() + np.arange(3, dtype="<u4").tobytes() + more
+    def tree(until: float | None) -> tuple[Tree, bytes]:
+        binary = np.eye(3, dtype="<f4").tobytes() + np.arange(3, dtype="<u4").tobytes()
         keys = np.array([0, until or 0, 0, 0, 0, 1, 0, 0], "<f4").tobytes()
         found: Tree = {
             "asset": {"version": "2.0"},
@@ -523,10 +522,7 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
             "nodes": [{"mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
             "accessors": [{"bufferView": 0, **floats, "type": "VEC3"}, {"bufferView": 1, **indices}],
-            "bufferViews": [
-                {"buffer": 0, "byteLength": 36},
-                {"buffer": 0, "byteOffset": 36, "byteLength": 12 + len(more)},
-            ],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12}],
             "buffers": [{"byteLength": len(binary)}],
         }
         if until is not None:
@@ -550,23 +546,8 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
     def nodes(t: Tree, found: list[dict[str, Any]]) -> None:
         t["nodes"], t["scenes"] = found, [{"nodes": list(range(len(found)))}]
 
-    def shared(meshes: int, count: int, primitives: int) -> Change:
-        def change(t: Tree) -> None:
-            t["accessors"][1]["count"] = 3 + size // 8  # as many indices as a file of this size holds
-            t["meshes"] = [{"primitives": t["meshes"][0]["primitives"] * primitives}] * meshes
-            nodes(t, [{"mesh": number % meshes} for number in range(count)])
-
-        return change
-
     def chained(t: Tree) -> None:
         t["nodes"] = [{"children": [number + 1]} for number in range(size // 40)] + [{"mesh": 0}]
-
-    def skinned(t: Tree) -> None:
-        nodes(t, [{"mesh": 0, "skin": 0}] * (size // 60))
-        t["skins"] = [{"joints": list(range(size // 60))}]
-        first = len(t["accessors"])
-        t["meshes"][0]["primitives"][0]["attributes"] |= {"JOINTS_0": first, "WEIGHTS_0": first + 1}
-        t["accessors"] += [{**indices, "componentType": 5123, "type": "VEC4"}, {**floats, "type": "VEC4"}]
 
     def channels(t: Tree, samplers: bool = False) -> None:
         count = size // 120
@@ -585,18 +566,10 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         t["meshes"][0]["weights"] = [1] * (size // 24)
         t["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * (size // 24)
 
-    def materials(t: Tree) -> None:
-        (primitive,) = t["meshes"][0]["primitives"]
-        t["materials"] = [{"name": str(number)} for number in range(size // 120)]
-        t["meshes"][0]["primitives"] = [primitive | {"material": number} for number in range(size // 120)]
-
     def sparse(t: Tree) -> None:
         nothing(0, 1 << 24)(t)
         places = {"indices": {"bufferView": 1, "componentType": 5125}, "values": {"bufferView": 0}}
         t["accessors"][0]["sparse"] = {"count": 1, **places}
-
-    def attributes(t: Tree) -> None:
-        t["meshes"][0]["primitives"][0]["attributes"] |= {f"_A{number}": 0 for number in range(size // 12)}
 
     def unused(t: Tree) -> None:
         t["accessors"] += [{"componentType": 5126, "count": 10**7, "type": "MAT4"}] * (size // 60)
@@ -604,35 +577,23 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
     def empty(t: Tree) -> None:
         nodes(t, [{"mesh": 0}] + [{}] * (size // 8))
 
-    def made(change: Change, more: int, until: float | None) -> Sample:
-        found, binary = tree(bytes(more), until)
+    def made(change: Change, until: float | None) -> Sample:
+        found, binary = tree(until)
         change(found)
         return Sample("glb", _as_glb(found, binary))
 
-    both: dict[str, tuple[Change, int]] = {
-        "points of no bytes": (nothing(0, 1 << 26), 0),
-        "indices of no bytes": (nothing(1, 3 << 24), 0),
-        "nodes": (shared(1, size // 100, 1), size // 2),
-        "primitives": (shared(1, 1, size // 400), size // 2),
-        "a chain of nodes": (chained, 0),
-        "nodes of nothing": (empty, 0),
-        "attributes": (attributes, 0),
-        "accessors of no bytes": (unused, 0),
-        "targets": (targets, 0),
-        "skins": (skinned, 0),
+    both: dict[str, Change] = {
+        "points of no bytes": nothing(0, 1 << 26),
+        "indices of no bytes": nothing(1, 3 << 24),
+        "a chain of nodes": chained,
+        "nodes of nothing": empty,
+        "accessors of no bytes": unused,
+        "targets": targets,
     }
-    still: dict[str, tuple[Change, int]] = {
-        "meshes": (shared(size // 400, size // 400, 1), size // 2),
-        "materials": (materials, 0),
-        "sparse": (sparse, 0),
-    }
-    moving: dict[str, tuple[Change, int]] = {
-        "curves of no bytes": (channels, 0),
-        "samplers": (partial(channels, samplers=True), 0),
-    }
-    found = {f"glb, {name}": partial(made, *how, None) for name, how in {**both, **still}.items()}
-    found |= {f"moving glb, {name}": partial(made, *how, 1.0) for name, how in {**both, **moving}.items()}
-    found |= {f"long glb, {name}": partial(made, *both[name], 30_000.0) for name in ("nodes of nothing", "targets")}
+    moving: dict[str, Change] = {"curves of no bytes": channels, "samplers": partial(channels, samplers=True)}
+    found = {f"glb, {name}": partial(made, change, None) for name, change in (both | {"sparse": sparse}).items()}
+    found |= {f"moving glb, {name}": partial(made, change, 1.0) for name, change in (both | moving).items()}
+    found |= {f"long glb, {name}": partial(made, both[name], 30_000.0) for name in ("nodes of nothing", "targets")}
     return found | {"glb, nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size)}
 
 
@@ -649,20 +610,13 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
             "usda", b"#usda 1.0\n" + head + b"".join(entry.replace(b"#", b"%d" % n) for n in range(count)) + tail
         )
 
-    subset = (
-        b'def Material "m#" {}\ndef GeomSubset "s#" { uniform token elementType = "face"\n'
-        b"int[] indices = [0]\nrel material:binding = </a/m#> }\n"
-    )
     begun, samples = b'def Mesh "a"\n{\n' + mesh, b"point3f[] points.timeSamples = {\n"
-    referred = b'def "p" { def Mesh "a" {\n' + mesh + points + b"} }\n"
     return {
         "usd, faces": lambda: stage(b"int[] faceVertexCounts = [" + b"0," * (size // 2) + b"0]\n" + points),
         "usd, points": lambda: stage(mesh + b"point3f[] points = [" + b"(0,0,0)," * (size // 8) + b"(0,0,0)]\n"),
         "usd, samples": lambda: many(begun + samples, b"#: [(0,0,0),(1,0,0),(0,1,0)],\n", size // 36, b"}\n" + tail),
         "usd, prims": lambda: many(b"", b'def Mesh "a#" {\n' + mesh + points + b"}\n", size // 150),
-        "usd, subsets": lambda: many(begun + points, subset, size // 120, tail),
         "usd, nested": lambda: Sample("usda", head + b'def "a" {\n' * (size // 10) + b"}\n" * (size // 10)),
-        "usd, instances": lambda: many(referred, b'def "b#" (references = </p>) {}\n', size // 36),
     }
 
 

@@ -337,10 +337,13 @@ def cases(size: int, splits: tuple[float, ...]) -> Iterator[Case]:
     """Yield files of about `size` bytes."""
     for name, make in uses():
         for split in splits:
-            used = int(split * size)
-            each = max(4, (len(make(1000, 1100).data) - len(make(1000, 100).data)) // 1000)
-            count = max(1, (size - used) // each)
-            yield Case(f"{name}, {used} bytes {count} times", partial(make, used, count))
+            yield Case(f"{name}, {split} of {size} bytes are used", partial(of_size, make, size, split))
+
+
+def of_size(make: Use, size: int, split: float = SPLITS[0]) -> Sample:
+    """Make a file of about `size` bytes, of which a share is used by the others."""
+    each = max(4, (len(make(1000, 1100).data) - len(make(1000, 100).data)) // 1000)
+    return make(int(split * size), max(1, int((1 - split) * size) // each))
 
 
 def main() -> int:

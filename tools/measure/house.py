@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_633,
+    "product in all languages, lines": 62_591,
     "product Python, lines": 33_417,
     "product C and C++, lines": 21_621,
     "product Rust, lines": 908,
-    "product TypeScript, lines": 6_689,
-    "product lines over 120 columns": 233,
-    "all Python, lines": 74_972,
+    "product TypeScript, lines": 6_645,
+    "product lines over 120 columns": 229,
+    "all Python, lines": 74_950,
     "product modules": 201,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,

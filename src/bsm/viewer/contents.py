@@ -20,8 +20,8 @@ from bsm.api import encode, encode_sequence
 from bsm.bitstream.errors import BsmError, DependencyError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
-from bsm.codec.geometry.metrics import Reference
-from bsm.comparison import in_order_of
+from bsm.codec.geometry.metrics import compare
+from bsm.comparison import in_order_of, pair
 from bsm.exits import worded
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames
@@ -80,19 +80,16 @@ def compared(
     from bsm.codec.static.options import PRESETS as ALL
 
     decoded = decode_whole(Input(stream).chunks(), limits)
-    used = decoded.without_isolated_vertices()[0]
-    source = original.without_isolated_vertices()[0]
-    if len(source.positions) != len(used.positions):
-        from bsm.codec.static.preamble_encoding import join
-
-        source = join(source, keep=False).mesh
+    used, kept = decoded.without_isolated_vertices()
+    paired = pair(original.bare.without_isolated_vertices()[0], used)
+    source = paired.original
     plain = 12 * (len(original.positions) + len(original.faces))
     first = Layer("Original", "" if size else "as plain arrays", size or plain, encode(original, preset="lossless"))
-    off = _off(decoded, source)
+    off = np.full(len(decoded.positions), np.nan, np.float32)
+    off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
+    errors = compare(source.positions, paired.positions, source.faces)
     diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
-    angle = Reference(source.positions, source.faces).angle(in_order_of(source, used))
-    facts = {"preset": preset, "diagonal": diagonal, "angle": angle}
-    facts["farthest"] = float(np.nanmax(off, initial=0.0)) / diagonal
+    facts = {"preset": preset, "diagonal": diagonal, "angle": errors.angle_deg, "farthest": errors.max_error_relative}
     rival: tuple[Layer, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
@@ -118,14 +115,6 @@ def _over_time(name: str, decoder: SequenceStream, original: Frames) -> dict[str
     pairs = zip(frames, decoded, strict=True)
     errors = [float(np.linalg.norm(frame[kept] - other[rows], axis=1).max()) / diagonal for frame, other in pairs]
     return {"diagonal": diagonal, "farthest": max(errors), "errors": errors}
-
-
-def _off(decoded: TriangleMesh, source: TriangleMesh) -> npt.NDArray[np.float32]:
-    """Return the error of each vertex of a decoded mesh; NaN for vertices in no face."""
-    used, kept = decoded.without_isolated_vertices()
-    off = np.full(len(decoded.positions), np.nan, np.float32)
-    off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
-    return off
 
 
 def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Layer], dict[str, int] | None]:
@@ -175,32 +164,35 @@ def made(
 
 
 def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:
-    """Encode an upload in a process; send pairs of a stage and a fraction, then the result or an error message."""
+    """Encode an upload in a process; send reports, then the result or an error message."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def report(stage: str, share: float) -> None:
+        pipe.send({"stage": stage, "share": share})
+
     try:
-        pipe.send(("reading", 0.0))
+        report("reading", 0.0)
         mesh = read_mesh(data, limits=Limits.service()).mesh
-        pipe.send(made(name, len(data), mesh, preset, lambda stage, share: pipe.send((stage, share))))
+        pipe.send(made(name, len(data), mesh, preset, report))
     except (BsmError, MemoryError) as error:
-        pipe.send(worded(error))
+        pipe.send({"error": worded(error)})
 
 
-def uploaded(name: str, data: bytes, preset: str) -> Generator[tuple[str, float] | Content | str]:
+def uploaded(name: str, data: bytes, preset: str) -> Generator[dict[str, Any] | Content]:
     """Encode a file dropped on the page, in a process that ends with this generator; yield its reports."""
-    here, there = multiprocessing.get_context("spawn").Pipe()
-    process = multiprocessing.get_context("spawn").Process(
-        target=_work, args=(there, PurePath(name).name, data, preset), daemon=True
-    )
+    context = multiprocessing.get_context("spawn")
+    here, there = context.Pipe()
+    process = context.Process(target=_work, args=(there, PurePath(name).name, data, preset), daemon=True)
     process.start()
     there.close()
     try:
-        report: Any = ("starting", 0.0)
-        while isinstance(report, tuple):
+        report: Any = {"stage": "starting", "share": 0.0}
+        while isinstance(report, dict) and "stage" in report:
             if here.poll(_EVERY):
                 report = here.recv()
             yield report
     except (EOFError, OSError):
-        yield "the process that encoded it has died"
+        yield {"error": "the process that encoded it has died"}
     finally:
         process.kill()
         process.join()

@@ -335,10 +335,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Lines of JSON: stage and share, at last an entry or an error."""
         with closing(uploaded(name, data, preset)) as reports:
             for report in reports:
-                if isinstance(report, tuple):
-                    line: dict[str, Any] = {"stage": report[0], "share": report[1]}
-                else:
-                    line = {"error": report} if isinstance(report, str) else {"entry": self.server.dropped(report)}
+                line = {"entry": self.server.dropped(report)} if isinstance(report, Content) else report
                 yield json.dumps(line).encode() + b"\n"
 
     def _answer(self, data: bytes | Growing | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:

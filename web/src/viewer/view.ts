@@ -5,9 +5,9 @@ import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
 import type { Pool, StreamDecoding } from "../pool";
 import { Arrival } from "./arrival";
-import { filmOf, pictureOf } from "./capture";
+import { pictureOf } from "./capture";
 import { Comparison } from "./comparison";
-import { counted, element, factsOf, percent, sized, type Content, type Row } from "./facts";
+import { counted, element, factsOf, sized, type Content, type Row } from "./facts";
 import { Form } from "./form";
 import { listenToKeys } from "./keys";
 import { SequenceBar } from "./sequence";
@@ -165,31 +165,17 @@ export class View {
             root.dataset.theme = isDark ? "light" : "dark";
         });
         for (const part of ["panel", "keys"]) form.on(part, "click", () => form.unfold(part));
-        form.on("picture", "click", () => pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob, "png")));
-        form.on("film", "click", (button) => void this.film(button));
+        form.on("picture", "click", () => pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob)));
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
         listenToKeys(form, stage, meshes);
         if (matchMedia("(min-width: 45rem)").matches) form.part("more").setAttribute("open", "");
     }
 
-    private save(blob: Blob, suffix: string): void {
-        const download = `${this.content.name.replace(/\.\w+$/, "") || "mesh"}.${suffix}`;
+    private save(blob: Blob): void {
+        const download = `${this.content.name.replace(/\.\w+$/, "") || "mesh"}.png`;
         const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download });
         link.click();
         setTimeout(() => URL.revokeObjectURL(link.href), 60 * SECOND);
-    }
-
-    private async film(button: HTMLInputElement): Promise<void> {
-        button.disabled = true;
-        try {
-            const report = (share: number): void => button.setAttribute("aria-label", `Save a turntable, ${percent(share)}`);
-            const blob = await filmOf(this.stage, this.meshes.captions, report);
-            this.save(blob, blob.type.includes("mp4") ? "mp4" : "webm");
-        } catch (error) {
-            this.form.say("problem", `Recording is not supported. ${error instanceof Error ? error.message : error}`);
-        }
-        button.setAttribute("aria-label", "Save a turntable");
-        button.disabled = false;
     }
 
     /** Look for the tiles that are to be seen, when the camera has moved or some have come. */
