@@ -122,11 +122,11 @@ def axes(towards: tuple[int, int, int]) -> Matrix:
     return np.array([right, up, ahead])
 
 
-def cameras(positions: Positions, pixels: int) -> list[Matrix]:
-    """What `draw_shaded` takes for each side, shape (15,), so that the positions, shape (n, 3), fill the picture."""
+def cameras(positions: Positions, pixels: int, sides: tuple[tuple[int, int, int], ...] = TOWARDS) -> list[Matrix]:
+    """Return the arguments of `draw_shaded` for sides, shape (15,), so that positions, shape (n, 3), fill pictures."""
     found = []
     across, deep, high_up = np.ascontiguousarray(positions.T)
-    for towards in TOWARDS:
+    for towards in sides:
         rows = axes(towards)
         seen = [across * x + deep * y + high_up * z for x, y, z in rows]
         low, high = (np.array([values.min() for values in seen]), np.array([values.max() for values in seen]))

@@ -10,9 +10,10 @@ import pytest
 from bsm import TriangleMesh
 from bsm.files.mesh import write_mesh
 from tests.shapes import torus
-from tools.replicate import ablation, denoising, fetch, rates, report, stages
+from tools.replicate import ablation, denoising, fetch, outside, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
+from tools.replicate.pictures import photograph
 
 
 def flat(count=8):
@@ -62,6 +63,38 @@ class TestMeasures:
         assert sted(still, shaken, mesh.faces) > 0.01
 
 
+class TestPhotographs:
+    def test_a_sample_has_the_shade_of_its_normal_on_both_sides(self):
+        at, normals = np.array([0, 0, 1, 1]), np.array([(0.0, 0.0, 1.0)] * 3 + [(0.0, 0.0, -1.0)], np.float32)
+        pixel, wall = photograph(at, np.array([0, 1, 0, 1]), normals)[0, :2]
+        diffuse = 0.06 + 0.95 * 0.64 / math.sqrt(0.9965) + 0.22 * 0.59 / math.sqrt(0.9981)
+        glossy = 0.28 * sum(
+            bright * (0.5 + 0.5 * cosine) ** 16
+            for bright, cosine in ((0.95, 0.64 / math.sqrt(0.9965)), (0.22, 0.59 / math.sqrt(0.9981)))
+        )
+        linear = np.array([0.62, 0.53, 0.45]) * diffuse + glossy
+        assert pixel == pytest.approx(255 * (1.055 * linear ** (1 / 2.4) - 0.055), abs=0.51) and (wall == 239).all()
+
+    def test_scores_see_no_difference_then_more_and_more(self):
+        for name in ("flip_evaluator", "ssimulacra2"):
+            pytest.importorskip(name, reason=f"needs {name} (extra replicate)")
+        mesh = torus(24, 16)
+        viewer, noise = outside.Viewer(mesh), np.random.default_rng(1).normal(size=mesh.positions.shape)
+        same, little, much = (viewer.scores(mesh.positions + scale * noise) for scale in (0.0, 0.003, 0.01))
+        assert all(abs(value) < 1e-6 for value in same.values()) and {"SSIMULACRA2", "FLIP"} <= same.keys()
+        assert all(0.0 < little[name] < much[name] for name in same)
+
+    def test_draco_s_files_are_made_until_the_default_is_between_two_of_them(self):
+        points = {"default": {"SSIMULACRA2": 20.0, "FLIP": 0.1}, "Draco 11": {"SSIMULACRA2": 30.0, "FLIP": 0.05}}
+        assert outside.missing(points) == ["Draco 12"]
+        points["Draco 12"] = {"SSIMULACRA2": 15.0, "FLIP": 0.02}
+        assert outside.missing(points) == ["Draco 10"]
+        points["Draco 10"] = {"SSIMULACRA2": 50.0, "FLIP": 0.2}
+        assert outside.missing(points) == []
+        files = {f"Draco {bits}": points["Draco 11"] for bits in rates.DRACO_BITS}
+        assert outside.missing({"default": points["default"]} | files) == []
+
+
 def row(name="m", scale=0.5, group="unseen"):
     """A mesh on which ours takes `scale` of Draco's bytes by every measure."""
     points = {
@@ -75,7 +108,7 @@ def row(name="m", scale=0.5, group="unseen"):
 
 class TestTables:
     def test_half_of_the_bytes_at_equal_quality(self):
-        found = rates.ratios(row(), "FLIP")
+        found = rates.ratios(row(), "DAME")
         assert found["default"] == pytest.approx(0.5) and found["fine"] == pytest.approx(0.5)
         assert found["BD-rate"] == pytest.approx(0.5, abs=0.01) and "quick" not in found
 
@@ -92,7 +125,10 @@ class TestTables:
         points = {name: {"bytes": 9000 - 99 * k, "kg": 0.1 * k, "sted": 0.01 * k} for k, name in enumerate(codecs, 1)}
         moving = {"sequence": "s", "frames": 4, "vertices": 500, "points": points}
         moving["tools"] = dict.fromkeys(ablation.MOVING_TOOLS, 1.2)
-        results = {"rates": [row("a", 0.5), row("b", 0.7), row("c", 0.6, "tuned")], "times": [timed]}
+        scored = {name: dict.fromkeys(outside.SCORES, 2.0**-k) for k, name in enumerate(("default", "Draco 11"))}
+        scored |= {"Draco 12": dict.fromkeys(outside.SCORES, 3.0)}
+        results = {"outside": [{"mesh": "m", "points": {n: {"bytes": 9, **p} for n, p in scored.items()}}]}
+        results |= {"rates": [row("a", 0.5), row("b", 0.7), row("c", 0.6, "tuned")], "times": [timed]}
         entry = {"noisy": 9.0, "rival": 4.0, "ours": 3.0, "estimate": [1.5, 2.0]}
         noisy = {"mesh": "m", "group": "unseen", "vertices": 500, "turned": 0.1, "untouched": False, "white": entry}
         noisy |= {"kinds": dict.fromkeys(denoising.KINDS, entry), "scans": {}, "frames": {"flicker": 0.4}}

@@ -4,7 +4,6 @@ attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
 speed       what decoding by bsmdec takes, over Draco's
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
-butteraugli how presets look to Butteraugli, beside Draco at 11 bits
 targets     what a target beside the look takes, over the larger of what both take alone
 same        whether another checkout writes the same bytes
 denoising   how denoising does on noise of known cause, beside Taubin's filter
@@ -20,7 +19,6 @@ COMMANDS = {
     "fields": "fields:main",
     "encoding": "encoding:main",
     "speed": "speed:main",
-    "butteraugli": "butteraugli:main",
     "targets": "targets:main",
     "same": "same:main",
     "denoising": "denoising:main",

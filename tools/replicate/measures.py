@@ -13,12 +13,11 @@ from bsm.codec.geometry.graph import mesh_edges
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference, face_normals
 from bsm.codec.look.measure import LookMetric
-from tools.replicate.pictures import SIDES, Gallery
+from tools.replicate.pictures import Gallery
 
 MEASURES = {
     "look": "our look",
     "facets": "difference in facets",
-    "FLIP": "FLIP",
     "Hausdorff": "Hausdorff distance",
     "RMS": "RMS distance",
     "angle": "angle of normals",
@@ -40,29 +39,20 @@ class Judge:
         self._angles, self._pairs = dihedral_angles(mesh.positions, mesh.faces)
         self._samples = max(10_000, min(50_000, 2 * len(mesh.faces)))
 
-    def measures(self, positions: Positions, flip: bool = True) -> dict[str, float]:
-        """By the names of `MEASURES`, lengths over the diagonal of the box; FLIP only where it is asked for."""
+    def measures(self, positions: Positions) -> dict[str, float]:
+        """By the names of `MEASURES`, lengths over the diagonal of the box."""
         decoded = TriangleMesh(positions, self._faces)
         compared = self._reference.compare(positions)
         farthest, rms = surface_distance(self._mesh, decoded, self._samples)
-        found = {
+        return {
             "look": self._look.compare(decoded).distance,
-            "facets": self._gallery.facets(decoded),
+            "facets": self._gallery.facets(positions),
             "Hausdorff": farthest / self._reference.scale,
             "RMS": rms / self._reference.scale,
             "angle": compared.angle_deg,
             "NMSVE": compared.nmsve,
             "DAME": self.dame(positions),
         }
-        return found | ({"FLIP": self.flip(decoded)} if flip else {})
-
-    def flip(self, decoded: TriangleMesh) -> float:
-        """NVIDIA's FLIP, from one side: it takes as long as everything else together."""
-        import flip_evaluator
-
-        pair = self._gallery.smooth, self._gallery.drawn(decoded, SIDES[0], flat=False)
-        images = [np.repeat(picture[:, :, None], 3, axis=2) for picture in pair]
-        return float(flip_evaluator.evaluate(*images, "LDR", applyMagma=False)[1])
 
     def dame(self, positions: Positions) -> float:
         """Dihedral angle mesh error (Vasa and Rus, 2012) in radians, with masking, without its term of visibility.

@@ -33,7 +33,6 @@ CURVE = ("small", "default", "fine", "near-lossless")
 """The presets whose bytes and qualities are our line where lines are compared."""
 DRACO_BITS = range(7, 15)
 MESHOPT_BITS = (12, 14)
-FLIP_BITS = range(8, 13)
 TIMED = ("default", "fine", "quick")
 Row = dict[str, Any]
 
@@ -59,10 +58,9 @@ def measure_mesh(source: Source, meshopt: Path | None) -> Row:
         except BsmError as error:
             failed[name] = str(error)
             continue
-        flip = name != "grid14" if name in PRESETS else int(name.split()[1]) in FLIP_BITS
-        points[name] = {"bytes": len(data), **judge.measures(positions, flip)}
+        points[name] = {"bytes": len(data), **judge.measures(positions)}
     for bits, (size, positions) in meshopt_points(mesh, meshopt).items() if meshopt else ():
-        points[f"meshoptimizer {bits}"] = {"bytes": size["gzip"], **size, **judge.measures(positions, flip=False)}
+        points[f"meshoptimizer {bits}"] = {"bytes": size["gzip"], **size, **judge.measures(positions)}
     return {**facts, "points": points, "failed": failed}
 
 

@@ -14,6 +14,7 @@ from tools.replicate import ablation, motion
 from tools.replicate.ablation import MOVING_TOOLS, TOOLS, ablation_note, ablation_table
 from tools.replicate.denoising import denoising_note, denoising_table, pairs_table
 from tools.replicate.measures import MEASURES
+from tools.replicate.outside import PHOTOGRAPHED, SPREAD, outside_table, steadiness_table
 from tools.replicate.rates import COLUMNS, CURVE, MESHOPT_BITS, PRESETS, Row, ratios, spread, summary, time_summary
 
 GROUPS = {"unseen": "fetched meshes", "tuned": "meshes that were in use here before"}
@@ -28,11 +29,12 @@ writes every number as JSON, each table in LaTeX and each figure as PDF. `--figu
 your own; its meshes and sequences join those that were in use here before. BSM was not developed on the fetched meshes,
 but some constants were chosen with some of them in view: of the look, of how many grids are tried, and of denoising.
 
-FLIP is NVIDIA's. MeshLab measures the distances of surfaces (Metro's definition). DAME is written after Váša and Rus,
-*Dihedral Angle Mesh Error* (2012, doi 10.1111/j.1467-8659.2012.03176.x), without its term of visibility. STED is
-written after Váša and Skala, *A Perception Correlated Comparison Method for Dynamic Meshes* (2011). We could read the
-abstract of the first only. So the weight of DAME's masking is from memory, and so are STED's neighborhood, its length
-of a frame and its weight of time. Compare both within this page, not with other papers."""
+SSIMULACRA2 is Cloudinary's, in the Python package of that name; 90 is visually lossless, 70 high quality. Butteraugli
+is of Debian's libjxl-devtools, FLIP NVIDIA's. MeshLab measures the distances of surfaces (Metro's definition). DAME is
+written after Váša and Rus, *Dihedral Angle Mesh Error* (2012, doi 10.1111/j.1467-8659.2012.03176.x), without its term
+of visibility. STED is written after Váša and Skala, *A Perception Correlated Comparison Method for Dynamic Meshes*
+(2011). We could read the abstract of the first only. So the weight of DAME's masking is from memory, and so are STED's
+neighborhood, its length of a frame and its weight of time. Compare both within this page, not with other papers."""
 
 
 class Table(NamedTuple):
@@ -62,6 +64,14 @@ def tables(results: dict[str, list[Row]]) -> dict[str, Table]:
         if timed:
             note = "One thread, processor seconds over Draco's (11 bits, level 10), the least of three by turns."
             found[f"times-{group}"] = Table(f"Times over Draco's, {words}", COLUMNS, time_summary(timed), note)
+    if seen := results.get("outside", []):
+        title, note = (
+            "Bytes over Draco's at equal scores of photographs",
+            f"{PHOTOGRAPHED} Draco: level 10, 7 to 14 bits.",
+        )
+        found["outside"] = Table(title, COLUMNS, outside_table(seen), note)
+        note = "Means of the three views; less is better. Draco: 11 bits, level 10."
+        found["outside-spread"] = Table("Spread of scores of photographs", SPREAD, steadiness_table(seen), note)
     if results.get("ablation"):
         rows = results["ablation"]
         found["ablation"] = Table("Without each tool", ablation.COLUMNS, ablation_table(rows), ablation_note(rows))

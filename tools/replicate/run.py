@@ -17,6 +17,7 @@ from tools.replicate.ablation import ablate_mesh
 from tools.replicate.denoising import denoise_mesh, pairs
 from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_meshes
 from tools.replicate.motion import measure_motion, sequences
+from tools.replicate.outside import SEEN, measure_outside
 from tools.replicate.paper import TABLES, Job, make_tables
 from tools.replicate.rates import Row, measure_mesh, time_mesh
 from tools.replicate.stages import run_stage
@@ -62,6 +63,9 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
         package = meshopt_package(folder / "meshes", note)
         chosen = shuffled([s for s in sources if not quick or s.vertices <= QUICK_SIZE])
         run_stage(measure_mesh, chosen, folder / "rates", minutes["rates"], note, package, workers=workers)
+    if "outside" in minutes:
+        chosen = shuffled([s for s in unseen(sources, SEEN) if not quick or s.vertices <= QUICK_SIZE])
+        run_stage(measure_outside, chosen, folder / "outside", minutes["outside"], note, workers=workers)
     if "ablation" in minutes:
         chosen = [s for sizes, count in ABLATED.items() for s in shuffled(spread_over(unseen(sources, sizes), count))]
         run_stage(ablate_mesh, chosen, folder / "ablation", minutes["ablation"], note, workers=workers)
@@ -101,7 +105,7 @@ def curves(sources: list[Source], folder: Path, minutes: float, quick: bool) -> 
 
 def read(folder: Path) -> dict[str, list[Row]]:
     """Every row of every stage."""
-    stages = ("rates", "times", "ablation", "motion", "denoising")
+    stages = ("rates", "outside", "times", "ablation", "motion", "denoising")
     found = {
         stage: [json.loads(path.read_text(encoding="utf-8")) for path in sorted((folder / stage).glob("*.json"))]
         for stage in stages
