@@ -40,7 +40,7 @@ LIMITS = {
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_645,
     "product lines over 120 columns": 229,
-    "all Python, lines": 74_950,
+    "all Python, lines": 74_386,
     "product modules": 201,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,

@@ -63,9 +63,14 @@ def try_product(vector: Vector) -> str | None:
     try:
         decoded = decoder(vector.stream.read_bytes())
     except BsmError as error:
-        found = type(error).__name__.removesuffix("Error").lower()
+        found = error_name(error)
         return None if found == vector.error else f"refused as {found}, {error}"
     return f"decoded, and not refused as {vector.error}" if vector.error else vector.complaint(*decoded)
+
+
+def error_name(error: BsmError) -> str:
+    """The class of an error, as manifests call it."""
+    return type(error).__name__.removesuffix("Error").lower()
 
 
 def _decode_static(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
@@ -96,34 +101,26 @@ def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
 
 
 def write() -> int:
-    """Make the vectors that no earlier version has; write none if the decoder does not treat one as it should."""
+    """Make the vectors that are missing; write none if the decoder does not treat one as it should."""
     from tools.vectors.made import BADS, GOODS
 
+    known = {vector.name for vector in read_manifest()}
     streams: dict[Vector, bytes] = {}
     meshes = {}
-    settled = {vector.name for vector in read_manifest() if vector.folder != NEXT}
-    for name, good in GOODS.items():
-        if name in settled:
+    for name, made in (GOODS | BADS).items():
+        if name in known:
             continue
-        vector = Vector(name, good.probes, folder=NEXT)
-        streams[vector] = vector.stream.read_bytes() if vector.stream.is_file() else good.make()
+        vector = Vector(name, made.probes, getattr(made, "error", None), NEXT)
+        streams[vector] = made.make()
         decoder = _decode_sequence if "-sequence" in name else _decode_static
-        meshes[vector] = decoder(streams[vector])
-    for name, bad in BADS.items():
-        if name in settled:
-            continue
-        vector = Vector(name, bad.probes, bad.error, NEXT)
-        streams[vector] = vector.stream.read_bytes() if vector.stream.is_file() else bad.make()
         try:
-            (_decode_sequence if "-sequence" in name else decode)(streams[vector])
+            meshes[vector] = decoder(streams[vector])
+            found = None
         except BsmError as error:
-            found = type(error).__name__.removesuffix("Error").lower()
-            if found != bad.error:
-                print(f"{name} is refused as {found} and not as {bad.error}: {error}", file=sys.stderr)
-                return 1
-            continue
-        print(f"{name} is decoded and not refused", file=sys.stderr)
-        return 1
+            found = error_name(error)
+        if found != vector.error:
+            print(f"{name} is {found or 'decoded'}, and should be {vector.error or 'decoded'}", file=sys.stderr)
+            return 1
     write_vectors(streams, meshes)
     write_needs()
     print(f"{len(streams)} vectors, {sum(map(len, streams.values()))} bytes of streams")

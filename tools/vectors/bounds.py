@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -21,7 +22,6 @@ from bsm.codec.static.options import changed
 from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
 from tools.surgery import frames_of, header_frame, stream_of, with_header, write_stream
-from tools.vectors.bad import Bad
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import base
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
@@ -31,6 +31,15 @@ ASKED = 73786976294838435356
 MOST = (1 << 20) - 1
 TILTED = "700302200031320344"
 """Which of its three values are the largest and not 0, of each vertex of a tent, so that V 9.3 comes beyond 2^26."""
+
+
+@dataclass(frozen=True)
+class Bad:
+    """A stream to be refused with an error of the class `error`; `make` is called only when vectors are written."""
+
+    probes: str
+    error: str
+    make: Callable[[], bytes]
 
 
 def _gridded(faces: npt.ArrayLike, values: npt.NDArray[Any], **header: Any) -> bytes:

@@ -1,23 +1,18 @@
-"""Streams at the edges of rules: two faults at once, numbers in other forms, many components, claims without data."""
+"""Streams at the edges of rules: numbers in other forms, many components, long chains."""
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import zstandard
-
 from bsm.api import encode_sequence
-from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.wire import FrameType, write_frame, write_map
+from bsm.bitstream.container.wire import FrameType, write_map
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
-from tools.surgery import frames_of, header_entries, stream_of, with_header, with_payload
-from tools.vectors.bad import Bad
+from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_sequences import BASE as SEQUENCE
 from tools.vectors.meshes import patch, shuffled, tangled, tetrahedron, together, torus
@@ -53,10 +48,6 @@ def _strips() -> TriangleMesh:
     return together(*(patch(24, 3) for _ in range(4)))
 
 
-def _with_map(edit: Callable[[dict[int, Any]], bytes]) -> Callable[[], bytes]:
-    return lambda: with_payload(_stream(), HEADER, edit(header_entries(frames_of(_stream())[0][1])))
-
-
 def _metadata(payload: bytes) -> Callable[[], bytes]:
     def make() -> bytes:
         frames = frames_of(_stream())
@@ -65,51 +56,9 @@ def _metadata(payload: bytes) -> Callable[[], bytes]:
     return make
 
 
-def _zstd_with_checksum() -> bytes:
-    """The bytes of a block as a zstd frame with a checksum of its content."""
-    stream = _stream(bits=16, coefficients=25)
-    payload = next(payload for kind, payload in frames_of(stream) if kind == BLOCK)
-    content = bytes.fromhex("80 00") * 75
-    frame = zstandard.ZstdCompressor(write_checksum=True).compress(content)
-    return with_payload(stream, BLOCK, payload[:2] + frame[4:])
-
-
-def _short_then_wrong() -> bytes:
-    """The first block ends too early, and END has another CRC."""
-    frames = frames_of(_stream())
-    place = next(i for i, (kind, _) in enumerate(frames) if kind == BLOCK)
-    frames[place] = (BLOCK, frames[place][1][:6])
-    whole = stream_of(frames)
-    payload = bytearray(whole[-7:-2])
-    payload[1] ^= 1
-    return whole[:-8] + write_frame(FrameType.END, bytes(payload))
-
-
-def _swap_after(edit: Callable[[bytes], bytes]) -> Callable[[], bytes]:
-    """CONNECTIVITY with other data, and a second one behind it."""
-
-    def make() -> bytes:
-        frames = frames_of(_stream())
-        return stream_of([frames[0], (CONNECTIVITY, edit(frames[1][1])), *frames[1:]])
-
-    return make
-
-
-def _claims(**header: Any) -> Callable[[], bytes]:
-    """The faces of a large regular mesh, and no block, whatever the header claims."""
-
-    def make() -> bytes:
-        frames = frames_of(with_header(encode(torus(48, 48), BASE), **header))
-        return stream_of([frame for frame in frames if frame[0] != BLOCK])
-
-    return make
-
-
 def _unused(**changes: Any) -> Callable[[], bytes]:
     return lambda: with_header(_stream(), **changes)
 
-
-METHOD = int(HEADER_FIELDS["light"].high) + 1
 
 EDGES: dict[str, Good] = {
     "good-pieces": _static(
@@ -160,76 +109,3 @@ EDGES: dict[str, Good] = {
         ),
     ),
 }
-
-EDGES_BAD: dict[str, Bad] = {
-    "unsupported-key-and-range": Bad(
-        "an unknown key behind a value out of range",
-        "unsupported",
-        _with_map(lambda e: _entries({**e, 10: -1.0, 20: 1})),
-    ),
-    "unsupported-method-and-range": Bad(
-        "an unknown method behind a value out of range", "unsupported", _unused(smoothing=-1.0, light=METHOD)
-    ),
-    "unsupported-method-and-lack": Bad(
-        "an unknown method, and no number of faces", "unsupported", _unused(faces=None, light=METHOD)
-    ),
-    "unsupported-method-and-limit": Bad(
-        "an unknown method of a mesh beyond all limits",
-        "unsupported",
-        _unused(vertices=2**30, faces=2**30, blocks=2**18, block_size=8192, light=METHOD),
-    ),
-    "unsupported-method-and-default": Bad(
-        "an unknown method behind a default that is stored", "unsupported", _unused(key_interval=0, light=METHOD)
-    ),
-    "bad-range-and-limit": Bad(
-        "a mesh beyond all limits, and a value out of range",
-        "corrupt",
-        _unused(vertices=2**30, faces=2**30, blocks=2**18, block_size=8192, power=65),
-    ),
-    "bad-map-and-key": Bad(
-        "an unknown key in a map that is not canonical",
-        "corrupt",
-        _with_map(lambda e: _entries({**e, 20: 1}).replace(b"\x01\x38", b"\x01\xcc\x38", 1)),
-    ),
-    "bad-method-float": Bad("a method that is no int", "corrupt", _unused(light=float(METHOD))),
-    "bad-int16": Bad("300 as int 16", "corrupt", _metadata(b"\x81\xa1a\xd1\x01\x2c")),
-    "bad-int16-header": Bad(
-        "a number of faces as int 16",
-        "corrupt",
-        _with_map(lambda e: _entries({**e, 2: 300}).replace(b"\x02\xcd\x01\x2c", b"\x02\xd1\x01\x2c", 1)),
-    ),
-    "bad-int32": Bad("70,000 as int 32", "corrupt", _metadata(b"\x81\xa1a\xd2" + struct.pack(">i", 70_000))),
-    "bad-int64": Bad("2^40 as int 64", "corrupt", _metadata(b"\x81\xa1a\xd3" + struct.pack(">q", 1 << 40))),
-    "bad-int8": Bad("-3 as int 8", "corrupt", _metadata(b"\x81\xa1a\xd0\xfd")),
-    "bad-uint16": Bad("200 as uint 16", "corrupt", _metadata(b"\x81\xa1a\xcd\0\xc8")),
-    "bad-string-long": Bad("a string of one byte as str 8", "corrupt", _metadata(b"\x81\xa1a\xd9\x01b")),
-    "bad-string-utf8": Bad("a string that is no UTF-8", "corrupt", _metadata(b"\x81\xa1a\xa1\xff")),
-    "bad-minus-zero": Bad("-0.0, the default, is stored", "corrupt", _unused(smoothing=-0.0)),
-    "bad-minus-zero-center": Bad("a center of -0.0", "corrupt", _unused(center=[0.0, -0.0, 0.0])),
-    "bad-packed-checksum": Bad("a zstd frame with a checksum of its content", "corrupt", _zstd_with_checksum),
-    "bad-first-of-two": Bad(
-        "levels that end too early, and then another CRC-32 in END", "truncated", _short_then_wrong
-    ),
-    "bad-order-of-faults": Bad(
-        "faces that end too early, and then a second CONNECTIVITY", "truncated", _swap_after(lambda data: data[:2])
-    ),
-    "bad-claims": Bad("a regular mesh without blocks", "corrupt", _claims()),
-    "bad-claims-wide": Bad("the same with dictionaries as wide as they may be", "corrupt", _claims(power=64, exact=1)),
-    "bad-claims-blocks": Bad(
-        "the same with a block for every vertex, each as large as the mesh",
-        "corrupt",
-        _claims(blocks=2304, block_size=2304, coefficients=2304),
-    ),
-    "bad-sequence-limit-gop-frames": Bad(
-        "longer GOPs than a decoder should grant",
-        "limit",
-        lambda: with_header(_sequence("", 2).make(), gop_frames=4096),
-    ),
-    "bad-sequence-limit-frames": Bad(
-        "more frames than a decoder should grant", "limit", lambda: with_header(_sequence("", 2).make(), frames=2**21)
-    ),
-}
-
-
-def _entries(entries: dict[int, Any]) -> bytes:
-    return write_map(sorted(entries.items()))

@@ -1,20 +1,16 @@
-"""Streams with floats in the cells of a grid: positions to the bit, and what every decoder must refuse of them."""
+"""Streams with floats in the cells of a grid: positions to the bit."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
 
-from bsm.bitstream.container.wire import FrameType, write_varint
+from bsm.bitstream.container.wire import FrameType
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from tools.surgery import Cursor, with_header, with_payload
-from tools.surgery import frames_of as _frames_of
-from tools.vectors.bad import Bad
 from tools.vectors.good import Good
 from tools.vectors.good_attributes import charts, colors, creases, with_attributes
 from tools.vectors.good_fields import soup
@@ -45,23 +41,6 @@ def _stream() -> bytes:
     return lossless(torus(8, 7))
 
 
-def _payload(edit: Callable[[bytes, bytes], bytes]) -> Callable[[], bytes]:
-    """With other data behind the numbers of the frame: values, and floats."""
-
-    def make() -> bytes:
-        stream = _stream()
-        payload = next(payload for kind, payload in _frames_of(stream) if kind == GRID)
-        cursor = Cursor(payload[2:])
-        values = cursor.take(cursor.varint())
-        return with_payload(stream, GRID, payload[:2] + edit(values, cursor.rest()))
-
-    return make
-
-
-def _with_size(values: bytes) -> bytes:
-    return write_varint(len(values)) + values
-
-
 EXACT: dict[str, Good] = {
     "good-exact": Good("floats to the bit", lambda: lossless(torus(12, 9))),
     "good-exact-round": Good("floats that are met again, and zeros of both signs", lambda: lossless(_round())),
@@ -75,28 +54,5 @@ EXACT: dict[str, Good] = {
     "good-exact-attributes": Good(
         "attributes that lean on the grid, exact",
         lambda: lossless(with_attributes(torus(10, 8), charts, creases, colors)),
-    ),
-}
-
-BAD_EXACT: dict[str, Bad] = {
-    "bad-exact-lattice": Bad(
-        "floats on a lattice", "corrupt", lambda: with_header(_stream(), lattice=[1 << 17, 1 << 16])
-    ),
-    "bad-exact-corner": Bad(
-        "floats in cells that are counted", "corrupt", lambda: with_header(_stream(), corner=[1, 2, 3], center=None)
-    ),
-    "bad-exact-short": Bad("floats that end early", "truncated", _payload(lambda v, f: _with_size(v) + f[:-9])),
-    "bad-exact-none": Bad("values without floats", "truncated", _payload(lambda v, f: _with_size(v))),
-    "bad-exact-long": Bad(
-        "bytes behind the last float", "corrupt", _payload(lambda v, f: _with_size(v) + f + bytes(9))
-    ),
-    "bad-exact-values": Bad(
-        "values that are longer than the frame", "corrupt", _payload(lambda v, f: write_varint(1 << 20) + v + f)
-    ),
-    "bad-exact-empty-cells": Bad(
-        "cells without floats", "corrupt", lambda: with_header(_stream(), center=[1e7, 1e7, 1e7])
-    ),
-    "bad-exact-infinite": Bad(
-        "cells beyond the greatest float", "corrupt", lambda: with_header(_stream(), center=[1e39, 0.0, 0.0])
     ),
 }

@@ -147,18 +147,15 @@ def write_needs() -> None:
 
 
 def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any, Arrays]]) -> None:
-    """Replace what is in the next version's folder, but an expected mesh only where it is another."""
-    NEXT.mkdir(exist_ok=True)
+    """Add to the next version's folder."""
     for vector, stream in streams.items():
         vector.stream.write_bytes(stream)
     for vector, (positions, faces, attributes) in meshes.items():
-        if not vector.expected.is_file() or vector.complaint(positions, faces, attributes):
-            buffer = io.BytesIO()
-            np.savez_compressed(buffer, positions=positions, faces=faces, **attributes)  # type: ignore[arg-type]
-            vector.expected.write_bytes(buffer.getvalue())
-    for path in NEXT.iterdir():
-        left = path.suffix == ".bsm" and path not in {vector.stream for vector in streams}
-        if left or (path.suffix == ".npz" and path not in {vector.expected for vector in meshes}):
-            path.unlink()
-    entries = [{"name": v.name, "probes": v.probes} | ({"error": v.error} if v.error else {}) for v in streams]
-    (NEXT / MANIFEST).write_text(json.dumps({"version": NEXT.name, "vectors": entries}, indent=1) + "\n")
+        buffer = io.BytesIO()
+        np.savez_compressed(buffer, positions=positions, faces=faces, **attributes)  # type: ignore[arg-type]
+        vector.expected.write_bytes(buffer.getvalue())
+    manifest = json.loads((NEXT / MANIFEST).read_text())
+    manifest["vectors"] += [
+        {"name": v.name, "probes": v.probes} | ({"error": v.error} if v.error else {}) for v in streams
+    ]
+    (NEXT / MANIFEST).write_text(json.dumps(manifest, indent=1) + "\n")
