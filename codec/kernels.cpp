@@ -38,7 +38,6 @@ NB_MODULE(_kernels, m) {
           "distances"_a, Unlocked());
     m.def("farthest_distance", &farthest_distance, "points"_a, "triangles"_a, "low"_a, "high"_a, "first"_a, "count"_a,
           Unlocked());
-    m.def("nearest_faces", &nearest_faces, "corners"_a, "owner"_a, "depth"_a, Unlocked());
     m.def("shown_normals", checked<&shown_normals>, "positions"_a, "faces"_a, "joined"_a, "starts"_a, "around"_a,
           "cosine"_a, "half"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
     m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,

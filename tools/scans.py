@@ -23,10 +23,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy import ndimage, spatial
 
-from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats, Mask, face_geometry
 from bsm.codec.geometry.metrics import distances_to_surface
+from bsm.pictures import nearest_faces
 
 BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that it resolves
 WINDOW_SPREAD, LATERAL, SHAPED = 2.5, 0.5, 0.5  # pixels: of the window that is matched, of places, of flight's filter
@@ -99,10 +99,13 @@ def placed(positions: Positions, camera: Camera, turn: Floats) -> Positions:
 def render(positions: Positions, faces: Faces, camera: Camera) -> tuple[Floats, Floats]:
     """True depth at each pixel, inf where nothing is and -inf at backs, and the angle at which the surface is met."""
     screen = positions[:, :2] / positions[:, 2:] * camera.focal + 0.5 * camera.pixels
-    corners = np.column_stack([screen, 1.0 / positions[:, 2]])[faces].reshape(-1, 9)
-    owner = np.empty((camera.pixels, camera.pixels), np.int32)
-    nearness = np.empty(owner.shape)
-    _kernels.nearest_faces(np.ascontiguousarray(corners), owner, nearness)
+    corners = np.column_stack([screen, 1.0 / positions[:, 2]])
+    owner = nearest_faces(corners, faces, camera.pixels)
+    first, second, third = (corners[faces[owner, corner]] for corner in range(3))
+    slope = np.cross(second - first, third - first)  # of nearness, which is linear in columns and rows
+    rows, columns = np.indices(owner.shape) + 0.5
+    away = slope[..., 0] * (columns - first[..., 0]) + slope[..., 1] * (rows - first[..., 1])
+    nearness = first[..., 2] - away / slope[..., 2]
     rays = _rays(camera)
     facing = -np.einsum("ijk,ijk->ij", face_geometry(positions, faces).normals[owner], rays)
     depth = np.where(owner < 0, np.inf, np.where(facing > 0.0, 1.0 / nearness, -np.inf))

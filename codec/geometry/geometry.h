@@ -39,7 +39,6 @@ void nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubl
                        ConstLongs first, ConstLongs count, Doubles distances);
 double farthest_distance(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
                          ConstLongs first, ConstLongs count);
-void nearest_faces(ConstDoubles2 corners, Ints2 owner, Doubles2 depth);
 
 /* Sort values that nearly always come nearly sorted: by insertion, and by a heap once that has moved too many of them,
  * so that none, however many and in whatever order, take more than n log n steps. */

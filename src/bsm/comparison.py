@@ -65,44 +65,53 @@ def order_of_used(order: Order, original: TriangleMesh, decoded: TriangleMesh) -
 
 def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
     """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses."""
-    if len(original.positions) > len(other.positions):
+    return placed(original, other, numbering(original, other, order))
+
+
+def placed(original: TriangleMesh, other: TriangleMesh, rows: Order) -> Positions:
+    """The positions of `other` at these rows, or that of the original at -1."""
+    return np.where(rows[:, None] < 0, original.positions, other.positions[rows])
+
+
+def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Order:
+    """Return the vertex of `other` that each vertex of `original` is; -1: it lost its faces when vertices merged."""
+    count = len(other.positions)
+    if len(original.positions) > count:
         joined = join(original, keep=False)
-        if len(joined.mesh.positions) == len(other.positions):
+        if len(joined.mesh.positions) == count:
             by_joined = None if order is None else joined.index[order].astype(np.int64)
-            numbered = in_order_of(joined.mesh, other, by_joined)[joined.index]
-            return np.where(joined.index[:, None] < 0, original.positions, numbered)
-    if len(original.positions) != len(other.positions) or len(original.faces) != len(other.faces):
+            return np.append(numbering(joined.mesh, other, by_joined), -1)[joined.index]
+    if len(original.positions) != count or len(original.faces) != len(other.faces):
         raise MeshError(
-            f"the meshes differ: {len(original.positions)} and {len(other.positions)} vertices in faces, "
+            f"the meshes differ: {len(original.positions)} and {count} vertices in faces, "
             f"{len(original.faces)} and {len(other.faces)} faces"
         )
-    if order is not None:
-        other = reorder(other, order)
+    if order is not None and len(order) != count:
+        raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {count}")
+    rows = np.arange(count) if order is None else np.argsort(order)
+    faces = np.argsort(rows)[other.faces].astype(np.int32)
     # A symmetric mesh has more than one numbering that fits, so the closest likeness is looked for first.
-    if np.array_equal(original.faces, other.faces):
-        return other.positions
+    if np.array_equal(original.faces, faces):
+        return rows
     if order is None:
-        by_decoder = encode_connectivity(original.faces, len(original.positions))
-        if np.array_equal(by_decoder.faces, other.faces):
-            return other.positions[np.argsort(by_decoder.vertex_order)]
-    if np.array_equal(canonical(original.faces), canonical(other.faces)):
-        return other.positions
+        by_decoder = encode_connectivity(original.faces, count)
+        if np.array_equal(by_decoder.faces, faces):
+            return np.argsort(by_decoder.vertex_order)
+    if np.array_equal(canonical(original.faces), canonical(faces)):
+        return rows
     if order is None:
-        encoded = encode_connectivity(other.faces, len(other.positions))
+        encoded = encode_connectivity(faces, count)
         if np.array_equal(by_decoder.faces, encoded.faces):
-            return other.positions[encoded.vertex_order[np.argsort(by_decoder.vertex_order)]]
+            return encoded.vertex_order[np.argsort(by_decoder.vertex_order)].astype(np.int64)
     raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
 
 
-def paired_corners(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> tuple[Order, Order]:
+def paired_corners(original: TriangleMesh, other: TriangleMesh, rows: Order) -> tuple[Order, Order]:
     """Corners of `original` and of `other` that are the same, as numbers 3 f + i of corner i of face f."""
-    numbers = np.zeros((len(other.positions), 3))
-    numbers[:, 0] = np.arange(len(numbers))
-    found = in_order_of(original, replace(other, positions=numbers, attributes=()), order)[:, 0].astype(np.int64)
     pairs = []
-    for faces in (found[original.faces].astype(np.int32), other.faces):
-        rows, corners = canonical_order(faces)
-        pairs.append((3 * rows[:, None] + corners[rows]).reshape(-1))
+    for faces in (rows[original.faces].astype(np.int32), other.faces):
+        numbers, corners = canonical_order(faces)
+        pairs.append((3 * numbers[:, None] + corners[numbers]).reshape(-1))
     return pairs[0], pairs[1]
 
 
@@ -163,7 +172,7 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     joined = order is None
     with suppress(MeshError):  # they may have the same vertices, in an order that is known
         if joined and len(original.positions) == len(decoded.positions):
-            in_order_of(original, decoded)
+            numbering(original, decoded)
             joined = False
     if joined:
         # An encoder makes vertices at one position one, and a file may need them split.
@@ -180,11 +189,11 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
 
         nearest = cKDTree(original.positions).query(decoded.positions)[1]
         order = nearest if len(np.unique(nearest)) == len(nearest) else None
-    positions = in_order_of(original, decoded, order)
+    rows = numbering(original, decoded, order)
     none = np.empty(0, np.int64)
-    pairs = paired_corners(original, decoded, order) if attributed else (none, none)
+    pairs = paired_corners(original, decoded, rows) if attributed else (none, none)
     corners, others = (3 * given[found // 3] + found % 3 for given, found in zip(kept, pairs, strict=True))
-    return Pair(original, positions, corners, others, joined)
+    return Pair(original, placed(original, decoded, rows), corners, others, joined)
 
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:

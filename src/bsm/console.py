@@ -22,7 +22,6 @@ _PATIENCE, _SECOND = 0.5, 1.0
 _RUNNING = "{desc}: {elapsed}"  # of a line of which nobody knows how long it will be
 _KNOWN = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<LEFT"
 _LEAST_LEFT, _MOST_SHARE, _BACK = 1.0, 0.99, 0.1  # shown before the end; and how far a bar goes back at most
-_PRIOR = 0.1  # of a job, the share that its expected seconds count as
 _USUAL_SHAPE = (80, 24)
 
 
@@ -42,15 +41,15 @@ class Console:
             say(text, "note" if self.json else None)
 
     @contextmanager
-    def progress(self, what: str = "", until: float = 1.0, seconds: float = 0.0) -> Iterator[Progress]:
-        """Report a job, which may take `seconds`; within another job, report its part `until` a share of all time."""
+    def progress(self, what: str = "", until: float = 1.0) -> Iterator[Progress]:
+        """Report a job; within another job, report its part `until` a share of all time."""
         if self._running:
             with self._running[0].part(what, until) as progress:
                 yield progress
             return
         reports = not self.quiet and self.kept is None
         shown = reports and sys.stderr.isatty() and not self.json
-        with Progress(what, shown=shown, lines=reports and self.json, heard=self.heard, seconds=seconds) as progress:
+        with Progress(what, shown=shown, lines=reports and self.json, heard=self.heard) as progress:
             self._running.append(progress)
             try:
                 yield progress
@@ -66,23 +65,16 @@ class Progress:
     """A line on the terminal, from half a second on: what goes on and for how long, and where that is known how much is
     done, with the time left; or lines of JSON that say the same to programs; or calls of a function.
 
-    The remaining time follows from the elapsed time and the finished share, which parts and steps report; before the
-    first report, from the expected seconds of the job.
+    The remaining time follows from the elapsed time and the finished share, which parts and steps report.
     """
 
     def __init__(
-        self,
-        what: str,
-        *,
-        shown: bool = False,
-        lines: bool = False,
-        heard: Callable[[int, int], None] | None = None,
-        seconds: float = 0.0,
+        self, what: str, *, shown: bool = False, lines: bool = False, heard: Callable[[int, int], None] | None = None
     ) -> None:
         self._parts = [(what, 0.0, 1.0)]  # what goes on, and which share of the time it is, from the whole inwards
         if heard is not None and not callable(heard):
             raise ArgumentError(f"progress must be a function, not {heard!r}")
-        self._shown, self._lines, self._heard, self._expected = shown, lines, heard, seconds
+        self._shown, self._lines, self._heard = shown, lines, heard
         self._begun = self._reported_at = time.monotonic()
         self._share, self._when, self._seen = 0.0, 0.0, 0.0  # as reported, and after how many seconds; as shown
         self._reported = 0
@@ -157,14 +149,14 @@ class Progress:
 
     def _now(self) -> tuple[float, float, float | None]:
         """The share that is done, as far as time tells; seconds since the beginning, and to the end if known."""
-        since, prior = time.monotonic() - self._begun, _PRIOR if self._expected else 0.0
-        if not self._share + prior:
+        since = time.monotonic() - self._begun
+        if not self._share:
             return 0.0, since, None
         # Since the last report work went on as before it, but hardly beyond the part that it was in.
-        passed = (since - self._when) * (self._share + prior) / (self._when + prior * self._expected or 1e-3)
+        passed = (since - self._when) * self._share / (self._when or 1e-3)
         rest = max(self._parts[-1][2] - self._share, 1e-3)
         share = min(self._share + rest * (1.0 - math.exp(-passed / rest)), 1.0)
-        left = (since + prior * self._expected) / (share + prior) * (1.0 - share)
+        left = since / share * (1.0 - share)
         shown = max(min(share, _MOST_SHARE), self._seen - _BACK)
         self._seen = max(self._seen, shown)
         return shown, since, max(left, _LEAST_LEFT)

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import imported
-from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.look.pictures import SAMPLES, Canvas
 
 SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
 """Colors from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
@@ -69,6 +69,7 @@ def colors_of(shares: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 _LIGHT = np.array([0.35, 0.5, 0.79])
 _BASE = np.array([0.72, 0.76, 0.82])
 _SUPERSAMPLING = 2
+_DEPTHS = 2.0**23  # as many whole numbers, exact in single precision, are depths
 
 
 def view_matrix(azimuth: float, elevation: float) -> npt.NDArray[np.float64]:
@@ -102,12 +103,22 @@ def render(
     lengths = np.linalg.norm(normals, axis=1)
     normals /= np.where(lengths > 0, lengths, 1.0)[:, None]
     shade = 0.25 + 0.75 * np.abs(normals @ _LIGHT)
-    owner, depth = np.empty((fine, fine), np.int32), np.empty((fine, fine))
-    _kernels.nearest_faces(pixels[faces].reshape(-1, 9), owner, depth)
+    owner = nearest_faces(pixels, faces, fine)
     table = np.vstack([shade[:, None] * (_BASE if colors is None else colors), np.ones(3)])
     image = table[owner]
     blocks = image.reshape(size, _SUPERSAMPLING, size, _SUPERSAMPLING, 3)
     return np.asarray(blocks.mean(axis=(1, 3)).clip(0.0, 1.0))
+
+
+def nearest_faces(pixels: Positions, faces: Faces, size: int) -> npt.NDArray[np.int32]:
+    """The face nearest to the camera at each pixel, or -1; vertices have a column, a row and a nearness."""
+    low, high = pixels[:, 2].min(), pixels[:, 2].max()
+    depths = (pixels[:, 2] - (low + high) / 2) * (_DEPTHS / ((high - low) or 1.0))
+    canvas, plain = Canvas(size + -size % SAMPLES), np.zeros((len(faces), 9), np.float32)
+    camera = np.append(np.eye(3, 4), (0.0, 0.0, 1.0))  # which leaves columns, rows and depths as they are
+    placed = np.ascontiguousarray(np.column_stack([pixels[:, :2], depths]))
+    canvas.draw(placed, np.ascontiguousarray(faces, np.int32), plain, camera)
+    return canvas.owner[:size, :size]
 
 
 def bounds_of(

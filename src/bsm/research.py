@@ -66,11 +66,6 @@ class Site:
         return len(self.vertices)
 
     @property
-    def neighbours(self) -> Integers:
-        """The former name of `neighbors`."""
-        return self.neighbors
-
-    @property
     def laplacian(self) -> Floats:
         """L = D - A of the block's graph, float64, shape (n, n), without springs."""
         dense = np.diag(np.diff(self.offsets).astype(np.float64))

@@ -19,7 +19,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, limits_of
-from bsm.comparison import Pair, compare_meshes, in_order_of, order_of_used, pair, read_permutation
+from bsm.comparison import Pair, compare_meshes, numbering, order_of_used, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import GLTF, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
@@ -27,7 +27,7 @@ from bsm.files.motion.frames import Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
-from bsm.files.stream import SequenceStream, decode_whole, is_stream, numbered, numbers_of, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, is_stream, peek_header
 from bsm.lengths import length, unit_of
 from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
@@ -300,7 +300,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         whole = TriangleMesh(first[0], faces), TriangleMesh(second[0], others)
         (mesh, kept), (other, other_kept) = (side.without_isolated_vertices() for side in whole)
         of_used = None if order is None else order_of_used(order, *whole)
-        rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), of_used))
+        rows = numbering(mesh, other, of_used)
         runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
     result = asdict(compare_runs(runs))
     if args.look:

@@ -30,7 +30,6 @@ from bsm.jobs.task import Facts, Task, anywhere, came_to
 
 @dataclass(frozen=True, kw_only=True)
 class DecodeJob(Task):
-    seconds_of_megabyte = 10.0
     given: str | None = None
     many: bool = False
     format: str | None = None

@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 import time
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -53,8 +52,6 @@ _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 class DenoiseJob(Task):
     """The task of `bsm denoise`: formats, the goal of the automatic mode, or options instead of it."""
 
-    seconds_of_megabyte = 5.0
-    of_kinds: ClassVar[Mapping[str, float]] = {**Task.of_kinds, ".npz": 0.2}
     format: str | None = None
     goal: str = GOALS[0]
     strength: float = 1.0

@@ -21,7 +21,6 @@ from bsm.tiles.shards import is_tiles, open_tiles
 
 @dataclass(frozen=True, kw_only=True)
 class InfoJob(Task):
-    seconds_of_megabyte = 0.05
     limits: str = "default"
 
 

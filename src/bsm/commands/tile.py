@@ -71,7 +71,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         for folder in taken:
             folders.enter_context(there(folder))
         left = max(*(folders.enter_context(held(folder, args.force or args.resume)) for folder in taken), False)
-        folders.enter_context(console.progress(seconds=TileJob().seconds_of(args.input)))
+        folders.enter_context(console.progress())
         return _run(args, console, work, left)
 
 

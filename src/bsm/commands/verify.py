@@ -20,7 +20,6 @@ from bsm.tiles.shards import is_tiles, open_tiles
 class VerifyJob(Task):
     """The task of `bsm verify`: the limits, and whether only structure is checked."""
 
-    seconds_of_megabyte = 10.0
     limits: str = "default"
     quick: bool = False
 

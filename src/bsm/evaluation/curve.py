@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -88,19 +88,6 @@ SCHEMA = 1
 PARTS = ("connectivity", "partition", "order", "coefficients", "framing")
 
 
-class Codec(Protocol):
-    @property
-    def settings(self) -> dict[str, Any]:
-        """What tells this setting from others, ready for JSON."""
-
-    def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
-        """A whole file of a mesh all of whose vertices are in faces."""
-
-    def decode(self, data: bytes) -> TriangleMesh: ...
-    def parts(self, data: bytes) -> dict[str, Any]:
-        """Bytes of each of `PARTS`, and `bpv_paper`, as far as the format tells."""
-
-
 @dataclass(frozen=True)
 class Spectral:
     """This project's codec; on one thread, so that times compare."""
@@ -122,7 +109,7 @@ class Spectral:
         return given if options.paper.bits else {"step": options.first_step, **given}
 
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
-        """See `Codec`; the encoder itself knows the order of the vertices."""
+        """Return a whole file of a mesh all of whose vertices are in faces, and how to find their order again."""
         encoder = Encoder(mesh, self.options)
         data = encoder.encode()
         order = slice(None) if self.options.keep_order else encoder.vertex_index
@@ -132,6 +119,7 @@ class Spectral:
         return decode(data, NAMED_LIMITS[self.options.limits](), self.options.threads)
 
     def parts(self, data: bytes) -> dict[str, Any]:
+        """Return the bytes of each of `PARTS`, and `bpv_paper`, as far as the format tells."""
         info = inspect_stream(iter([data]))
         paper = info.bpv_paper if self.options.paper.bits else None
         return {**{part: info.sizes[part] for part in PARTS}, "bpv_paper": paper}
@@ -149,7 +137,6 @@ class Draco:
         return {"position_bits": self.position_bits, "levels": list(self.levels)}
 
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
-        """See `Codec`; the order of the vertices is found when it is asked for."""
         data = min((encode_draco(mesh, self.position_bits, level) for level in self.levels), key=len)
         return data, lambda decoded: positions_in_order(mesh, decoded, self.position_bits)
 
@@ -158,6 +145,9 @@ class Draco:
 
     def parts(self, data: bytes) -> dict[str, Any]:
         return dict.fromkeys((*PARTS, "bpv_paper"))
+
+
+Codec: TypeAlias = Spectral | Draco
 
 
 @dataclass(frozen=True)

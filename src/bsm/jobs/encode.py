@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from hashlib import sha256
 from itertools import count
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bsm import __version__
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.arrays import Order, Positions
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.static.targets import ANY_ANGLE
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.pipes import size_of
+from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import open_frames, open_sequence
-from bsm.jobs.provenance import with_provenance
 from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import in_own_unit
-from bsm.libraries import PROVENANCE, with_metadata
+from bsm.libraries import PROVENANCE, has_provenance, with_metadata
 from bsm.options import encode_options, sequence_options
 
 if TYPE_CHECKING:
@@ -31,6 +35,8 @@ if TYPE_CHECKING:
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only sequences have; with them a GLB is read as a sequence."""
+_GENERATION = re.compile(r" generation=(\d{1,6})")
+_BOUNDS = ("farthest", "angle", "visual", "look")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -177,3 +183,38 @@ def _staged(
             gops = f" of {-(-all_frames // longest)}" if all_frames else ""
             progress.stage(f"encoding GOP {1 + number // longest}{gops}")
         yield frame
+
+
+def with_provenance(
+    metadata: Metadata, asked: bool | None, path: str, given: Mapping[str, Any], options: Any
+) -> tuple[Metadata, list[str]]:
+    """Return metadata with a provenance entry, if it is requested or the input has one, and notes."""
+    if not has_provenance(metadata):
+        return {**metadata, **({PROVENANCE: _words(path, given, options, 1)} if asked else {})}, []
+    found = _GENERATION.search(str(metadata[PROVENANCE]))
+    generation = 1 + int(found[1] if found else 1)
+    exact = getattr(options, "is_grid", False)
+    notes = [
+        f"the mesh was decoded from a stream, so this is generation {generation}"
+        + ("" if exact else ": errors add up, so encode the original if you have it")
+    ]
+    kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
+    return kept if asked is False else {**kept, PROVENANCE: _words(path, given, options, generation)}, notes
+
+
+def _words(path: str, given: Mapping[str, Any], options: Any, generation: int) -> str:
+    promise, target = options.promise, options.target
+    parts = [f"bsm {__version__}", given.get("preset") or ("balanced" if promise else "none")]
+    bounds = {name: getattr(promise, name, None) for name in _BOUNDS} if promise else {}
+    if promise and not promise.absolute:
+        bounds["farthest"] = f"{100 * promise.farthest:g}%"
+    shown = {name: f"{value:g}" if isinstance(value, float) else value for name, value in bounds.items()}
+    parts += [f"{name}={value}" for name, value in shown.items() if value not in (None, "inf", f"{ANY_ANGLE:g}")]
+    parts += [f"{target.kind}={target.value:g}"] if target else []
+    parts += [f"generation={generation}"] if generation > 1 else []
+    if Path(path).is_file():
+        digest = sha256()
+        for chunk in read_chunks(path):
+            digest.update(chunk)
+        parts.append(f"sha256={digest.hexdigest()}")
+    return " ".join(parts)

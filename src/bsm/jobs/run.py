@@ -2,7 +2,7 @@
 
 import os
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
@@ -15,6 +15,8 @@ from bsm.files import pipes
 from bsm.files.output import refuse_collisions, refuse_to_overwrite
 from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table
 from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
+
+LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +39,7 @@ def run_jobs(
 ) -> int:
     """Do all jobs of a command and print their results; return the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
-        with pipes.about(jobs[0].input), console.progress(seconds=Costs(asked, jobs, NOTHING).left()):
+        with pipes.about(jobs[0].input), console.progress():
             facts = work(task_of(asked, jobs[0]), console)
         if run.json:
             print_json(facts)
@@ -90,7 +92,7 @@ def run_many(
     elif run.resume:
         raise OptionError("--resume needs --report FILE.json")
     done: list[Facts] = [{} for _ in jobs]
-    costs = Costs(asked, jobs, earlier)
+    sizes, finished = sizes_of(jobs), 0
     waiting: dict[int, Outcome] = {}
     following = 0
     needs, users = [len(job.after) for job in jobs], dict[int, list[int]]()
@@ -108,14 +110,11 @@ def run_many(
             yield None
 
     try:
-        with (
-            console.progress(seconds=costs.left() / _processes(run, len(jobs))) as progress,
-            closing(_outcomes(run, console, work, given(), costs, len(jobs))) as outcomes,
-        ):
+        with console.progress() as progress, closing(_outcomes(run, console, work, given(), sizes)) as outcomes:
             for number, outcome in outcomes:
                 done[number] = outcome.facts
-                costs.end(number, outcome.facts.get("seconds"))
-                progress(costs.done, costs.done + costs.left())
+                finished += sizes[number]
+                progress(finished, sum(sizes))
                 if outcome.error is not None:
                     failed = {"error": worded(outcome.error), "exit": exit_of(outcome.error).code}
                     done[number] = {"input": jobs[number].input, "output": jobs[number].output, **failed}
@@ -159,36 +158,10 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     )
 
 
-class Costs:
-    """Estimated seconds of jobs, by their bytes and kinds, and by the time of finished jobs of a kind."""
-
-    def __init__(self, asked: Task, jobs: Sequence[Job], earlier: Earlier) -> None:
-        whole = {name for name, facts in earlier.files.items() if "error" not in facts}
-        self._kinds = [os.path.splitext(job.input)[1].lower() for job in jobs]
-        self._open = {
-            number: asked.overhead + (0.0 if job.output in whole else asked.seconds_of(job.input))
-            for number, job in enumerate(jobs)
-        }
-        self._ended: dict[
-            str, tuple[float, float]
-        ] = {}  # of a kind, the seconds of those that ended, reliable and true
-        self.took = dict[int, float]()  # of what was done here
-        self.done = 0.0
-
-    def end(self, number: int, seconds: float | None) -> None:
-        """Record the time of a finished job, if it is known."""
-        reliable, kind = self._open.pop(number), self._kinds[number]
-        before = self._ended.get(kind, (0.0, 0.0))
-        spent = self.took.pop(number, reliable if seconds is None else seconds)
-        self._ended[kind] = before[0] + reliable, before[1] + spent
-        self.done += spent
-
-    def left(self, numbers: Collection[int] = ()) -> float:
-        """Return the estimated time of the open jobs, or of some of them."""
-        reliable, spent = map(sum, zip((1e-3, 1e-3), *self._ended.values()))
-        rates = {kind: (true + spent / reliable) / (expected + 1.0) for kind, (expected, true) in self._ended.items()}
-        usual = spent / reliable
-        return sum(self._open[n] * rates.get(self._kinds[n], usual) for n in numbers or self._open)
+def sizes_of(jobs: Sequence[Job]) -> list[int]:
+    """Return the bytes of the inputs, in proportion to which the work is reported; `LEAST` where that is not known."""
+    local = [None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input) for job in jobs]
+    return [max(size or 0, LEAST) for size in local]
 
 
 def _processes(run: Run, count: int) -> int:
@@ -197,22 +170,21 @@ def _processes(run: Run, count: int) -> int:
     return min(run.jobs or available_threads(), count) or 1
 
 
-def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, costs: Costs, count: int) -> Outcomes:
-    processes = _processes(run, count)
+def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
+    processes = _processes(run, len(sizes))
     if run.dask is None and processes == 1:
-        return _one_by_one(console, work, tasks, costs, count)
+        return _one_by_one(console, work, tasks, sizes)
     # Where there is one process there is no need to load this.
     from bsm.jobs.workers import in_processes, on_cluster
 
     return in_processes(work, tasks, processes) if run.dask is None else on_cluster(work, tasks, run.dask)
 
 
-def _one_by_one(console: Console, work: Work, tasks: Tasks, costs: Costs, count: int) -> Outcomes:
+def _one_by_one(console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
     """Do one job after the other here, each as a part of all."""
+    finished, count = 0, len(sizes)
     for number, task in iter(partial(next, tasks), None):
-        after = costs.done + costs.left([number])
-        with console.progress(f"{number + 1} of {count}" if count > 1 else "", after / (costs.done + costs.left())):
-            begin = time.perf_counter()
+        finished += sizes[number]
+        with console.progress(f"{number + 1} of {count}" if count > 1 else "", finished / sum(sizes)):
             outcome = outcome_of(work, task, console)
-            costs.took[number] = time.perf_counter() - begin
         yield number, outcome

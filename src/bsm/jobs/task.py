@@ -2,9 +2,9 @@
 
 import os
 import traceback
-from collections.abc import Callable, Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from bsm.console import Console
 from bsm.exits import behind, is_expected
@@ -33,16 +33,6 @@ class Task:
     replaceable: frozenset[str] = frozenset()  # files that are as that report says
     doubtful: frozenset[str] = frozenset()  # files that it names and that are not
     fresh: frozenset[str] = frozenset()  # files that were not there when the run began
-
-    overhead: ClassVar[float] = 0.02
-    seconds_of_megabyte: ClassVar[float] = 0.7  # about what a task takes of an input, measured on a core of 2023
-    of_kinds: ClassVar[Mapping[str, float]] = {".obj": 0.5, ".stl": 0.5, ".glb": 0.5, ".npz": 1.6}  # times that
-
-    def seconds_of(self, name: str) -> float:
-        """Estimate the time of the task by the size of its input."""
-        size = None if name == "-" or pipes.is_url(name) else pipes.size_of(name)
-        kind = self.of_kinds.get(os.path.splitext(name)[1].lower(), 1.0)
-        return self.seconds_of_megabyte * kind * (1.0 if size is None else size / 1e6)
 
     def repeated(self: _Same) -> _Same:
         return replace(self, replaceable=self.replaceable | self.fresh)

@@ -31,7 +31,6 @@ _TERMS, _BUCKETS = 10, 1 << 15  # of what simplifying takes for scratch
 class TileJob(Task):
     """The input is the plan, or the tiles that a coarser one is made of; the output's name is that of the node."""
 
-    seconds_of_megabyte = 0.5
     most: int = 0
     cell: float = 0.0
     finest: bool = False
