@@ -156,6 +156,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             assert.notDeepEqual(await page.locator("canvas").screenshot(), first);
             await page.getByLabel("Loop").uncheck();
             await page.getByRole("button", { name: "Play" }).click();
+            await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))); // until it says so
             await page.waitForFunction(() => document.querySelector("[name=play]")!.textContent === "Play");
             assert.equal(await frameOf(), Number(last));
             assert.deepEqual(complaints, []);
