@@ -8,15 +8,12 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._engine import Decoder
-from bsm.bitstream.attributes.seams import Flags, code_edges
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, code_block
 from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of, write_levels
-from bsm.bitstream.connectivity.partition import code_labels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder, finish_writing, start_writing
 from bsm.bitstream.errors import CorruptError, TruncatedError
-from bsm.bitstream.fields.corners import Corners
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import CONNECTIVITY, NEED
 from tools.surgery import Cursor
@@ -73,7 +70,7 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
 def encode_levels(
     bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead | None] | None = None
 ) -> bytes:
-    """Code matrices one behind the other."""
+    """Code matrices one after the other."""
     coder = start_writing(0)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
         coder = write_levels(coder, bank, matrix, reference, lead)
@@ -94,23 +91,6 @@ def decode_levels(
         if overran(coder):
             break
     finish_reading(coder)
-
-
-def decode_labels(payload: bytes, offsets: Ints, neighbors: Ints, parts: int) -> Ints:
-    """Return the part of each vertex of a graph, shape (n,)."""
-    labels, coder = np.zeros(len(offsets) - 1, np.int32), start_reading(payload)
-    if code_labels(coder, offsets, neighbors, labels, parts) != parts:
-        raise CorruptError(f"the partition has not {parts} parts")
-    finish_reading(coder)
-    return labels
-
-
-def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = ()) -> Flags:
-    """Return the seams, shape (3 m,)."""
-    seams, coder = np.zeros(len(corners.opposite), np.uint8), start_reading(payload)
-    code_edges(coder, corners, seams, earlier)
-    finish_reading(coder)
-    return seams
 
 
 def parse_stretches(cursor: Cursor, frames: int) -> list[int]:

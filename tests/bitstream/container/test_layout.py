@@ -88,9 +88,9 @@ def test_any_order_of_frames_comes_back(shown):
 @pytest.mark.parametrize(
     ("shown", "coded"),
     [
-        ([*range(24), *range(24)], b"\x02\x00\x18\x8d\x01\x18"),  # 24 on from 0; 24 on from 0, 24 behind what is due
+        ([*range(24), *range(24)], b"\x02\x00\x18\x8d\x01\x18"),  # 24 from 0 on, then 24 from 24 before the next
         ([0, 0, 1, 1, 2, 2], b"\x03\x01\x02\x01\x02\x01\x02"),  # each is shown twice
-        ([0, 1, 2, 3, 2, 1, 0], b"\x02\x00\x04\x0b\x03"),  # there, and back
+        ([0, 1, 2, 3, 2, 1, 0], b"\x02\x00\x04\x0b\x03"),  # forward, then back
         ([0, 2, 1, 1], b"\x03\x00\x01\x08\x02\x03\x01"),
     ],
 )

@@ -1,5 +1,4 @@
-"""Integers on meshes to bytes and back, of all kinds: exact for any faces and values, the same bytes for ever, safe on
-damage."""
+"""Integers on meshes to bytes and back, of all kinds: exact for any faces and values, safe on damage."""
 
 from __future__ import annotations
 
@@ -18,11 +17,9 @@ from tests.bitstream.fields.fields import (
     KINDS,
     NAMES,
     SOUPS,
-    Kind,
     decode,
     encode,
     field_of,
-    octahedral_levels,
     offered,
     size_of,
     values,
@@ -63,63 +60,6 @@ def test_values_come_back(name, mesh, reach, kind, seed, chunk, data):
     )
     given = offered(name, len(faces) if name == "faces" else vertices, largest, kind, seed)
     np.testing.assert_array_equal(decode(field, encode(field, given, chunk)), given)
-
-
-GOLDEN: dict[str, tuple[Kind, np.ndarray, list[str]]] = {
-    "grid": (
-        field_of("grid", TORUS, 108, (2047, 2047, 1023)),
-        BUMPS,
-        [
-            "66e1662ed92eef99f60000000005f0ecc731ee6c0000000000143ea7558279b4ce8d7d770ce094de778f76dc42cbb27bf7911e1a7c0791ae2678b1cdb94a90a97aac95da51af5be42917334c57c9061851432a6ec84596fb167cb11ff9377e9100ce388d597da3",
-            "01518fc240acbf8258caa412ae3a4ab286ad6ae31ab7338918894937819632f2ab8d539a6a",
-        ],
-    ),
-    "light": (
-        field_of("light", TORUS, 108, (2047, 2047, 1023)),
-        BUMPS,
-        [
-            "302efcab4db683d760510ed75a590bf4f3d48f6f65fa3c04ac692184886267d300967ab48157c01c0601e8f574871ad02dd070da7bb1b4c08e0cab037564d7dd758a5786b9473e73681ac9c6dd6ba07cefae638b5629ef34a44e",
-            "666c289387450d0f223f0cafdfc452c8465df0f700607537bd0ca1515a17b9dd41dca5413a644349b52fb25b2f8ad0778c33bde592",
-        ],
-    ),
-    "levels": (
-        field_of("levels", TORUS, 108),
-        np.stack([K * K % 7 - 3, K % 5 - 2, K // 40], axis=1) // 2,
-        ["683c19c3a81c45b178a76ce2b7ed6e65e1ddd2cbaac017", "8908cd41a1d486293156d4577de8390a"],
-    ),
-    "texcoord": (
-        field_of("texcoord", TORUS, 108, (1023, 1023), BUMPS),
-        BUMPS[:, :2] // 2 + (K * K % 3)[:, None],
-        [
-            "66ed32e9d5ee9900000011f9ba4193d0dc71481a4a0f4ac26089e45e07ad90b173e6055afa07e2e1873c33a695737799dcacfc17ac41b537d7365d84f0455030e42a88b1366cbc71187a38b75794b1c6d305751d"
-        ],
-    ),
-    "normal": (
-        field_of("normal", TORUS, 108, (254, 254), BUMPS),
-        octahedral_levels(BUMPS - BUMPS.mean(axis=0).astype(int), 127),
-        [
-            "c8ec01318ee4bedfe292a44fba1fb9157758b3004622b6b4ef1275414f5373a7354803cf0287f4d2c84e703ae4a2a3be8150587ca31d01994123f4b7ec5f188db61bea4f0f7d316b7f887eede8f4c3f5498eb63f110c4822afde10a28584da0876e24852aca8ff94047e90dc83d18215bf4ed149a54972e1e9266bd0cb1f4e2200cac755590ea9d1391d5cccfe57fc10aab401a006f87b76fe3d0491d4f630d949853d23d3ee8e0bfdc7be54189f577d2e40b1212e393d05"
-        ],
-    ),
-    "color": (
-        field_of("color", TORUS, 108, (255, 255, 255)),
-        np.stack([K % 50 + 100, K % 50 + 90, K * 2], axis=1),
-        [
-            "fca75cb3133ffd95406686a00e7e86d7c15e3158852f4becc680625cc303353e72e5ccd124816920c3030b1fa61772621fae113c101d83837e9fe122c70efe8e"
-        ],
-    ),
-    "faces": (
-        field_of("faces", TORUS, 108, (20,)),
-        (np.arange(len(TORUS)) // 20)[:, None],
-        ["6a7dcf26ba12de206610d998c83a519e"],
-    ),
-}
-
-
-@pytest.mark.parametrize("name", GOLDEN)
-def test_golden_bytes(name):
-    field, given, golden = GOLDEN[name]
-    assert [payload.hex() for payload, _ in encode(field, given, 60 if len(golden) > 1 else 1000)] == golden
 
 
 @named
@@ -171,12 +111,11 @@ def test_a_grid_has_three_axes(values, largest):
         field_of("grid", TRIANGLE, 3, largest).start(values)
 
 
-@named
+@pytest.mark.parametrize("name", ["grid", "light", "levels"])
 @pytest.mark.parametrize("faces", [[[0, 1, 3]], [[0, 1, -2]]])
 def test_faces_are_checked(name, faces):
-    if name not in ("faces", "plain", "color", "texcoord", "normal"):
-        with pytest.raises(BsmError):
-            field_of(name, faces, 3, [2] * COLUMNS.get(name, 1)).start()
+    with pytest.raises(BsmError):
+        field_of(name, faces, 3, [2] * COLUMNS[name]).start()
 
 
 def test_counts_are_checked():

@@ -232,14 +232,9 @@ def test_limits():
     positions, faces = bending(12)
     data, _ = encoded(positions, faces)
     bsm.decode_sequence(data, limits=bsm.Limits(gop_frames=8, frames=12))
-    for limits in (
-        bsm.Limits(gop_frames=7),
-        bsm.Limits(frames=11),
-        bsm.Limits(sequence_bytes=1e5),
-        bsm.Limits(vertices=100),
-    ):
+    for limit in ({"gop_frames": 7}, {"frames": 11}, {"sequence_bytes": 1e5}, {"vertices": 100}):
         with pytest.raises(bsm.LimitError):
-            bsm.decode_sequence(data, limits=limits)
+            bsm.decode_sequence(data, limits=bsm.Limits(**limit))
 
 
 @pytest.mark.slow
