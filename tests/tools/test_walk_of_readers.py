@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -83,6 +84,15 @@ def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
 def test_a_few_uses_are_read(name, tmp_path):
     taken = read_all(written(USES[name](2000, 3), Path(tmp_path))[0], Limits())
     assert taken.outcome == "read" or "instancing" in name or "PointInstancer" in taken.outcome, taken.outcome
+
+
+@linux
+@pytest.mark.parametrize("name", ["glb, skins", "glb, nodes_of_primitives", "usd, references", "3mf, components"])
+def test_uses_are_counted_once_and_before_they_are_made(name):
+    if name not in USES:
+        pytest.skip("needs usd-core")
+    warm_up()
+    assert not list(problems([Case(name, partial(of_size, USES[name], 400_000, 0.1))], "default", 1.25))
 
 
 def test_files_have_the_size_that_is_asked_for():

@@ -108,6 +108,12 @@ def _primitives(scene: _Scene, uses: int) -> None:
     scene.tree["meshes"][0]["primitives"] = [scene.primitive for _ in range(uses)]
 
 
+def _nodes_of_primitives(scene: _Scene, uses: int) -> None:
+    """As many nodes as primitives: work for each pair is the square."""
+    _primitives(scene, max(1, uses // 2))
+    scene.nodes([{"mesh": 0} for _ in range(uses // 2 + 1)])
+
+
 def _materials(scene: _Scene, uses: int) -> None:
     scene.tree["materials"] = [{"name": str(number)} for number in range(uses)]
     scene.tree["meshes"][0]["primitives"] = [scene.primitive | {"material": number} for number in range(uses)]
@@ -151,7 +157,10 @@ def _instancing(scene: _Scene, uses: int) -> None:
     scene.nodes([{"mesh": 0, "extensions": instances}])
 
 
-_GLTF = (_nodes, _tree_of_nodes, _meshes, _primitives, _materials, _skins, _targets, _attributes, _joints, _instancing)
+_GLTF = (
+    *(_nodes, _tree_of_nodes, _meshes, _primitives, _nodes_of_primitives, _materials, _skins, _targets, _attributes),
+    *(_joints, _instancing),
+)
 PIXEL = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
 )

@@ -196,23 +196,30 @@ class Scene:
         """Bound what every use of every primitive takes before anything is allocated; zeros have no bytes."""
         document = self._document
         seen = numbers = characters = 0
-        made = set[tuple[object, int, object]]()
+        sizes: dict[object, tuple[int, int, int]] = {}
+        made = set[tuple[object, object]]()
         for node in self._parents:
             tree = self._nodes[node]
             mesh = document.item("meshes", tree["mesh"]) if "mesh" in tree else {"primitives": []}
             characters += len(str(tree.get("name") or mesh.get("name", "")))
-            for place, primitive in enumerate(mesh["primitives"]):
-                given = [*primitive["attributes"].values(), primitive.get("indices")]
-                seen += self._rows(primitive)
-                numbers += sum(document.claimed(index) for index in given if index is not None)
-                if (key := (tree["mesh"], place, tree.get("skin"))) not in made:
-                    made.add(key)
-                    moved = [index for target in primitive.get("targets", []) for index in target.values()]
-                    numbers += sum(map(document.claimed, moved))
+            if (used := tree.get("mesh")) not in sizes:  # only once, however many nodes use it
+                sizes[used] = self._size(mesh)
+            vertices, given, moved = sizes[used]
+            seen += vertices
+            numbers += given if (key := (used, tree.get("skin"))) in made else given + moved
+            made.add(key)
         require_count("vertices", seen, self._limits)
         if numbers > MOST_NUMBERS:
             raise LimitError(f"the meshes of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
         self._limits.check_memory(PER_NUMBER * numbers + 4 * characters, seen, document.received)
+
+    def _size(self, mesh: Tree) -> tuple[int, int, int]:
+        """Return the vertices of a mesh, the numbers of its attributes and indices, and those of its targets."""
+        primitives, claimed = mesh["primitives"], self._document.claimed
+        given = [index for p in primitives for index in (*p["attributes"].values(), p.get("indices"))]
+        moved = [index for p in primitives for target in p.get("targets", []) for index in target.values()]
+        numbers = sum(claimed(index) for index in given if index is not None)
+        return sum(map(self._rows, primitives)), numbers, sum(map(claimed, moved))
 
     def _rows(self, primitive: Tree) -> int:
         """How many vertices a primitive takes: of a table that others share only those that it uses, at most."""

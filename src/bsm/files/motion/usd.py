@@ -10,6 +10,7 @@ import zipfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -278,22 +279,34 @@ def import_usd() -> Any:
 
 
 class _Shape:
-    """The faces and primvars of a mesh of a stage, which its instances share."""
+    """The faces and primvars of a mesh of a stage, which its instances share; only their sizes until they are used."""
 
     def __init__(self, pxr: Any, prim: Any, time: Any) -> None:
         mesh = pxr.UsdGeom.Mesh(prim)
         self._pxr, self.prim, self.time, self.points = pxr, prim, time, mesh.GetPointsAttr()
         self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
-        self.counts: Ints = np.array(self.counts_attr.Get(time) or [], np.int64)
-        self.corners: Ints = np.array(self.corners_attr.Get(time) or [], np.int64)
-        self.vertices = len(self.points.Get(time) or [])
-        if (self.counts < 0).any() or self.counts.sum() != len(self.corners):
-            corners = f"{len(self.corners)} corners, not {self.counts.sum()}"
-            raise FormatError(f"the faces of {prim.GetPath()} have {corners}")
+        self.vertices, faces, corners = (
+            len(attr.Get(time) or []) for attr in (self.points, self.counts_attr, self.corners_attr)
+        )
+        self.triangles = corners - 2 * faces
         self.left_handed = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
-        self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
+        self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": faces, "corner": corners}
         self.left_out: list[str] = ["normals"] if mesh.GetNormalsAttr().HasAuthoredValue() else []
-        self.columns = list(self._columns())
+
+    @cached_property
+    def counts(self) -> Ints:
+        counts, corners = np.array(self.counts_attr.Get(self.time) or [], np.int64), self.rows["corner"]
+        if (counts < 0).any() or counts.sum() != corners:
+            raise FormatError(f"the faces of {self.prim.GetPath()} have {corners} corners, not {counts.sum()}")
+        return counts
+
+    @cached_property
+    def corners(self) -> Ints:
+        return np.array(self.corners_attr.Get(self.time) or [], np.int64)
+
+    @cached_property
+    def columns(self) -> list[shapes.Column]:
+        return list(self._columns())
 
     @property
     def painted(self) -> list[Any]:
@@ -465,12 +478,12 @@ class _Stage:
                 shapes_of[key] = _Shape(pxr, prim, pxr.Usd.TimeCode.EarliestTime())
             shape = shapes_of[key]
             totals["vertices"] += shape.vertices
-            totals["faces"] += int(shape.counts.sum()) - 2 * len(shape.counts)
+            totals["faces"] += shape.triangles
             totals["parts"] += 1
             for name in ("vertices", "faces"):
                 require_count(name, totals[name], self._limits)
             self._limits.check_memory(PER_PART * totals["parts"], totals["vertices"], size)
-            if len(shape.counts):
+            if shape.rows["face"] or shape.rows["corner"]:
                 yield _Part(shape, prim, instance)
 
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
@@ -534,8 +547,7 @@ class _Stage:
         """Give the parts the faces and primvars that they have at a time."""
         self.parts = [part.renewed(self.pxr, time) for part in self.parts]
         require_count("vertices", sum(part.shape.vertices for part in self.parts), self._limits)
-        faces = sum(int(part.shape.counts.sum()) - 2 * len(part.shape.counts) for part in self.parts)
-        require_count("faces", faces, self._limits)
+        require_count("faces", sum(part.shape.triangles for part in self.parts), self._limits)
 
     @property
     def changes(self) -> bool:
