@@ -12,7 +12,6 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, BsmWarning, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS
@@ -73,17 +72,17 @@ def _of_library(mesh: Any) -> MeshFile:
         return _of_arrays(*mesh)
     if hasattr(mesh, "visual") and hasattr(mesh, "vertex_attributes"):
         return polygons_of(mesh).checked(DEFAULT_LIMITS)
-    points, faces = _attribute(mesh, _POINTS), _attribute(mesh, _FACES)
-    if points is not None and (faces is not None or hasattr(mesh, "cells_dict")):
-        if faces is None and hasattr(mesh, "extract_surface"):
-            raise MeshError("this is a mesh of cells: give its surface, mesh.extract_surface()")
-        left: list[str] = []
-        columns, metadata = columns_of(mesh, left), metadata_of(mesh, left)
-        if faces is not None:
-            return _of_arrays(points, faces, columns, metadata, left)
-        return _of_cells(points, mesh.cells_dict, columns, left)
     if hasattr(mesh, "graph") and hasattr(mesh, "geometry"):
         return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS)
+    if hasattr(mesh, "cells") and hasattr(mesh, "cell_sets"):
+        return _of_meshio(mesh)
+    points, faces = _attribute(mesh, _POINTS), _attribute(mesh, _FACES)
+    if points is not None and faces is None and hasattr(mesh, "extract_surface"):
+        raise MeshError("this is a mesh of cells: give its surface, mesh.extract_surface()")
+    if points is not None and faces is not None:
+        left: list[str] = []
+        columns, metadata = columns_of(mesh, left), metadata_of(mesh, left)
+        return _of_arrays(points, faces, columns, metadata, left)
     raise ArgumentError(
         "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), or a "
         f"path; not {type(mesh).__name__}"
@@ -138,24 +137,36 @@ def _of_arrays(
         return _of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows), *more)
     if table.ndim == 1 and table.size and table.dtype.kind in "iu":
         return _of_polygons(positions, *_split(table.astype(np.int64)), *more)
+    if left and not table.size:
+        return _of_polygons(positions, *np.zeros((2, 0), np.int64), *more)
     if table.ndim == 2 and (table.shape[1] > 3 or (table.shape[1] == 3 and len(table) and any(more))):
         return _of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1), *more)
     return MeshFile(TriangleMesh(positions, table))
 
 
-def _of_cells(
-    points: Any, cells: dict[str, npt.NDArray[Any]], columns: Sequence[Column], left: Sequence[str]
-) -> MeshFile:
-    """The surface of a meshio mesh."""
-    solid = [name for name in cells if name not in (*_SURFACES, *_NO_SURFACES)]
-    if solid:
+def _of_meshio(mesh: Any) -> MeshFile:
+    """The surface of a meshio mesh, in the order of its blocks of cells."""
+    kinds = [block.type for block in mesh.cells]
+    if solid := [kind for kind in kinds if kind not in (*_SURFACES, *_NO_SURFACES)]:
         raise MeshError(f"cells of the type {solid[0]} are not triangles or polygons; take the surface of the mesh")
-    others = [f"cells of the type {name}" for name in _NO_SURFACES if name in cells]
-    tables = [np.asarray(cells[name]) for name in _SURFACES if name in cells]
-    sizes = [np.full(len(table), table.shape[1]) for table in tables]
-    nothing = np.empty(0, np.int64)
-    corners = np.concatenate([nothing, *(table.reshape(-1) for table in tables)])
-    return _of_polygons(points, np.concatenate([nothing, *sizes]), corners, columns, left=[*left, *others])
+    left = [f"cells of the type {kind}" for kind in _NO_SURFACES if kind in kinds]
+    for what in ("point_sets", "cell_sets", "field_data", "info"):
+        named = ", ".join(map(str, getattr(mesh, what, None) or ()))
+        left += [f"{what.replace('_', ' ')} ({named})"] if named else []
+    surfaces = [place for place, kind in enumerate(kinds) if kind in _SURFACES]
+    tables = [mesh.cells[place].data for place in surfaces]
+    rows = [
+        np.asarray(row, np.int64)
+        for table in tables
+        for row in ([table] if isinstance(table, np.ndarray) and table.ndim == 2 else table)
+    ]
+    data = {name: [np.asarray(values[place]) for place in surfaces] for name, values in mesh.cell_data.items()}
+    whole = {name: np.concatenate(tables) for name, tables in data.items() if len({t.shape[1:] for t in tables}) == 1}
+    columns = [*_of_points(mesh.point_data, left, ""), *_columns(whole, "face", left)]
+    left += [name for name in data if name not in whole]
+    sizes = np.array([len(corners) for table in tables for corners in table], np.int64)
+    corners = np.concatenate([np.empty(0, np.int64), *(row.reshape(-1) for row in rows)])
+    return _of_polygons(mesh.points, sizes, corners, columns, left=left)
 
 
 def _of_polygons(
@@ -196,18 +207,6 @@ def _split(flat: Ints) -> tuple[Ints, Ints]:
 
 def columns_of(mesh: Any, left: list[str]) -> list[Column]:
     """The values of vertices, corners and polygons; `left` takes the names of those that a mesh cannot have."""
-    if hasattr(mesh, "cells_dict") and hasattr(mesh, "cell_data_dict"):
-        found = list(_of_points(mesh.point_data, left, ""))
-        for name, by_kind in mesh.cell_data_dict.items():
-            tables = [np.asarray(by_kind[kind]) for kind in _SURFACES if kind in by_kind]
-            if tables and all(table.shape[1:] == tables[0].shape[1:] for table in tables):
-                found += _columns({name: np.concatenate(tables)}, "face", left)
-            else:
-                left.append(name)
-        for what in ("point_sets", "cell_sets", "field_data"):
-            named = ", ".join(map(str, getattr(mesh, what, None) or ()))
-            left += [f"{what.replace('_', ' ')} ({named})"] if named else []
-        return found
     if hasattr(mesh, "point_data") and hasattr(mesh, "cell_data") and hasattr(mesh, "n_lines"):
         left += [name for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")]
         first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too

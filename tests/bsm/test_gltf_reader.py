@@ -178,6 +178,57 @@ def test_normals_of_mirrored_parts_of_trimesh_agree_with_their_faces(kind, tmp_p
     assert alignment(mesh) > (0.999 if kind == "dae" else 0.97)
 
 
+def test_details_that_a_mesh_cannot_hold_are_named():
+    built = one({"_COLORMAP": (POINTS[:, :1],), "TEXCOORD_0": (POINTS[:, :2],)}, material=0, extras={"a": 1})
+    texture = {"index": 0, "texCoord": 1, "scale": 0.5}
+    built.tree |= {
+        "materials": [{"normalTexture": texture, "extras": {"x": 1}}], "textures": [{"source": 0, "sampler": 0}],
+        "samplers": [{"wrapS": 33071}], "images": [{"uri": "data:image/svg+xml,%3Csvg/%3E"}],
+    }  # fmt: skip
+    built.tree["nodes"].append({"mesh": 0})
+    built.tree["asset"] |= {"copyright": "by me", "extras": {"author": "me", "list": [1]}}
+    read = built.read()
+    for word in ("outside of the scene", "extras of primitives", "texCoord of normalTexture", "scale of normalTexture",
+                 "extras of materials", "extras (list)", "samplers"):  # fmt: skip
+        assert word in read.notes[-1]
+    assert attribute(read.mesh, "COLORMAP").semantic == "generic"
+    assert read.mesh.metadata["copyright"] == "by me" and read.mesh.metadata["author"] == "me"
+    assert read.mesh.metadata["image.0.data"] == b"<svg/>"
+
+
+def test_colors_of_different_kinds_are_shares_of_one_range():
+    built = one({"COLOR_0": (np.full((4, 3), 51, np.uint8),)})
+    built.tree["accessors"][-2]["normalized"] = True
+    floats = {"POSITION": built.array(POINTS), "COLOR_0": built.array(np.full((4, 3), 0.3001, np.float32))}
+    plain = {"POSITION": built.array(POINTS)}
+    built.mesh(*({"attributes": given, "indices": built.array(CORNERS)} for given in (floats, plain)))
+    built.nodes({"mesh": 0}, {"mesh": 1})
+    colors = attribute(built.read().mesh, "color").values[[0, 4, 8], 0]
+    assert colors == pytest.approx([0.2, 0.3001, 1.0], abs=1e-6)
+
+
+def test_faces_of_mirrored_joints_are_turned_alone():
+    built = one({
+        "NORMAL": (np.tile(np.float32([0, 0, 1]), (4, 1)),), "JOINTS_0": (np.zeros((4, 4), np.uint8),),
+        "WEIGHTS_0": (np.tile(np.float32([1, 0, 0, 0]), (4, 1)),),
+    }, {"skin": 0})  # fmt: skip
+    given = built.tree["meshes"][0]["primitives"][0]["attributes"]
+    joints = np.repeat(np.uint8([[0, 0, 0, 0], [1, 0, 0, 0]]), 4, axis=0)
+    doubled = {
+        "JOINTS_0": joints,
+        "POSITION": np.tile(POINTS, (2, 1)) + np.repeat(np.float32([[0, 0, 0], [0, 5, 0]]), 4, axis=0),
+    }
+    doubled |= {
+        "NORMAL": np.tile(np.float32([0, 0, 1]), (8, 1)),
+        "WEIGHTS_0": np.tile(np.float32([1, 0, 0, 0]), (8, 1)),
+    }
+    given |= {name: built.array(values) for name, values in doubled.items()}
+    built.tree["meshes"][0]["primitives"][0]["indices"] = built.array(np.concatenate([CORNERS, CORNERS + 4]))
+    built.tree["nodes"] += [{}, {"scale": [-1, 1, 1]}]
+    built.tree |= {"skins": [{"joints": [1, 2]}], "scenes": [{"nodes": [0, 1, 2]}]}
+    assert alignment(built.read().mesh) > 0.999
+
+
 def test_texture_coordinates_need_no_material():
     uv = np.array([[0, 0], [1, 0], [1, 1], [0, 0.25]], np.float32)
     mesh = one({"TEXCOORD_0": (uv,)}).read().mesh

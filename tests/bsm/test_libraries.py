@@ -246,11 +246,14 @@ def test_open3d():
 
 def test_meshio_data():
     meshio = pytest.importorskip("meshio")
-    cells = [("line", [[0, 1]]), ("quad", [[0, 1, 2, 3]]), ("triangle", [[0, 1, 2]])]
-    theirs = meshio.Mesh(SQUARE, cells, {"height": [1.0, 2, 3, 4]}, {"kind": [[1], [2], [3]]})
-    ours = as_mesh(theirs)
+    cells = [("line", [[0, 1]]), ("quad", [[0, 1, 2, 3]]), ("triangle", np.array([[0, 1, 2]], np.uint64))]
+    theirs = meshio.Mesh(SQUARE, cells, {"height": [1.0, 2, 3, 4]}, {"kind": [[1], [2], [3]]}, info=["by hand"])
+    with pytest.warns(bsm.BsmWarning, match=r"cells of the type line, info \(by hand\)"):
+        ours = as_mesh(theirs)
     assert attribute(ours, "height").values[:, 0].tolist() == [1, 2, 3, 4]
-    assert attribute(ours, "kind").values[:, 0].tolist() == [3, 2, 2]
+    assert attribute(ours, "kind").values[:, 0].tolist() == [2, 2, 3]
+    ragged = as_mesh(meshio.Mesh(SQUARE, [("polygon", [[0, 1, 2, 3]]), ("polygon", [[0, 1, 2]])]))
+    assert len(ragged.faces) == 3
     with pytest.raises(bsm.MeshError, match="tetra"):
         as_mesh(meshio.Mesh(SQUARE, [("tetra", [[0, 1, 2, 3]])]))
 

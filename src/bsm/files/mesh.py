@@ -5,7 +5,6 @@ metadata; notes name changes and losses. Files may be hostile: a file that decla
 before anything is allocated for it.
 """
 
-import codecs
 import importlib
 import os
 import re
@@ -21,7 +20,7 @@ from bsm.files.formats.metadata import Written, fetched, images_in
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Source, as_input, file_beside, is_url
-from bsm.files.room import gunzipped, require_archive, require_counts_of_head, require_room
+from bsm.files.room import gunzipped, plain_text, require_archive, require_counts_of_head, require_room
 
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
@@ -76,14 +75,12 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
     """
     given, limits = as_input(source), as_limits(limits)
     path, name = (given.name if given.is_file else None), given.name
-    head = given.peek(_HEAD)
+    head = plain_text(given.peek(_HEAD))
     require_counts_of_head(file_format or format_of_name(name) or format_of_bytes(head), head, limits)
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
-    data = data.removeprefix(codecs.BOM_UTF8)
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):  # an OBJ by an editor of Windows
-        data = data.decode("utf-16", errors="replace").encode()
+    data = plain_text(data)
     if not data:
         raise FormatError("the file is empty")
     if data.startswith(MAGIC):
@@ -96,6 +93,9 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
         document = by_name("bsm.gltf.document", "Document")(data, Path(path).parent if path else None, limits)
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
+    if kind == "dae":
+        collada: Polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
+        return collada.checked(limits, len(data))
     if kind not in MESH_FORMATS:
         from bsm.files.formats.with_trimesh import read_with_trimesh
 

@@ -3,6 +3,7 @@
 Like a stream, a file may take the memory that limits grant for its bytes and vertices, inflated bytes included.
 """
 
+import codecs
 import io
 import re
 import zipfile
@@ -90,6 +91,22 @@ def as_integers(values: npt.NDArray[Any], what: str) -> Ints:
     if not whole.all():
         raise MeshError(f"{what} is {values[np.argmin(whole)]}, not a whole number")
     return values.astype(np.int64)
+
+
+def plain_text(data: bytes) -> bytes:
+    """Text in UTF-8 without a byte order mark; editors of Windows also write UTF-16."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data[: len(data) // 2 * 2].decode("utf-16", errors="replace").encode()
+    return data.removeprefix(codecs.BOM_UTF8)
+
+
+def continued(data: bytes) -> bytes:
+    """Text whose lines that end with a backslash are joined to the next; comments are not continued."""
+    return re.sub(rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", _joint, data, flags=re.M) if b"\\" in data else data
+
+
+def _joint(match: re.Match[bytes]) -> bytes:
+    return match[1] or b" "
 
 
 def without_comments(data: bytes) -> bytes:

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
 from typing import IO, Any
-from urllib.parse import unquote
+from urllib.parse import unquote, unquote_to_bytes
 
 import numpy as np
 import numpy.typing as npt
@@ -264,8 +264,10 @@ class Document:
         if uri in self._resources:
             return self._resources[uri]
         if uri.startswith("data:"):
+            head, _, body = uri.partition(",")
+            data = unquote_to_bytes(body)
             try:
-                data = base64.b64decode(uri.partition(",")[2], validate=True)
+                data = base64.b64decode(data, validate=True) if head.endswith(";base64") else data
             except ValueError as error:
                 raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
         else:

@@ -186,8 +186,8 @@ class Scene:
         self._painted = any("COLOR_0" in target for target in targets)
         self._tables = Counter(str(primitive["attributes"]) for primitive in document.primitives())
         self._check_sizes()
-        self._curves = self._animated(animation or {})
         self.notes: list[str] = []
+        self._curves = self._animated(animation or {})
         self.parts = [part for node in self._parents for part in self._parts(node)]
         if not self.parts:
             raise FormatError("this glTF has no triangles in its scene")
@@ -290,14 +290,15 @@ class Scene:
             columns, faces = part.columns, part.faces
             if len(part.normals):
                 normals = part.normals[0] + self._added(part, part.normals[1:], time)
-                turned = shapes.compact(shapes.turned_normals(normals, matrix[..., :3, :3]))
-                columns = (shapes.Column("normal", turned, semantic="normal"), *columns)
-            if np.median(np.linalg.det(matrix[..., :3, :3])) < 0:
-                faces = faces[:, ::-1]
-                columns = tuple(
-                    c if c.indices is None else replace(c, indices=c.indices.reshape(-1, 3)[:, ::-1].reshape(-1))
-                    for c in columns
-                )
+                values = shapes.compact(shapes.turned_normals(normals, matrix[..., :3, :3]))
+                columns = (shapes.Column("normal", values, semantic="normal"), *columns)
+            sides = np.broadcast_to(np.linalg.det(matrix[..., :3, :3]), len(part.base))
+            mirrored = np.median(sides[faces], axis=1) < 0
+            turned = np.where(mirrored[:, None], np.arange(3)[::-1], np.arange(3)) + 3 * np.arange(len(faces))[:, None]
+            faces = faces.reshape(-1)[turned]
+            columns = tuple(
+                c if c.indices is None else replace(c, indices=c.indices[turned.reshape(-1)]) for c in columns
+            )
             found.append(replace(part, faces=faces, columns=columns))
         return found
 
@@ -330,6 +331,7 @@ class Scene:
         for channel in animation.get("channels", []):
             node, path = channel["target"].get("node"), channel["target"]["path"]
             if node is None or path not in ("translation", "rotation", "scale", "weights"):
+                self.notes.append(f"channels of {str(path)[:40]} were left out")
                 continue
             sampler = samplers[channel["sampler"]]
             if channel["sampler"] not in tables:
@@ -487,7 +489,9 @@ class Scene:
                 upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
                 found.append(shapes.Column(f"texcoord{later}", shapes.compact(upright), "vertex", "texcoord"))
             else:
-                found.append(shapes.Column(number, shapes.compact(values), "vertex", shapes.meaning_of(number)))
+                found.append(
+                    shapes.Column(number, shapes.compact(values), "vertex", shapes.meaning_of(number, values.shape[1]))
+                )
         return tuple(found)
 
 
@@ -500,8 +504,6 @@ def is_read(name: str) -> bool:
 
 
 USUAL_RATE = 30.0
-PER_TRIANGLE, PER_PART = 200, 2000
-"""Bytes that parts take while they are joined: for each triangle of each table, and for each part."""
 
 
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
@@ -519,28 +521,41 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
         lost = Counter(scene.notes)
         counts = [f"{note}: {count}" for note, count in lost.items()]
         counts += [f"compressed already, by {name}: errors add up" for name in document.compressed]
-        return replace(found, notes=(*found.notes, *counts), dropped=_unread(document)).checked(
+        return replace(found, notes=(*found.notes, *counts), dropped=_unread(document, still=True)).checked(
             document.limits, document.received
         )
 
 
+_OF_TEXTURES = ("texCoord", "scale", "strength")
+_SAMPLING = {"wrapS": 10497, "wrapT": 10497, "magFilter": 9729}  # repeated, and smooth
 _READ = (WEBP, INSTANCING, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
 
 
-def _unread(document: Document) -> tuple[str, ...]:
+def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
     """Return notes on data of a document that a mesh cannot hold."""
     tree = document.tree
-    names = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
-    found = [names[name] for name in names if tree.get(name)]
-    found += ["other scenes"] if len(document.items("scenes")) > 1 else []
+    names = {"animations": "animations (--animation encodes one)", "skins": "skins"} if still else {}
+    found = [what for name, what in {**names, "cameras": "cameras"}.items() if tree.get(name)]
+    placed, nodes = parents_of(document), document.items("nodes")
+    if any("mesh" in node for number, node in enumerate(nodes) if number not in placed):
+        found.append("other scenes" if len(document.items("scenes")) > 1 else "nodes outside of the scene")
     found += [str(name) for name in tree.get("extensionsUsed", []) if name not in _READ]
     for primitive in document.primitives():
         skinned = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
         found += [name for name in primitive["attributes"] if not is_read(name) and not name.startswith(skinned or "?")]
-        found += ["morph targets"] if primitive.get("targets") else []
-    for node in document.items("nodes"):
+        found += ["morph targets"] if still and primitive.get("targets") else []
+        found += ["extras of primitives"] if primitive.get("extras") else []
+    for material in document.items("materials"):
+        given = {**material, **material.get("pbrMetallicRoughness", {})}
+        infos = {name: info for name, info in given.items() if name.endswith("Texture")}
+        found += [f"{key} of {name}" for name, info in infos.items() for key in _OF_TEXTURES if info.get(key)]
+    kinds = ("nodes", "materials", "textures", "images", "skins", "animations", "cameras")
+    found += [f"extras of {kind}" for kind in kinds if any(entry.get("extras") for entry in document.items(kind))]
+    found += [f"extras ({name})" for name, value in _all_extras(document) if not isinstance(value, str | int | float)]
+    if any(given.get(key, usual) != usual for given in document.items("samplers") for key, usual in _SAMPLING.items()):
+        found.append("samplers of textures")
+    for node in nodes:
         given = node.get("extensions", {}).get(INSTANCING, {}).get("attributes", {})
-        found += ["extras of nodes"] if node.get("extras") else []
         found += [f"{name} of instances" for name in given if "skin" in node or name not in _OF_INSTANCES]
     return tuple(dict.fromkeys(found))
 
@@ -566,6 +581,7 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     notes += [f"{others} other {'animation was' if others == 1 else 'animations were'} left out"] if others else []
     moving = any("NORMAL" in primitive["attributes"] for primitive in document.primitives())
     notes += ["left out, for they move: normals"] if moving else []
+    notes += [f"left out: {', '.join(unread)}"] if (unread := _unread(document, still=False)) else []
     notes += between("key times", (keys - keys[0]) * rate, rate)
     mesh = replace(still.mesh, metadata={**still.mesh.metadata, **({START: keys[0] * rate} if keys[0] else {})})
     frames = checked_frames(path, map(scene.at, times.tolist()), len(mesh.positions))
@@ -608,43 +624,49 @@ def _rate(keys: Doubles) -> float:
 
 
 def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> shapes.Polygons:
-    """The parts of a scene as one mesh: what some have and others do not is zero there (white, for colors)."""
-    parts = scene.turned(time)
-    begin = np.cumsum([0, *(len(part.base) for part in parts)])
-    triangles = sum(len(part.faces) for part in parts)
-    require_count("faces", triangles, limits)
-    tables = sum(1 + len(part.columns) for part in parts) * triangles // len(parts)
-    limits.check_memory(PER_TRIANGLE * tables + PER_PART * len(parts), scene.vertices, document.received)
-    faces = np.concatenate([part.faces + first for part, first in zip(parts, begin)])
-    columns, lacking = shapes.joined_columns(
-        (part.columns for part in parts), [{"corner": 3 * len(part.faces), "vertex": len(part.base)} for part in parts]
+    """The parts of a scene as one mesh."""
+    parts, positions = scene.turned(time), scene.at(time)
+    ends = np.cumsum([len(part.base) for part in parts])
+    used = sorted({part.material for part in parts})
+    made = (
+        shapes.Part(
+            positions[end - len(part.base) : end],
+            np.full(len(part.faces), 3),
+            part.faces.reshape(-1),
+            part.columns,
+            np.full(len(part.faces), used.index(part.material)),
+            part.name,
+        )
+        for part, end in zip(parts, ends.tolist())
     )
-    metadata: dict[str, Value] = {"up": "y", "unit": "meters", **_extras(document)}
-    if len(colors := scene.colors(time)):
-        columns.append(shapes.color_column(colors, "vertex"))
-    numbers = np.repeat([part.material for part in parts], [len(part.faces) for part in parts])
-    used = [int(number) for number in np.unique(numbers)]
+    whole = shapes.joined_parts(made, limits, document.received)
     absent = _absent_images(document)
+    metadata: dict[str, Value] = {"up": "y", "unit": "meters", **_extras(document)}
     if any(number >= 0 for number in used):
         words, images = _materials(document, used, absent)
         metadata |= described(words) | images
-    if len(parts) == 1 and parts[0].name:
-        metadata["name"] = parts[0].name
-    shape = (scene.at(time), np.full(len(faces), 3), faces.reshape(-1))
-    whole = shapes.Polygons(*shape, (*lacking, *absent.values()), (), tuple(columns), metadata)
-    names, counts = [part.name for part in parts], [len(part.faces) for part in parts]
-    return shapes.sorted_into_parts(whole, names, counts, np.searchsorted(used, numbers))
+    colors = scene.colors(time)
+    columns = (*whole.columns, *([shapes.color_column(colors, "vertex")] if len(colors) else []))
+    notes = (*whole.notes, *absent.values())
+    return replace(whole, notes=notes, columns=columns, metadata={**metadata, **whole.metadata})
 
 
 def _extras(document: Document) -> dict[str, Value]:
-    """Plain values among the extras of the scene and of meshes."""
-    scene = document.item("scenes", document.tree.get("scene", 0)) if document.items("scenes") else {}
+    """Plain values among the extras."""
     found: dict[str, Value] = {}
-    for extras in (entry.get("extras") for entry in (scene, *document.items("meshes"))):
-        for name, value in (extras if isinstance(extras, dict) else {}).items():
-            if name and isinstance(value, str | int | float):
-                found.setdefault(name, int(value) if isinstance(value, bool) else value)
+    for name, value in _all_extras(document):
+        if name and isinstance(value, str | int | float):
+            found.setdefault(name, int(value) if isinstance(value, bool) else value)
     return found
+
+
+def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:
+    """Extras of the scene, of meshes and of the whole file, and its copyright."""
+    scene = document.item("scenes", document.tree.get("scene", 0)) if document.items("scenes") else {}
+    asset = document.tree["asset"]
+    for extras in (entry.get("extras") for entry in (scene, *document.items("meshes"), asset)):
+        yield from (extras if isinstance(extras, dict) else {"extras": extras} if extras else {}).items()
+    yield from [("copyright", asset["copyright"])] if "copyright" in asset else []
 
 
 def _absent_images(document: Document) -> dict[str, str]:

@@ -9,6 +9,7 @@ import pytest
 import bsm
 from bsm import Attribute, BsmWarning, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
 from bsm.files.formats.metadata import images_in, materials_in
+from bsm.files.formats.polygons import meaning_of
 from bsm.files.mesh import format_mesh, read_mesh, write_mesh
 from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, png
@@ -48,6 +49,20 @@ def test_a_number_sign_begins_a_comment_at_the_start_of_a_line_and_after_numbers
     assert names(read.mesh, "material") == ["M #1", "M #2"] and names(read.mesh, "group") == ["left #1"]
     assert materials_in(read.mesh.metadata)[0] == {"name": "M #1", "Kd": "1 0 0", "map_Kd": 0}
     assert images_in(read.mesh.metadata) == {0: ("h#1.png", png())}
+
+
+def test_continued_lines_marks_of_encodings_and_options_of_images(tmp_path):
+    text = "newmtl A\nKd 1 \\\n0 0\nNewmtl B\nKd 0 1 0\nmap_Kd -type sphere -s 1 1 1 a b.png\n"
+    (tmp_path / "a b.png").write_bytes(png())
+    path = f"# of C:\\models\\\nmtllib a.mtl\n{THREE}usemtl A\nf 1 \\\n2 3\nusemtl B\nf 1 3 2\n#MRGB ffffffff\n"
+    (tmp_path / "a.obj").write_text(path)
+    for encoding in ("utf-8", "utf-8-sig", "utf-16"):
+        (tmp_path / "a.mtl").write_bytes(text.encode(encoding))
+        read = read_mesh(tmp_path / "a.obj")
+        assert read.notes == ("left out: colors in comments (#MRGB)",) and len(read.mesh.positions) == 3
+        of_a, of_b = materials_in(read.mesh.metadata).values()
+        assert of_a["Kd"].split() == ["1", "0", "0"] and of_b["map_Kd.options"] == "-type sphere -s 1 1 1"
+        assert images_in(read.mesh.metadata) == {0: ("a b.png", png())}
 
 
 def test_several_libraries_of_several_lines_and_with_spaces(tmp_path):
@@ -259,13 +274,14 @@ def test_solids_of_a_text_are_groups(tmp_path):
     text = solid("Inlet A", 0) + solid("wall #2", 5) + solid("Inlet A", 9)
     (tmp_path / "a.stl").write_text(text)
     mesh = read_mesh(tmp_path / "a.stl").mesh
-    assert names(mesh, "group") == ["Inlet A", "wall #2"] and attribute(mesh, "group").values[:, 0].tolist() == [
-        0,
-        1,
-        0,
-    ]
+    assert names(mesh, "group") == ["Inlet A", "wall #2", "Inlet A"]
+    assert attribute(mesh, "group").values[:, 0].tolist() == [0, 1, 2]
     write_mesh(tmp_path / "b.obj", mesh)
-    assert names(read_mesh(tmp_path / "b.obj").mesh, "group") == ["Inlet A", "wall #2"]
+    assert names(read_mesh(tmp_path / "b.obj").mesh, "group") == ["Inlet A", "wall #2", "Inlet A_2"]
+    for other in (b"\xef\xbb\xbf" + text.encode(), text.encode("utf-16"), text.replace("\n", "\r").encode()):
+        assert names(read_mesh(other, "stl").mesh, "group") == ["Inlet A", "wall #2", "Inlet A"]
+    bare = read_mesh((solid("", 0) + solid("", 5)).encode(), "stl").mesh
+    assert attribute(bare, "group").values[:, 0].tolist() == [0, 1] and not names(bare, "group")
     assert read_mesh(solid("one", 0, "SOLID").upper().encode(), "stl").mesh.faces.tolist() == [[0, 1, 2]]
     bsm.save(mesh, tmp_path / "a.bsm", preset="grid14")
     done = run("decode", tmp_path / "a.bsm", "-o", tmp_path / "c.stl")
@@ -458,7 +474,7 @@ def test_nodes_of_a_dae_are_counted_before_they_are_placed(tmp_path):
     with pytest.raises(LimitError, match=r"faces|vertices|parts"):
         read_mesh(path)
     path.write_bytes(collada('<node id="l"><instance_node url="#l"/></node>', '<node><instance_node url="#l"/></node>'))
-    with pytest.raises(MeshError, match="component of itself"):
+    with pytest.raises(FormatError, match="Node #l not found"):
         read_mesh(path)
 
 
@@ -473,7 +489,7 @@ def test_a_dae_names_what_is_left_out_and_its_images_come_from_its_folder(tmp_pa
     (tmp_path / "a.dae").write_bytes(collada("", scene, cameras))
     read = read_mesh(tmp_path / "a.dae")
     assert len(read.mesh.faces) == 1
-    assert any("cameras" in note and "1 of 2 surfaces" in note for note in read.notes), read.notes
+    assert any("cameras" in note and "(Material #away not found)" in note for note in read.notes), read.notes
 
 
 @pytest.mark.parametrize("kind", ["polylist", "polygons"])
@@ -492,6 +508,37 @@ def test_polygons_of_a_dae_that_are_not_convex_are_cut_without_overlaps(kind, tm
     assert area(read.mesh) == pytest.approx(7) and "polygons were cut into triangles: 1" in read.notes
 
 
+def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
+    pytest.importorskip("collada")
+    (tmp_path / "a b.png").write_bytes(png())
+    uv = '<source id="t"><float_array id="ta" count="4">0 0 1 1</float_array><technique_common><accessor source="#ta" '
+    uv += 'count="2" stride="2"><param name="S" type="float"/><param name="T" type="float"/></accessor>'
+    uv += "</technique_common></source>"
+    inputs = '<input semantic="VERTEX" source="#v" offset="0"/><input semantic="TEXCOORD" source="#t" offset="1"/>'
+    strip = f'<tristrips count="1" material="m">{inputs}<p>0 0 1 1 2 0 0 1</p></tristrips></mesh>'
+    effect = '<library_images><image id="i"><init_from>a%20b.png</init_from></image></library_images><library_effects>'
+    effect += '<effect id="e"><profile_COMMON><newparam sid="s"><surface type="2D"><init_from>i</init_from></surface>'
+    effect += '</newparam><newparam sid="q"><sampler2D><source>s</source></sampler2D></newparam><technique sid="c">'
+    effect += '<phong><diffuse><texture texture="q" texcoord="x"/></diffuse><shininess><float>9</float></shininess>'
+    effect += "</phong></technique></profile_COMMON></effect></library_effects><library_materials><material "
+    effect += 'id="mm" name="Skin #1"><instance_effect url="#e"/></material></library_materials>'
+    bound = SHOWN.replace("/>", "><bind_material><technique_common><instance_material symbol='m' target='#mm'/>")
+    bound += "</technique_common></bind_material></instance_geometry>"
+    mirror = "<matrix>-1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1</matrix>"
+    text = collada("", f'<node id="x">{bound}</node><node id="y">{mirror}{SHOWN}</node>', effect).decode()
+    before, _, after = text.partition("<vertices")
+    (tmp_path / "a.dae").write_text(f"{before}{uv}<vertices{after}".replace("</mesh>", strip))
+    mesh = read_mesh(tmp_path / "a.dae").mesh
+    assert len(mesh.positions) == 12 and len(mesh.faces) == 6
+    normals = np.cross(*np.diff(mesh.positions[mesh.faces[[0, 3]]], axis=1).swapaxes(0, 1))
+    assert (normals[:, 2] > 0).all(), "the mirrored part, too"
+    first = materials_in(mesh.metadata)[0]
+    assert first["name"] == "Skin #1" and first["Ns"] == 9 and images_in(mesh.metadata)[first["map_Kd"]][1] == png()
+    assert attribute(mesh, "material").values[:, 0].tolist() == [0, 0, 0, 1, 1, 1]
+    found = at_corners(mesh, attribute(mesh, "texcoord"))
+    assert found[1].tolist() == [[0, 0], [1, 1], [0, 0]] and not found[0].any()
+
+
 def test_a_3mf_file_names_its_colors_and_one_without_a_build_says_so(tmp_path):
     pytest.importorskip("lxml")
     more = '<basematerials id="9"/><m:colorgroup id="8" xmlns:m="m"/><object'
@@ -501,6 +548,36 @@ def test_a_3mf_file_names_its_colors_and_one_without_a_build_says_so(tmp_path):
     (tmp_path / "a.3mf").write_bytes(three_mf(chained_objects(1), ""))
     with pytest.raises(MeshError, match="its build has no item"):
         read_mesh(tmp_path / "a.3mf")
+
+
+def test_what_a_ply_has_twice_or_for_some_faces_only():
+    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{}"
+    face = "element face {}\nproperty list uchar int vertex_indices\n{}end_header\n{}"
+    points = "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n"
+    twice = head.format("property float q\n" * 2) + face.format(1, "", points + "3 0 1 2\n")
+    read = read_mesh(twice.encode(), "ply")
+    assert read.notes == ("left out: the first q, of which there are several",)
+    assert attribute(read.mesh, "q").values[:, 0].tolist() == [2, 4, 6]
+    with pytest.raises(MeshError, match="the element vertex several times"):
+        read_mesh(twice.replace("element face", "element vertex 0\nelement face").encode(), "ply")
+    more = "property list uchar float texcoord\n"
+    rows = "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 0\n"
+    read = read_mesh((head.format("") + face.format(2, more, "0 0 0\n1 0 0\n0 1 0\n" + rows)).encode(), "ply")
+    assert read.notes == ("faces without texture coordinates were given zeros: 1",)
+
+
+def test_colors_and_names_of_values_that_could_mean_something_else():
+    off = "COFF\n3 1 0\n" + "".join(f"{x} {y} 0 1 0 0 1\n" for x, y in ((0, 0), (1, 0), (0, 1))) + "3 0 1 2\n"
+    assert attribute(read_mesh(off.encode(), "off").mesh, "color").values[0].tolist() == [255, 0, 0, 255]
+    with pytest.raises(MeshError, match="binary OFF"):
+        read_mesh(b"OFF BINARY\n\0\0\0\3\0\0\0\1", "off")
+    given = {
+        ("Normals", 3): "normal",
+        ("normality", 3): "generic",
+        ("color", 1): "generic",
+        ("face_color_2", 4): "color",
+    }
+    assert {name: meaning_of(*name) for name in given} == given
 
 
 def test_an_obj_in_utf16_and_a_ply_with_a_line_that_is_a_comment():

@@ -137,7 +137,7 @@ def test_corners_without_a_value_get_zeros():
     [
         ("vt 0 0\nf 1/1 2/2 3/1\n", "texture coordinates", "a corner refers to value 1"),
         ("vt 0 0\nf 1/1 2/-3 3/1\n", "texture coordinates", "a corner refers to value -2"),
-        ("vn 0 0 nan\nf 1//1 2//1 3//1\n", "normals", "not finite"),
+        ("vn nan nan nan\nf 1//1 2//1 3//1\n", "normals", "not finite"),
         ("l 1 2\np 3\nf 1 2 3\n", "lines, points", ""),
     ],
 )

@@ -22,6 +22,7 @@ from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.pipes import file_beside
+from bsm.files.room import continued, plain_text
 
 Value: TypeAlias = "str | int | float | bytes"
 Material: TypeAlias = dict[str, "str | int | float"]
@@ -29,7 +30,8 @@ Material: TypeAlias = dict[str, "str | int | float"]
 _ENTRY = re.compile(r"(material|image)\.(\d{1,9})\.(.+)", re.DOTALL)
 _MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl", re.IGNORECASE)
 _MTL_OPTIONS = re.compile(
-    r"((?:-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)", re.IGNORECASE
+    r"((?:-(?:type|colorspace)\s+\w+\s+|-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)",
+    re.IGNORECASE,
 )
 _NAMED_APART = 16  # names that have an entry each; there can be 256 in all
 _TO_GLTF = {"map_Kd": "baseColorTexture", "map_Ke": "emissiveTexture", "Ke": "emissiveFactor"}
@@ -181,14 +183,14 @@ def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
     """Return the materials of a library by name; `images` numbers the files of their images."""
     materials: dict[str, Material] = {}
     current: Material = {}
-    for line in data.splitlines():
+    for line in continued(plain_text(data)).splitlines():
         words = line.split(None, 1)
         if len(words) < 2 or words[0].startswith(b"#"):
-            if words == [b"newmtl"]:
+            if [word.lower() for word in words] == [b"newmtl"]:
                 current = materials.setdefault("", {})
             continue
         keyword, rest = map(text_of, words)
-        if keyword == "newmtl":
+        if keyword.lower() == "newmtl":
             current = materials.setdefault(rest, {})
         elif _MTL_IMAGES.fullmatch(keyword):
             match = _MTL_OPTIONS.fullmatch(rest)

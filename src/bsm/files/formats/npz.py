@@ -298,7 +298,7 @@ def column_of(archive: Archive, name: str, values: Array, mesh: TriangleMesh, in
     if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS or rows.get(domain) != len(values):
         return None
     native = values.astype(values.dtype.newbyteorder("="))
-    return Column(rest, native, cast(Domain, domain), meaning_of(rest), indices)
+    return Column(rest, native, cast(Domain, domain), meaning_of(rest, values.shape[1]), indices)
 
 
 def _parse_metadata(data: bytes) -> Metadata:
@@ -468,11 +468,10 @@ def _dressed(
         arrays = [stack.enter_context(NpzArray(archive, name)).frames() for name in moving.values()]
         for number, (positions, *values) in enumerate(zip(npz_frames(archive), *arrays, strict=True)):
             with about(f"frame {number}"):
-                own = (
-                    Attribute(name, column.astype(column.dtype.newbyteorder("=")), semantic=meaning_of(name))
-                    for name, column in zip(moving, values, strict=True)
-                )
-                mesh = TriangleMesh(positions, faces, (*still, *own))
+                own = [column.astype(column.dtype.newbyteorder("=")) for column in values]
+                named = zip(moving, own, strict=True)
+                more = (Attribute(name, v, semantic=meaning_of(name, v[0].size)) for name, v in named)
+                mesh = TriangleMesh(positions, faces, (*still, *more))
             yield mesh
 
 

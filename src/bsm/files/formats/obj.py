@@ -14,7 +14,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped
-from bsm.files.room import Ints, Rows, as_integers, point_row, text_table
+from bsm.files.room import Ints, Rows, as_integers, continued, point_row, text_table
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """The value of a keyword for the faces after it, and the keyword."""
@@ -32,7 +32,7 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
     """Read an OBJ, or lines of one after `seen` vertices; values of their corners may be elsewhere."""
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
-    lines = _Lines(re.sub(rb"\\[ \t]*\r?\n", b" ", data) if b"\\" in data else data)
+    lines = _Lines(continued(data))
     points = Rows(lines.of(b"v"), "vertex")
     is_face = lines.are(b"f")
     polygons = lines.of(b"f")
@@ -56,6 +56,7 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
         dropped.append(f"lines that begin with {b', '.join(unknown[:_FEW]).decode(errors='replace')}")
     if most > 3 and not colored and (most > 4 or (points.values[(points.starts + 3)[points.counts > 3]] != 1).any()):
         dropped.append(f"numbers after the coordinates ({int((points.counts > 3).sum())} vertices have some)")
+    dropped += ["colors in comments (#MRGB)"] if re.search(rb"^#MRGB ", data, re.M) else []
     notes: list[str] = []
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
         if rows := lines.of(keyword):

@@ -14,8 +14,8 @@ from bsm.files.formats.polygons import Column, Polygons, color_column, compact
 from bsm.files.room import Doubles, Ints, Rows, point_row, require_lines, text_table, without_comments
 
 _OFF_HEADER = re.compile(
-    rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF(?P<binary>[ \t]+BINARY)?"
-    rb"\s*(?P<vertices>\d{1,18})\s+(?P<faces>\d{1,18})(?:[ \t]+-?\d+)?[ \t]*(?:[\r\n]|\Z)"
+    rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF"
+    rb"(?:(?P<binary>[ \t]+BINARY)|\s*(?P<vertices>\d{1,18})\s+(?P<faces>\d{1,18})(?:[ \t]+-?\d+)?[ \t]*(?:[\r\n]|\Z))"
 )
 
 
@@ -71,7 +71,9 @@ def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tupl
 def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
     if colors.size == 0 or (colors != np.rint(colors)).any():
         return False
-    return bool(colors.max() > 1) or not any(b"." in b" ".join(line.split()[-colors.shape[1] :]) for line in lines)
+    if colors.max() > 1 or colors.shape[1] == 4:  # with an opacity of 1 they are shares
+        return bool(colors.max() > 1)
+    return not any(b"." in b" ".join(line.split()[-colors.shape[1] :]) for line in lines)
 
 
 def write_off(mesh: TriangleMesh, stem: str) -> Written:

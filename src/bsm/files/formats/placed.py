@@ -1,11 +1,11 @@
-"""3MF and DAE: how much their objects become where they are placed, counted before trimesh places them."""
+"""3MF: how much their objects become where they are placed, counted before trimesh places them."""
 
 from __future__ import annotations
 
 import io
 import zipfile
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 from typing import IO
@@ -17,15 +17,14 @@ from bsm.files.room import require_count
 
 FREE_PARTS, BYTES_OF_PART = 4096, 8  # placed parts that any file may have, and bytes for each further one
 _MOST = 1 << 62
-_OF_POLYGONS = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 _LEFT_OUT = {
     "instance_controller": "skins and morphs with their meshes", "animation": "animations", "lines": "lines",
-    "linestrips": "lines", "tristrips": "triangle strips", "trifans": "triangle fans", "instance_camera": "cameras",
+    "linestrips": "lines", "instance_camera": "cameras",
     "instance_light": "lights", "basematerials": "materials", "colorgroup": "colors", "texture2dgroup": "textures",
     "compositematerials": "materials", "multiproperties": "materials", "metadata": "metadata",
     "ph": "holes of polygons", "beamlattice": "beams", "slicestack": "slices",
 }  # fmt: skip
-"""What trimesh leaves out of 3MF and DAE, by the tags."""
+"""What is left out of 3MF and DAE, by the tags."""
 _PIECE = 1 << 16
 
 
@@ -37,7 +36,7 @@ class _Model:
     objects: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
     uses: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
     files: list[tuple[str, str]] = field(default_factory=list)
-    left_out: dict[str, None] = field(default_factory=dict)
+    tags: dict[str, None] = field(default_factory=dict)
     _object: str = ""
 
     def read(self, file: IO[bytes]) -> _Model:
@@ -70,7 +69,7 @@ class _Model:
             case "item":
                 self.uses[""][attrs.get("objectid", "")] += 1
             case what if what in _LEFT_OUT:
-                self.left_out[_LEFT_OUT[what]] = None
+                self.tags[what] = None
 
 
 def placed_triangles(data: bytes, limits: Limits) -> tuple[int, tuple[str, ...]]:
@@ -90,99 +89,38 @@ def placed_triangles(data: bytes, limits: Limits) -> tuple[int, tuple[str, ...]]
                         read[path] = _Model().read(file)
                 model.objects[user] += read[path].size
                 model.size += read[path].size
-                model.left_out |= read[path].left_out
+                model.tags |= read[path].tags
                 for what in ("vertex", "triangle"):
                     require_count("vertices" if what == "vertex" else "faces", model.size[what], limits)
     if not model.uses[""]:
         raise MeshError("this 3MF file places no object: its build has no item")
-    edges, nodes = sum(used.total() for used in model.uses.values()), {*model.uses}.union(*model.uses.values())
-    return _placed("3MF", model.uses, model.objects, data, limits, len(nodes) * edges + 1)[0], tuple(model.left_out)
+    return _placed(model, len(data), limits), left_out_of(model.tags)
 
 
-def _placed(
-    kind: str,
-    uses: Mapping[str, Counter[str]],
-    objects: Mapping[str, Counter[str]],
-    data: bytes,
-    limits: Limits,
-    followed: int = _MOST,
-) -> tuple[int, int]:
-    """Return the triangles and surfaces of all that "" uses; raise `LimitError` if these or the parts are too many.
-
-    Trimesh stops without an error after `followed` parts.
-    """
-    sizes: dict[str, tuple[int, int, int, int]] = {}
+def _placed(model: _Model, size: int, limits: Limits) -> int:
+    """Return the triangles of all that "" uses; raise `LimitError` if these or the parts are too many."""
+    uses = model.uses
+    followed = len({*uses}.union(*uses.values())) * sum(used.total() for used in uses.values()) + 1
+    sizes: dict[str, tuple[int, int, int]] = {}
     try:
         for name in TopologicalSorter(uses).static_order():
-            own = objects.get(name, Counter())
-            used = [(times, sizes[other]) for other, times in uses.get(name, Counter()).items()]
-            totals = (sum(times * size[place] for times, size in used) for place in range(4))
-            mine = (own["vertex"], own["triangle"], own["surface"], 1)
+            own = model.objects[name]
+            used = [(times, sizes[other]) for other, times in uses[name].items()]
+            totals = (sum(times * size[place] for times, size in used) for place in range(3))
+            mine = (own["vertex"], own["triangle"], 1)
             sizes[name] = tuple(min(_MOST, n + more) for n, more in zip(mine, totals))  # type: ignore[assignment]
     except CycleError:
-        raise MeshError(f"an object of this {kind} file is a component of itself") from None
-    vertices, triangles, surfaces, parts = sizes.get("", (0, 0, 0, 0))
+        raise MeshError("an object of this 3MF file is a component of itself") from None
+    vertices, triangles, parts = sizes.get("", (0, 0, 0))
     require_count("vertices", vertices, limits)
     require_count("faces", triangles, limits)
-    if parts > (most := FREE_PARTS + len(data) // BYTES_OF_PART):
-        raise LimitError(f"this {kind} file places {parts:,} parts, over the limit of {most:,} for its bytes")
-    if parts > followed:
-        raise LimitError(f"this {kind} file places {parts:,} parts, of which trimesh reads {followed:,}: split it")
-    return triangles, surfaces
+    if parts > (most := FREE_PARTS + size // BYTES_OF_PART):
+        raise LimitError(f"this 3MF file places {parts:,} parts, over the limit of {most:,} for its bytes")
+    if parts > followed:  # trimesh stops there without an error
+        raise LimitError(f"this 3MF file places {parts:,} parts, of which trimesh reads {followed:,}: split it")
+    return triangles
 
 
-class _Collada:
-    """The geometries of a DAE, about how many triangles each has at least, and which node uses which how often."""
-
-    def __init__(self, data: bytes) -> None:
-        self.uses: defaultdict[str, Counter[str]] = defaultdict(Counter)
-        self.objects: defaultdict[str, Counter[str]] = defaultdict(Counter)
-        self.left_out: dict[str, None] = {}
-        self._nodes: list[str] = []
-        self._geometry = ""
-        self._width = self._words = 0
-        parser = expat.ParserCreate(namespace_separator=" ")
-        parser.StartElementHandler, parser.EndElementHandler = self._begin, self._end
-        parser.CharacterDataHandler = self._take
-        try:
-            parser.Parse(data, True)
-        except (expat.ExpatError, LookupError, ValueError) as error:
-            raise FormatError(f"this is not a DAE file: its XML is broken: {error}") from error
-
-    def _begin(self, tag: str, attrs: Mapping[str, str]) -> None:
-        name, self._inside = tag.rpartition(" ")[2], False
-        if name in ("node", "visual_scene"):
-            node = "#" + attrs.get("id", "")
-            node = node if node != "#" and node not in self.uses else f"{len(self.uses)}"
-            if self._nodes:
-                self.uses[self._nodes[-1]][node] += 1
-            self.uses[node] = self.uses[node]
-            self._nodes.append(node)
-        elif name in ("instance_geometry", "instance_node", "instance_visual_scene"):
-            self.uses[self._nodes[-1] if self._nodes else ""][attrs.get("url", "")] += 1
-        elif name == "geometry":
-            self._geometry = "#" + attrs.get("id", "")
-        elif name in _OF_POLYGONS:
-            self._width = self._words = 0
-        elif name == "input" and attrs.get("offset", "").isdecimal():
-            self._width = max(self._width, min(int(attrs["offset"]), 64) + 1)
-        self._inside = name == "p"
-        if name in _LEFT_OUT:
-            self.left_out[_LEFT_OUT[name]] = None
-
-    def _end(self, tag: str) -> None:
-        name, self._inside = tag.rpartition(" ")[2], False
-        if name in ("node", "visual_scene"):
-            self._nodes.pop()
-        elif name in _OF_POLYGONS:
-            own = self._words // (3 * max(self._width, 1))
-            self.objects[self._geometry].update(triangle=own, vertex=3 * own, surface=int(name not in _LEFT_OUT))
-
-    def _take(self, text: str) -> None:
-        self._words += text.count(" ") + text.count("\n") + 1 if self._inside else 0
-
-
-def placed_surfaces(data: bytes, limits: Limits) -> tuple[int, tuple[str, ...]]:
-    """Return how many surfaces a DAE places, and what trimesh leaves out; raise `LimitError` if they are too large."""
-    scene = _Collada(data)
-    return _placed("DAE", scene.uses, scene.objects, data, limits)[1], tuple(scene.left_out)
+def left_out_of(tags: Iterable[str]) -> tuple[str, ...]:
+    """Return what is left out, by the names of XML elements."""
+    return tuple(dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT))

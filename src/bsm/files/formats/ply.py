@@ -25,7 +25,7 @@ from bsm.files.formats.metadata import (
     remarks,
     without_seams,
 )
-from bsm.files.formats.polygons import Array, Column, Polygons, color_column, meaning_of, unused_name
+from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
 from bsm.files.room import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 
 _TYPES = {
@@ -345,6 +345,8 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     names = [element.name for element in header.elements]
     if "tristrips" in names:
         raise MeshError("this PLY file holds triangle strips; convert it to faces (MeshLab does when it saves)")
+    if twice := [name for name in ("vertex", "face") if names.count(name) > 1]:
+        raise MeshError(f"this PLY file has the element {twice[0]} several times; save it with one")
     if "vertex" not in names or "face" not in names:
         raise NoFacesError("this PLY file has no faces; point clouds are not supported")
     body = data[header.size :]
@@ -359,12 +361,17 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     if corners < 0 or face.element.properties[corners].length is None:
         raise MeshError("the faces of this PLY file have no list vertex_indices")
     sizes, items = face.lists(corners)
-    wedges, dropped = _wedges(face, corners, sizes)
+    wedges, dropped, notes = _wedges(face, corners, sizes)
     columns = (*_columns(vertex, "vertex", "xyz"), *_columns(face, "face", ()), *wedges)
     dropped += [f"the list {column.name} of vertices" for column in vertex.element.properties if column.length]
     others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
+    for element in (vertex.element, face.element):
+        names = [column.name for column in element.properties]
+        dropped += [
+            f"the first {name}, of which there are several" for name in {n: 0 for n in names if names.count(n) > 1}
+        ]
     flat = as_integers(items, "a vertex index")
-    return Polygons(positions, sizes, flat, (), (*dropped, *others), columns, header.metadata)
+    return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), columns, header.metadata)
 
 
 def _columns(table: Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
@@ -395,9 +402,9 @@ def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
         left = {member: kind for member, kind in left.items() if member not in together}
 
 
-def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str]]:
-    """Values of corners: lists as long as that of the vertices, or twice, ...; and the lists that are not."""
-    found, dropped = [], []
+def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str], list[str]]:
+    """Values of corners: lists as long as that of the vertices, or twice, ...; the lists that are not; and notes."""
+    found, dropped, notes = [], [], []
     for place, column in enumerate(table.element.properties):
         if column.length is None or place == corners:
             continue
@@ -409,8 +416,12 @@ def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list
             continue
         rows = np.zeros((int(sizes.sum()), width), values.dtype)  # a face without any gets zeros
         rows[np.repeat(present, sizes)] = values.reshape(-1, width)
-        found.append(Column(column.name, rows, "corner", meaning_of(column.name)))
-    return found, dropped
+        found.append(Column(column.name, rows, "corner", meaning_of(column.name, width)))
+        if not present.all():
+            notes.append(
+                f"faces without {PLURALS.get(column.name, column.name)} were given zeros: {int((~present).sum())}"
+            )
+    return found, dropped, notes
 
 
 # ------------------------------------------------------------------------------------------------------------ writing

@@ -1,5 +1,7 @@
 """The contents of mesh files, polygons with columns of attributes, and their conversion to a mesh."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -41,6 +43,8 @@ class Column:
         if self.domain == "face":
             return Attribute(name, self.values[owner], "face", self.semantic)
         indices = np.arange(len(self.values)) if self.indices is None else self.indices
+        if places.size and places.max() >= len(indices):
+            raise MeshError(f"there are {len(indices)} of them for {places.max() + 1} corners")
         used = indices[places]
         if used.size and not (used.min() >= 0 and used.max() < len(self.values)):
             raise MeshError(f"a corner refers to value {used[(used < 0) | (used >= len(self.values))][0]}")
@@ -73,7 +77,10 @@ def joined_columns(
     found, notes = [], []
     for key in dict.fromkeys(key for columns in of_parts for key in columns):
         model = next(columns[key] for columns in of_parts if key in columns)
-        blank = 255 if model.semantic == "color" and model.values.dtype == np.uint8 else 0
+        kinds = {columns[key].values.dtype for columns in of_parts if key in columns}
+        shares = model.semantic == "color" and len(kinds) > 1  # bytes here, and words or floats there
+        model = replace(model, values=_shares(model.values)) if shares else model
+        blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
         tables, places, begin, lacking = [], [], 0, 0
         for columns, sizes in zip(of_parts, rows, strict=True):
             column, count = columns.get(key), sizes[model.domain]
@@ -82,7 +89,7 @@ def joined_columns(
                 size = min(count, 1) if model.domain == "corner" else count
                 values = np.full((size, *model.values.shape[1:]), blank, model.values.dtype)
                 column = replace(model, values=values, indices=np.zeros(count, np.int64))
-            tables.append(column.values)
+            tables.append(_shares(column.values) if shares else column.values)
             places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
             begin += len(column.values)
         if lacking:
@@ -91,6 +98,13 @@ def joined_columns(
         at_corners = np.concatenate(places) if model.domain == "corner" else None
         found.append(replace(model, values=np.concatenate(tables), indices=at_corners))
     return found, notes
+
+
+_FULL = {"uint8": 255, "uint16": 65535}  # of a color
+
+
+def _shares(colors: Array) -> Array:
+    return (colors / _FULL.get(colors.dtype.name, 1)).astype(np.float32)
 
 
 def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
@@ -143,16 +157,18 @@ def named_column(name: str, values: Array, domain: Domain, meaning: Semantic | N
     """Values as libraries name them, shape (k, c); None: their name gives their meaning."""
     lower = name.lower()
     if meaning is None:
-        meaning = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else meaning_of(name)
-    colored = meaning == "color" and values.shape[1] in (3, 4)
-    column = color_column(values, domain) if colored else Column(name, values, domain, meaning)
+        known = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else name
+        meaning = meaning_of(known, values.shape[1])
+    column = color_column(values, domain) if meaning == "color" else Column(name, values, domain, meaning)
     return Column(name, column.values, domain, column.semantic)
 
 
-def meaning_of(name: str) -> Semantic:
-    meanings: tuple[Semantic, ...] = ("color", "normal", "texcoord")
-    bare = re.sub(r"^(vertex|corner|face)_", "", name.lower())
-    return next((meaning for meaning in meanings if bare.startswith(meaning)), "generic")
+def meaning_of(name: str, components: int = 3) -> Semantic:
+    """Return the meaning of values by their name, if as many components can mean that."""
+    widths: dict[Semantic, tuple[int, ...]] = {"color": (3, 4), "normal": (3,), "texcoord": (2, 3)}
+    found = re.match(r"(?:(?:vertex|corner|face)_)?(color|normal|texcoord)s?(?![a-z])", name.lower())
+    fits = (meaning for meaning in widths if found and found[1] == meaning and components in widths[meaning])
+    return next(fits, "generic")
 
 
 CUT = "polygons were cut into triangles"
@@ -160,6 +176,7 @@ CROSSING = "polygons whose sides cross, so that their triangles overlap"
 _MOST_TURNS = 16  # fans that are tried for a polygon
 _MOST_CORNERS = 1 << 15  # of a polygon whose ears are clipped: that can take the square of it
 PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24  # bytes of a triangle, of one that a polygon is cut into, of a corner
+PER_JOINED, PER_PART = 200, 2000  # bytes that parts take while they are joined: of each triangle of a table, and a part
 
 
 @public
@@ -235,25 +252,87 @@ class Polygons:
         return MeshFile(TriangleMesh(positions, faces, attributes, metadata), tuple(notes), dropped)
 
 
-def sorted_into_parts(whole: Polygons, names: Sequence[str], faces: Sequence[int], materials: Array) -> Polygons:
-    """Say which faces are of which part, if there are several, and of which material."""
-    notes, columns, metadata = whole.notes, whole.columns, whole.metadata
+def turned_corners(sizes: Ints, turned: Array) -> Ints:
+    """The order of corners in which the polygons that are turned run the other way round, from the same corner."""
+    first = np.repeat(np.cumsum(sizes) - sizes, sizes)
+    step = np.arange(len(first)) - first
+    size = np.repeat(sizes, sizes)
+    found: Ints = first + np.where(np.repeat(turned, sizes), (size - step) % np.maximum(size, 1), step)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Polygons of a scene where it places them, and the number of the material of each."""
+
+    positions: Doubles
+    sizes: Ints
+    corners: Ints
+    columns: Sequence[Column]
+    materials: Array
+    name: str
+
+    def placed(self, matrix: Doubles) -> Part:
+        """Return the part where a matrix moves it; mirrors turn its polygons around."""
+        linear, columns, corners, sizes = matrix[:3, :3], self.columns, self.corners, self.sizes
+        columns = [
+            replace(c, values=compact(turned_normals(c.values.astype(np.float64), linear)))
+            if c.semantic == "normal"
+            else c
+            for c in columns
+        ]
+        if np.linalg.det(linear) < 0:
+            turned = turned_corners(sizes, np.ones(len(sizes), np.bool_))
+            columns = [c if c.indices is None else replace(c, indices=c.indices[turned]) for c in columns]
+            corners = corners[turned]
+        return replace(self, positions=self.positions @ linear.T + matrix[:3, 3], corners=corners, columns=columns)
+
+
+def joined_parts(given: Iterable[Part], limits: Limits, received: int) -> Polygons:
+    """Join the parts of a scene, and say which faces are of which part, if there are several, and material.
+
+    Parts are counted as they come. Values that some have and others do not are zero there (white, for colors).
+    """
+    parts: list[Part] = []
+    begin, triangles, kinds = [0], 0, set[tuple[str, str]]()
+    for part in given:
+        parts.append(part)
+        begin.append(begin[-1] + len(part.positions))
+        triangles += int(np.maximum(part.sizes - 2, 0).sum())
+        kinds |= {(column.name, column.domain) for column in part.columns}
+        require_count("vertices", begin[-1], limits)
+        require_count("faces", triangles, limits)
+        limits.check_memory(PER_JOINED * (1 + len(kinds)) * triangles + PER_PART * len(parts), begin[-1], received)
+    nothing = np.empty(0, np.int64)
+    rows: list[dict[Domain, int]] = [
+        {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)} for part in parts
+    ]
+    columns, notes = joined_columns((part.columns for part in parts), rows)
+    corners = np.concatenate([nothing, *(part.corners + first for part, first in zip(parts, begin))])
+    sizes = np.concatenate([nothing, *(part.sizes for part in parts)])
+    materials = np.concatenate([nothing, *(part.materials for part in parts)])
+    metadata: dict[str, str | int | float | bytes] = {}
     if len(np.unique(materials)) > 1:
-        columns = (*columns, Column("material", materials.astype(np.int32)[:, None], "face"))
-    if len(names) > 1:
-        owner = np.repeat(np.arange(len(names), dtype=np.int32), faces)
-        notes = (f"{len(names)} parts were joined to one mesh", *notes)
-        columns, metadata = (*columns, Column("part", owner[:, None], "face")), {**metadata, **named(names, "part")}
-    return replace(whole, notes=notes, columns=columns, metadata=metadata)
+        columns.append(Column("material", materials.astype(np.int32)[:, None], "face"))
+    if len(parts) > 1:
+        owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.sizes) for part in parts])
+        notes = [f"{len(parts)} parts were joined to one mesh", *notes]
+        columns.append(Column("part", owner[:, None], "face"))
+        metadata |= named([part.name for part in parts], "part")
+    elif parts and parts[0].name:
+        metadata["name"] = parts[0].name
+    positions = np.concatenate([np.empty((0, 3)), *(part.positions for part in parts)])
+    return Polygons(positions, sizes, corners, tuple(notes), (), tuple(columns), metadata)
 
 
 def _finite(column: Column, notes: list[str]) -> Column:
-    """A field with zeros for values that are not finite, where others are."""
-    field = column.semantic == "generic" and column.values.dtype.kind == "f"
-    lost = ~np.isfinite(column.values) if field else np.zeros(0, np.bool_)
+    """A column with zeros for values that are not finite, where others are."""
+    lost = ~np.isfinite(column.values) if column.values.dtype.kind == "f" else np.zeros(0, np.bool_)
     if not lost.any() or lost.all():
         return column
-    notes.append(f"values of {column.name} that are not finite were set to zero: {int(lost.sum())}")
+    notes.append(
+        f"values of {PLURALS.get(column.name, column.name)} that are not finite were set to zero: {int(lost.sum())}"
+    )
     return replace(column, values=np.where(lost, column.values.dtype.type(0), column.values))
 
 

@@ -8,8 +8,8 @@ from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.files.formats.metadata import Written, face_numbers, left_out, text_of
-from bsm.files.formats.polygons import Column, Polygons, grouped
+from bsm.files.formats.metadata import Written, face_numbers, left_out, named, text_of
+from bsm.files.formats.polygons import Column, Polygons
 from bsm.files.room import Doubles, Rows, single_suffices
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -67,7 +67,8 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
 
 
 def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
-    """The corners of a text, and its solids as groups."""
+    """The corners of a text, and its solids as groups, of which several may have the same name."""
+    data = data.replace(b"\r", b"\n")
     lines = re.findall(rb"^[ \t]*vertex[ \t]+([^\r\n]*)", data, re.MULTILINE | re.IGNORECASE)
     marks = re.finditer(rb"^[ \t]*(?:(endfacet)|solid\b([^\r\n]*))", data, re.MULTILINE | re.IGNORECASE)
     names: list[str] = []
@@ -79,8 +80,10 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
             names.append(text_of(mark[2]))
     if len(lines) != 3 * len(facets) or (not re.search(rb"endsolid", data, re.IGNORECASE)):
         raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {len(facets)} finished triangles")
-    columns, metadata = grouped("group", ["", *names], np.array(facets, np.int64))
-    return Rows(lines, "corner").columns(0, 3), columns, metadata
+    used, of_facet = np.unique(np.array(facets, np.int64), return_inverse=True)
+    called = [("", *names)[solid] for solid in used.tolist()]
+    columns = [Column("group", of_facet.astype(np.int32), "face")] if len(used) > 1 else []
+    return Rows(lines, "corner").columns(0, 3), columns, named(called, "group") if any(called) else {}
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:

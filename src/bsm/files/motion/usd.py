@@ -556,45 +556,25 @@ class _Stage:
 
     def mesh(self, time: float) -> shapes.MeshFile:
         """The mesh at a time, with everything; polygons are cut into triangles."""
-        parts, geom, positions = self.parts, self.pxr.UsdGeom, self.at(time)
-        each = [part.shape for part in parts]
-        code = self.pxr.Usd.TimeCode(time)
-        cache = geom.XformCache(code)
-        begin = np.cumsum([0, *(shape.vertices for shape in each)])
-        sizes = np.concatenate([shape.counts for shape in each])
-        corners = np.concatenate([shape.corners + first for shape, first in zip(each, begin)])
-        mirrored = [np.linalg.det(part.matrix(code, cache)[:3, :3]) < 0.0 for part in parts]
-        ways = [shape.left_handed != other for shape, other in zip(each, mirrored)]
-        turned = np.repeat(ways, [len(shape.counts) for shape in each])
-        order = _turned(sizes, turned)
+        geom, code, materials = self.pxr.UsdGeom, self.pxr.Usd.TimeCode(time), self._materials
+        cache, made = geom.XformCache(code), []
+        for part in self.parts:
+            shape = part.shape
+            mirrored = np.linalg.det(part.matrix(code, cache)[:3, :3]) < 0.0
+            order = shapes.turned_corners(shape.counts, np.full(len(shape.counts), shape.left_handed != mirrored))
+            columns = [c if c.indices is None else replace(c, indices=c.indices[order]) for c in shape.columns]
+            numbers = materials.of_faces(part.prim, len(shape.counts), shape.time)
+            corners, name = shape.corners[order], part.name if len(self.parts) > 1 else part.prim.GetName()
+            made.append(shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name))
+        found = shapes.joined_parts(made, self._limits, 1 << 62)
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
-        metadata: dict[str, str | int | float | bytes] = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m")}
-        columns, lacking = shapes.joined_columns((shape.columns for shape in each), [shape.rows for shape in each])
-        places = [None if column.indices is None else column.indices[order] for column in columns]
-        columns = [replace(column, indices=where) for column, where in zip(columns, places)]
-        materials = self._materials
-        of_parts = [materials.of_faces(part.prim, len(part.shape.counts), part.shape.time) for part in parts]
-        numbers = np.concatenate(of_parts)
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
-        metadata |= of_materials
-        left = dict.fromkeys(name for shape in each for name in shape.left_out)
-        notes = [*lacking, *absent, *self.notes, *([f"left out: {', '.join(left)}"] if left else [])]
+        metadata = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m"), **found.metadata, **of_materials}
+        left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out)
+        notes = [*found.notes, *absent, *self.notes, *([f"left out: {', '.join(left)}"] if left else [])]
         notes += [f"left out, face sets without a material: {', '.join(materials.sets)}"] if materials.sets else []
-        if len(parts) == 1:
-            metadata["name"] = parts[0].prim.GetName()
-        polygons = shapes.Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata)
-        names, counts = [part.name for part in parts], [len(shape.counts) for shape in each]
-        return shapes.sorted_into_parts(polygons, names, counts, numbers).checked(self._limits)
-
-
-def _turned(sizes: Ints, turned: shapes.Array) -> Ints:
-    """The order of corners in which the polygons that are turned run the other way round, from the same corner."""
-    first = np.repeat(np.cumsum(sizes) - sizes, sizes)
-    step = np.arange(len(first)) - first
-    size = np.repeat(sizes, sizes)
-    found: Ints = first + np.where(np.repeat(turned, sizes), (size - step) % np.maximum(size, 1), step)
-    return found
+        return replace(found, notes=tuple(notes), metadata=metadata).checked(self._limits)
 
 
 def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:

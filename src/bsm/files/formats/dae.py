@@ -1,0 +1,129 @@
+"""DAE (COLLADA): the surfaces of a scene where it places them, read with pycollada."""
+
+import io
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import numpy as np
+
+from bsm.bitstream.errors import BsmError, FormatError, LimitError, imported
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Semantic
+from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
+from bsm.files.formats.placed import BYTES_OF_PART, FREE_PARTS, left_out_of
+from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts
+from bsm.files.room import Doubles
+
+_SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
+_MOST_ERRORS = 8  # of pycollada that notes name
+_COLORS = {"diffuse": "Kd", "ambient": "Ka", "specular": "Ks", "emission": "Ke"}
+_NUMBERS = {"shininess": "Ns", "index_of_refraction": "Ni"}
+_IMAGES = {"diffuse": "map_Kd", "ambient": "map_Ka", "specular": "map_Ks", "emission": "map_Ke", "bumpmap": "map_Bump"}
+"""Properties of effects, and what libraries of OBJ call them."""
+
+
+def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
+    collada = imported("collada", "DAE is read with pycollada", "formats")
+    beside = Beside(Path(path).resolve().parent if path else None, limits.metadata_bytes)
+    try:
+        with np.errstate(all="ignore"):  # a later check refuses infinite values
+            document = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])
+            tags = [str(element.tag).rpartition("}")[2] for element in document.xmlnode.getroot().iter()]
+            scene = _Scene(collada, beside)
+            nodes = document.scene.nodes if document.scene is not None else ()
+            placed = _placed(collada, nodes, FREE_PARTS + len(data) // BYTES_OF_PART)
+            found = joined_parts((p for node, matrix in placed for p in scene.parts(node, matrix)), limits, len(data))
+            about = document.assetInfo
+            metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
+            metadata["unit"] = f"{about.unitmeter} * meters" if about.unitmeter not in (None, 1.0) else "meters"
+            metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
+            errors = [f"unreadable elements ({error.msg[:80]})" for error in document.errors[:_MOST_ERRORS]]
+            dropped = (*left_out_of(tags), *errors, *scene.absent)
+            return replace(found, metadata={**metadata, **found.metadata}, dropped=dropped)
+    except (BsmError, MemoryError):
+        raise
+    except Exception as error:  # it promises nothing about what damaged files raise
+        raise FormatError(f"pycollada cannot read this file: {type(error).__name__}: {str(error)[:200]}") from error
+
+
+def _placed(collada: Any, nodes: Any, most: int) -> Iterator[tuple[Any, Doubles]]:
+    """The geometries of nodes and of all nodes below them, each with its matrix."""
+    waiting, count = [(node, np.eye(4)) for node in reversed(nodes)], len(nodes)
+    while waiting:
+        node, matrix = waiting.pop()
+        if isinstance(node, collada.scene.GeometryNode):
+            yield node, matrix
+        elif isinstance(node, collada.scene.Node):
+            count += len(node.children)
+            if count > most:
+                raise LimitError(f"this DAE file places over {most:,} parts, the limit for its bytes")
+            waiting += [(child, matrix @ node.matrix) for child in reversed(node.children)]
+
+
+class _Scene:
+    """The materials and images of the surfaces so far."""
+
+    def __init__(self, collada: Any, beside: Beside) -> None:
+        self._collada, self._beside = collada, beside
+        self.materials: dict[str | None, Material] = {}
+        self.images: dict[str, Value] = {}
+        self.absent: dict[str, None] = {}
+        self._numbers: dict[str, int] = {}
+
+    def parts(self, node: Any, matrix: Doubles) -> Iterator[Part]:
+        bound = {material.symbol: material.target for material in node.materials}
+        for primitive in node.geometry.primitives:
+            if isinstance(primitive, self._collada.lineset.LineSet) or primitive.vertex is None:
+                continue
+            material = bound.get(primitive.material)
+            name = None if material is None else str(material.id)
+            if name not in self.materials:
+                self.materials[name] = {} if material is None else self._words(material)
+            number = list(self.materials).index(name)
+            sizes = np.asarray(getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64)
+            index = np.asarray(primitive.index, np.int64).reshape(-1, primitive.index.shape[-1])
+            rows, corners = np.unique(primitive.vertex_index, return_inverse=True)
+            points = np.asarray(primitive.vertex, np.float64)[rows]
+            called, of_each = str(node.geometry.name or node.geometry.id), np.full(len(sizes), number)
+            yield Part(points, sizes, corners.reshape(-1), _columns(primitive, index), of_each, called).placed(matrix)
+
+    def _words(self, material: Any) -> Material:
+        """A material in the words of libraries of OBJ, which are those of COLLADA."""
+        effect, found = material.effect, dict[str, Any](name=str(material.name or material.id))
+        for given, word in (_COLORS | _NUMBERS).items():
+            value = getattr(effect, given)
+            if isinstance(value, tuple | list):
+                found[word] = " ".join(f"{number:.6g}" for number in value[:3])
+            elif isinstance(value, int | float):
+                found[word] = float(value)
+        for given, word in _IMAGES.items():
+            if isinstance(value := getattr(effect, given), self._collada.material.Map):
+                name = str(value.sampler.surface.image.path)
+                image = self._beside.read(unquote(name))
+                if isinstance(image, bytes) and kind_of_image(image):
+                    found[word] = number = self._numbers.setdefault(name, len(self._numbers))
+                    self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
+                else:
+                    self.absent[
+                        f"the image {name[:80]} ({image if isinstance(image, str) else 'it is not an image'})"
+                    ] = None
+        if isinstance(effect.transparency, int | float) and effect.transparency != 1:
+            found["d"] = (
+                float(effect.transparency) if str(effect.opaque_mode) == "A_ONE" else 1 - float(effect.transparency)
+            )
+        return found | ({"doubleSided": 1} if effect.double_sided else {})
+
+
+def _columns(primitive: Any, index: Array) -> list[Column]:
+    """Normals, texture coordinates and colors of the corners; of most kinds there may be several."""
+    found = []
+    for kind, semantic in _SEMANTICS.items():
+        for number, (offset, _, _, _, source) in enumerate(primitive.sources.get(kind, ())):
+            values = np.asarray(source.data, np.float64)
+            column = Column(semantic, compact(values), "corner", semantic)
+            column = color_column(values[:, :4], "corner") if semantic == "color" else column
+            found.append(replace(column, name=f"{semantic}{number or ''}", indices=index[:, offset]))
+    return found
