@@ -164,9 +164,8 @@ def tables_of(header: Header, body: bytes) -> dict[str, Table]:
         tables: dict[str, Table] = {}
         offset = 0
         for element in header.elements:
-            table = _uniform_table(element, header.order, body, offset)
-            tables[element.name] = found = table or _ragged_table(element, header.order, body, offset)
-            offset = found.end
+            tables[element.name] = table = _binary_table(element, header.order, body, offset)
+            offset = table.end
         return tables
     lines = [line for line in body.splitlines() if line.strip()]
     require_lines(len(lines), sum(element.count for element in header.elements))
@@ -221,65 +220,7 @@ def _typed(values: Array, kind: str) -> Array:
 
 
 @dataclass
-class _UniformTable:
-    """Rows of equal length: without lists, or with lists that are all as long as those of the first row."""
-
-    element: Element
-    rows: Array
-    end: int
-
-    def numbers(self, place: int) -> Array:
-        return _native(self.rows[str(place)])
-
-    def lists(self, place: int) -> tuple[Ints, Array]:
-        items = self.rows[str(place)]
-        return np.full(len(items), items.shape[1], dtype=np.int64), _native(items.reshape(-1))
-
-
-def _native(values: Array) -> Array:
-    return values.astype(values.dtype.newbyteorder("="))
-
-
-def _require_bytes(body: bytes, offset: int, needed: int) -> None:
-    if offset + needed > len(body):
-        missing = offset + needed - len(body)
-        raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
-
-
-def _uniform_table(element: Element, order: str, body: bytes, offset: int) -> _UniformTable | None:
-    """The table of an element, if it is one; else None."""
-    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
-    cursor = offset
-    for i, column in enumerate(element.properties):
-        if column.length is not None:
-            kind = np.dtype(order + column.length)
-            fields.append((f"length{i}", kind.str))
-            if element.count and cursor + kind.itemsize <= len(body):
-                length = int(np.frombuffer(body, kind, 1, cursor)[0])
-            else:
-                length = 0
-            cursor += kind.itemsize
-            if not 0 <= length <= len(body):
-                return None
-            fields.append((str(i), order + column.type, (length,)))
-            cursor += np.dtype(column.type).itemsize * length
-        else:
-            fields.append((str(i), order + column.type))
-            cursor += np.dtype(column.type).itemsize
-    lists = [i for i, column in enumerate(element.properties) if column.length]
-    needed = element.count * (cursor - offset)
-    if not lists:
-        _require_bytes(body, offset, needed)
-    elif offset + needed > len(body):
-        return None
-    rows = np.frombuffer(body, np.dtype(fields), element.count, offset) if needed else np.zeros(0, fields)
-    if any((rows[f"length{i}"] != rows[f"length{i}"][:1]).any() for i in lists):
-        return None
-    return _UniformTable(element, rows, offset + needed)
-
-
-@dataclass
-class _RaggedTable:
+class _BinaryTable:
     element: Element
     order: str
     raw: npt.NDArray[np.uint8]
@@ -292,14 +233,24 @@ class _RaggedTable:
     def lists(self, place: int) -> tuple[Ints, Array]:
         starts, sizes, _ = self.walk(place)
         kind = np.dtype(self.order + self.element.properties[place].type)
-        picked: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
-        return sizes, _native(picked.view(kind))
+        step = np.diff(starts[:2]).sum()
+        if len(starts) and (np.diff(starts) == step).all() and (sizes == sizes[0]).all():  # as of most files
+            shape, strides = (len(starts), int(sizes[0])), (int(step), kind.itemsize)
+            values = np.ndarray(shape, kind, self.raw.data, int(starts[0]), strides).reshape(-1)
+        else:
+            picked: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
+            values = picked.view(kind)
+        return sizes, values.astype(kind.newbyteorder("="))
 
     def walk(self, place: int) -> tuple[Ints, Ints, int]:
         """Where each row's property begins, how many items it has, and where the last row ends."""
-        widths = np.array(_widths(self.element))
-        starts, sizes = np.zeros((2, self.element.count), np.int64)
-        end = _kernels.walk_rows(self.raw, self.begin, widths, place, self.order == ">", starts, sizes)
+        widths, count = _widths(self.element), self.element.count
+        if not any(length for length, _ in widths):
+            size = sum(width for _, width in widths)
+            first = self.begin + sum(width for _, width in widths[:place])
+            return first + size * np.arange(count), np.ones(count, np.int64), self.begin + size * count
+        starts, sizes = np.zeros((2, count), np.int64)
+        end = _kernels.walk_rows(self.raw, self.begin, np.array(widths), place, self.order == ">", starts, sizes)
         if end < 0:
             raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
         return starts, sizes, end
@@ -313,10 +264,12 @@ def _widths(element: Element) -> list[tuple[int, int]]:
     ]
 
 
-def _ragged_table(element: Element, order: str, body: bytes, offset: int) -> _RaggedTable:
+def _binary_table(element: Element, order: str, body: bytes, offset: int) -> _BinaryTable:
     # Every row is at least as long as its numbers and the lengths of its lists.
-    _require_bytes(body, offset, element.count * sum(length or width for length, width in _widths(element)))
-    table = _RaggedTable(element, order, np.frombuffer(body, np.uint8), offset)
+    needed = element.count * sum(length or width for length, width in _widths(element))
+    if (missing := offset + needed - len(body)) > 0:
+        raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
+    table = _BinaryTable(element, order, np.frombuffer(body, np.uint8), offset)
     return replace(table, end=table.walk(0)[2])
 
 

@@ -10,19 +10,19 @@ import re
 import warnings
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-from xml.parsers import expat
+from dataclasses import dataclass
+from xml.etree import ElementTree
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError, MeshError, TruncatedError
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import Written, first
 from bsm.files.formats.polygons import Array, Column, Polygons, named_column
-from bsm.files.room import AS_NUMBERS, Ints, require_count, require_inflated, single_suffices
+from bsm.files.room import AS_NUMBERS, TAG, Ints, require_count, require_inflated, single_suffices
 
 _WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
 _TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {"Float32": "f4", "Float64": "f8"}
@@ -30,64 +30,38 @@ _NAMES = {kind: name for name, kind in _TYPES.items()}
 _UNDERSCORE = re.compile(rb"\s*_")
 _TAGS = ("VTKFile", "Piece", "PointData", "CellData")  # elements whose attributes are of use
 _HEADS = {"UInt32": "u4", "UInt64": "u8"}
-_MOST_DEEP, _MOST_ARRAYS, _MOST_TAGS = 16, 1024, 8192
+_ARRAYS, _MOST_ARRAYS = ("DataArray", "Array"), 1024
 _COPIES = 3  # of the bytes of an array that are there at a time while numbers are made of it
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class _Array:
     """A `DataArray` of the file: its parent element, attributes and text."""
 
     around: str
     attrs: dict[str, str]
-    text: list[str] = field(default_factory=list)
+    text: str
 
 
 class _Document:
     """The contents of the XML of a file."""
 
     def __init__(self, text: bytes) -> None:
-        self.tags: dict[str, dict[str, str]] = {}
-        self.arrays: list[_Array] = []
-        self._path: list[str] = []
-        self._begun = 0
-        parser = expat.ParserCreate()
-        parser.buffer_text = True
-        parser.StartDoctypeDeclHandler = self._refuse
-        parser.StartElementHandler, parser.EndElementHandler = self._begin, self._end
-        parser.CharacterDataHandler = self._take
+        if b"<!DOCTYPE" in text:
+            raise FormatError("a VTP file has no DOCTYPE")
         try:
-            parser.Parse(text, True)
-        except BsmError:
-            raise
-        except (expat.ExpatError, LookupError, ValueError) as error:  # the last two of strange encodings
+            elements = list(ElementTree.fromstring(text).iter())
+        except (ElementTree.ParseError, LookupError, ValueError) as error:  # the last two of strange encodings
             raise FormatError(f"this is not a VTP file: its XML is broken: {error}") from error
-
-    def _refuse(self, *_: object) -> None:
-        raise FormatError("a VTP file has no DOCTYPE")
-
-    def _begin(self, tag: str, attrs: dict[str, str]) -> None:
-        self._begun += 1
-        if len(self._path) == _MOST_DEEP or self._begun > _MOST_TAGS:
-            raise FormatError(f"the XML of this VTP file is too deep, or has more than {_MOST_TAGS} elements")
-        if tag == "Piece" and tag in self.tags:
+        found = [(around.tag, element) for around in elements for element in around if element.tag in _ARRAYS]
+        self.arrays = [_Array(around, element.attrib, element.text or "") for around, element in found]
+        self.tags = {element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS}
+        if len(self.arrays) > _MOST_ARRAYS:
+            raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
+        if sum(element.tag == "Piece" for element in elements) > 1:
             raise MeshError("this VTP file has several pieces; save it as one")
-        if tag in ("DataArray", "Array"):
-            self.arrays.append(_Array(self._path[-1] if self._path else "", attrs))
-            if len(self.arrays) > _MOST_ARRAYS:
-                raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
-        elif tag in _TAGS:
-            self.tags.setdefault(tag, attrs)
-        self._path.append(tag)
-
-    def _end(self, _: str) -> None:
-        self._path.pop()
-
-    def _take(self, text: str) -> None:
-        if self._path[-1] in ("DataArray", "Array"):
-            self.arrays[-1].text.append(text)
 
 
 class _Numbers:
@@ -111,7 +85,7 @@ class _Numbers:
             raise MeshError(f"numbers cannot be {array.attrs.get('type')}")
         components = _count(array.attrs, "NumberOfComponents", 1)
         if array.attrs.get("format") == "ascii":
-            values = self._of_text("".join(array.text), np.dtype(kind))
+            values = self._of_text(array.text, np.dtype(kind))
         else:
             data = self._bytes(array)
             if len(data) % np.dtype(kind).itemsize:
@@ -140,7 +114,7 @@ class _Numbers:
             raw = self._encoding == "raw"
             given = self._behind[begin:] if raw else self._behind[begin:].split(b"<", 1)[0]
         else:
-            raw, given = False, "".join("".join(array.text).split()).encode("ascii", "replace")
+            raw, given = False, "".join(array.text.split()).encode("ascii", "replace")
         if not self._compressor:
             head = self._numbers(given, 1, raw)
             return self._taken(given, 0, self._head.itemsize, int(head[0]), raw)
@@ -206,7 +180,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
     encoding = b"raw" if b"raw" in data[at : end + 1] else b"base64"
     text, behind = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
-    require_inflated(8 * len(text), len(data), limits)
+    require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
     document = _Document(text)
     piece = document.tags.get("Piece")
     if document.tags.get("VTKFile", {}).get("type") != "PolyData" or piece is None:
