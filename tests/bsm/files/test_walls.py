@@ -52,7 +52,7 @@ def test_a_vtp_takes_time_as_it_is_long():
     begun = time.process_time()
     with pytest.raises(bsm.FormatError):
         read_mesh(b'<VTKFile type="PolyData">' + b"<AppendedData " * 300_000)
-    with pytest.raises((bsm.FormatError, bsm.LimitError), match="XML is broken|over the limit"):
+    with pytest.raises((bsm.FormatError, bsm.LimitError), match=r"XML is broken|over the limit"):
         read_mesh(b'<VTKFile type="PolyData">' + b"".join(b"<a%d/>" % number for number in range(300_000)))
     assert time.process_time() - begun < 5
 
