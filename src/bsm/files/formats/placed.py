@@ -24,7 +24,7 @@ _LEFT_OUT = {
     "compositematerials": "materials", "multiproperties": "materials", "metadata": "metadata",
     "ph": "holes of polygons", "beamlattice": "beams", "slicestack": "slices",
 }  # fmt: skip
-"""What is left out of 3MF and DAE, by the tags."""
+"""Contents of 3MF and DAE that are left out, by the tags."""
 _PIECE = 1 << 16
 
 
@@ -122,5 +122,5 @@ def _placed(model: _Model, size: int, limits: Limits) -> int:
 
 
 def left_out_of(tags: Iterable[str]) -> tuple[str, ...]:
-    """Return what is left out, by the names of XML elements."""
+    """Return the contents that are left out, by the names of XML elements."""
     return tuple(dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT))
