@@ -8,8 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError, imported
-from bsm.bitstream.limits import Limits
-from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 
 Array = npt.NDArray[Any]
@@ -65,11 +63,6 @@ def stored(name: str, values: Array, component: int) -> Array:
     if name == "COLOR_0" and component == FLOAT and values.dtype.kind == "u":
         return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
     return values.astype(KINDS[component])
-
-
-def unpack_stream(stream: bytes, limits: Limits) -> tuple[TriangleMesh, Drawn]:
-    mesh = decode(stream, limits=limits)
-    return mesh, drawn(mesh)
 
 
 def array_of(found: tuple[TriangleMesh, Drawn], name: str, component: int | None) -> Array:

@@ -338,10 +338,6 @@ def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | Non
     return f"{packed[0]} may hold other bytes" if packed else None
 
 
-def size_of(bundle: Bundle) -> int:
-    return sum(len(same) for same in bundle)
-
-
 def users_of(bundles: list[Bundle], tree: Tree, named: set[int]) -> dict[int, set[int]]:
     """Which bundles use each accessor; -1: something else."""
     users: dict[int, set[int]] = {index: {-1} for index in named}
@@ -468,23 +464,23 @@ def compress(
     asked = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
     each = _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
     each = [{**own, "attributes": asked} for own in each]
-    total, begun = sum(map(size_of, bundles)), 0
+    sizes, begun = [sum(map(len, bundle)) for bundle in bundles], 0
     coded: list[BundleStream | str] = []
     meshes = (as_mesh(document, bundle, exact=exact) for bundle in bundles)
     given = zip(meshes, map(len, bundles), each, strict=True)
     for found in ordered_map(lambda mesh: code_bundle(*mesh), given, jobs or None):
         if progress:
-            progress(begun, total)
-        begun += size_of(bundles[len(coded)])
+            progress(begun, sum(sizes))
+        begun += sizes[len(coded)]
         coded.append(found)
     done, errors = 0, [(0.0, 0.0)]
     for together in that_share(bundles, users):
         streams = {number: found for number in together if isinstance(found := coded[number], BundleStream)}
         for number in together:
             if isinstance(why := coded[number], str):
-                left[why] += size_of(bundles[number])
+                left[why] += sizes[number]
         freed = [index for index, theirs in users.items() if theirs <= streams.keys()]
-        primitives = sum(size_of(bundles[number]) for number in streams)
+        primitives = sum(sizes[number] for number in streams)
         if scene.would_shrink(list(streams.values()), freed):
             done += primitives
             for number, found in streams.items():

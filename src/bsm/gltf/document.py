@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.decoding import decode
 from bsm.files.formats.metadata import kind_of_image
 from bsm.files.pipes import Input, file_beside
 from bsm.gltf import coding
@@ -136,7 +137,8 @@ class Document:
             key = ("stream", how["stream"])
             if key not in self._unpacked:
                 data, start, size = self._plain_place(source, how["stream"])
-                self._unpacked[key] = coding.unpack_stream(data[start : start + size], self.limits)
+                mesh = decode(data[start : start + size], limits=self.limits)
+                self._unpacked[key] = mesh, coding.drawn(mesh)
             return coding.array_of(self._unpacked[key], str(how["attribute"]), how.get("componentType")).tobytes()
         how = next(extensions[name] for name in MESHOPT if name in extensions)
         self.limits.check_memory(3 * _count(how, "count") * _count(how, "byteStride"), 0, self.received)
