@@ -5,7 +5,6 @@ import copy
 import io
 import json
 import os
-import struct
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,8 @@ from bsm.cli import main
 from bsm.files.inspection import inspect_stream
 from bsm.gltf.coding import EXTENSION, drawn
 from bsm.gltf.compress import ImageRule, compress, count_primitives, smaller
-from bsm.gltf.document import read_document
+from bsm.gltf.document import Document, read_document
+from tests.gltf import Built, glb, scene
 from tests.shapes import torus
 
 WEB = Path(__file__).parents[2] / "web"
@@ -24,93 +24,10 @@ CODE = {"grid": 13}
 """Quick, where the look is not what is tested."""
 
 
-def glb(tree, data):
-    """A .glb of any tree, valid or not."""
-    text, data = json.dumps(tree).encode(), data + b"\0" * (-len(data) % 4)
-    text += b" " * (-len(text) % 4)
-    head = struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A)
-    return head + text + struct.pack("<II", len(data), 0x004E4942) + data
-
-
-def picture():
-    image = pytest.importorskip("PIL.Image")
-    noise = np.random.default_rng(3).integers(0, 255, (64, 64, 3), np.uint8)
-    written = io.BytesIO()
-    image.fromarray(noise).save(written, "PNG")
-    return written.getvalue()
-
-
-def scene():
-    """Two instances of a skinned and textured torus, a morphing one, an animation, and materials with extensions."""
-    mesh = torus(40, 24)
-    across = (mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)
-    count = len(mesh.positions)
-    weights = np.zeros((count, 4), np.float32)
-    weights[:, 0], weights[:, 1] = across[:, 0], 1 - across[:, 0]
-    arrays = [
-        ("VEC3", mesh.positions.astype(np.float32), {"min": [-2, -2, -2], "max": [2, 2, 2]}),
-        ("VEC2", across[:, :2].astype(np.float32), {}),
-        ("VEC4", np.tile(np.array([0, 1, 0, 0], np.uint8), (count, 1)), {}),
-        ("VEC4", weights, {}),
-        ("SCALAR", mesh.faces.astype(np.uint16).reshape(-1, 1), {}),
-        ("VEC3", mesh.positions.astype(np.float32) + 1, {"min": [-1, -1, -1], "max": [3, 3, 3]}),
-        ("VEC3", np.full((count, 3), 0.25, np.float32), {}),
-        ("MAT4", np.tile(np.eye(4, dtype=np.float32).reshape(1, 16), (2, 1)), {}),
-        ("SCALAR", np.array([[0], [1]], np.float32), {"min": [0], "max": [1]}),
-        ("VEC3", np.array([[0, 0, 0], [1, 2, 3]], np.float32), {}),
-        ("SCALAR", mesh.faces.astype(np.uint16).reshape(-1, 1), {}),
-    ]
-    kinds = {"float32": 5126, "uint8": 5121, "uint16": 5123}
-    views, accessors, data = [], [], b""
-    for kind, array, more in arrays:
-        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": array.nbytes})
-        component = kinds[array.dtype.name]
-        accessors.append(
-            {"bufferView": len(views) - 1, "componentType": component, "count": len(array), "type": kind, **more}
-        )
-        data += array.tobytes() + b"\0" * (-array.nbytes % 4)
-    image = picture()
-    views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(image)})
-    data += image
-    textured = {"index": 0, "extensions": {"KHR_texture_transform": {"scale": [30, 30]}}}
-    sheen = {"KHR_materials_sheen": {"sheenRoughnessFactor": 0.5}}
-    skinned = {"POSITION": 0, "TEXCOORD_0": 1, "JOINTS_0": 2, "WEIGHTS_0": 3}
-    tree = {
-        "asset": {"version": "2.0"},
-        "extensionsUsed": ["KHR_texture_transform", "KHR_materials_sheen"],
-        "scenes": [{"nodes": [0, 1, 2, 3]}],
-        "nodes": [
-            {"mesh": 0, "skin": 0},
-            {"mesh": 0, "skin": 0, "translation": [3, 0, 0]},
-            {"mesh": 1, "name": "morphing"},
-            {"children": [4]},
-            {},
-        ],
-        "skins": [{"joints": [3, 4], "inverseBindMatrices": 7}],
-        "meshes": [
-            {"primitives": [{"attributes": skinned, "indices": 4, "material": 0}]},
-            {"primitives": [{"attributes": {"POSITION": 5}, "indices": 10, "targets": [{"POSITION": 6}]}]},
-        ],
-        "animations": [
-            {
-                "samplers": [{"input": 8, "output": 9}],
-                "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
-            }
-        ],
-        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": textured}, "extensions": sheen}],
-        "textures": [{"source": 0}],
-        "images": [{"bufferView": len(views) - 1, "mimeType": "image/png"}],
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": len(data)}],
-    }
-    return tree, data
-
-
 @pytest.fixture
 def source(tmp_path):
     path = tmp_path / "scene.glb"
-    path.write_bytes(glb(*scene()))
+    path.write_bytes(scene().bytes)
     return path
 
 
@@ -155,10 +72,7 @@ def test_geometry_is_coded_and_all_else_stays(source, tmp_path, capsys):
 
 def test_accessors_say_what_the_stream_holds(source):
     document = read_document(str(source))
-    found = compress(document, CODE)
-    path = source.with_name("small.glb")
-    path.write_bytes(found.data)
-    after = read_document(str(path))
+    after = Document(compress(document, CODE).data)
     coded = coded_of(after)
     streams = sorted({extension["stream"] for extension, _ in coded.values()})
     assert len(streams) == 2  # of the mesh with a skin, and of the one that morphs
@@ -186,29 +100,14 @@ def test_accessors_say_what_the_stream_holds(source):
     assert after.tree["buffers"][1]["byteLength"] == max(sizes)
 
 
-def test_quantized_geometry_becomes_floats(tmp_path):
-    tree, data = scene()
-    mesh = torus(40, 24)
-    tree["extensionsUsed"] = tree["extensionsRequired"] = ["KHR_mesh_quantization"]
-    for number, component, dtype, most in ((0, 5122, "<i2", 32767), (1, 5123, "<u2", 65535), (6, 5120, "<i1", 127)):
-        values = read_document_of(tree, data, tmp_path).array(number)
-        whole = np.rint(np.clip(values / 2, -1, 1) * most).astype(dtype)
-        stride = -(-whole[0].nbytes // 4) * 4
-        rows = np.zeros((len(whole), stride), np.uint8)
-        rows[:, : whole[0].nbytes] = whole.view(np.uint8).reshape(len(whole), -1)
-        view = {"buffer": 0, "byteOffset": len(data), "byteLength": rows.nbytes, "byteStride": stride}
-        tree["bufferViews"].append(view)
-        data += rows.tobytes()
-        tree["accessors"][number] |= {
-            "bufferView": len(tree["bufferViews"]) - 1,
-            "componentType": component,
-            "normalized": True,
-        }
-    tree["buffers"][0]["byteLength"] = len(data)
-    document = read_document_of(tree, data, tmp_path)
-    target = tmp_path / "small.glb"
-    target.write_bytes(compress(document, CODE).data)
-    after = read_document(str(target))
+def test_quantized_geometry_becomes_floats():
+    built, mesh = scene(), torus(40, 24)
+    built.tree["extensionsUsed"] = built.tree["extensionsRequired"] = ["KHR_mesh_quantization"]
+    for number, dtype, most in ((0, np.int16, 32767), (1, np.uint16, 65535), (6, np.int8, 127)):
+        values = Document(built.bytes).array(number)
+        built.array(np.rint(np.clip(values / 2, -1, 1) * most).astype(dtype), normalized=True)
+        built.tree["accessors"][number] |= built.tree["accessors"].pop()
+    after = Document(compress(Document(built.bytes), CODE).data)
     coded = coded_of(after)
     assert {extension["attribute"] for extension, _ in coded.values()} >= {"POSITION", "TEXCOORD_0", "0/POSITION"}
     for extension, accessor in coded.values():
@@ -221,37 +120,21 @@ def test_quantized_geometry_becomes_floats(tmp_path):
     np.testing.assert_allclose(moved.values, 16 / 127, atol=1e-4)
 
 
-def test_what_plain_geometry_shares_with_coded_one_is_let_go(tmp_path):
-    tree, data = scene()
-    few = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
-    corners = np.array([[0], [1], [2]], np.uint16)
-    merged = read_document_of(tree, data, tmp_path).view(4)
-    views = [merged + corners.tobytes() + b"\0\0", few.tobytes()]
-    for content in views:
-        tree["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(content)})
-        data += content
-    last = len(tree["bufferViews"]) - 1
-    tree["accessors"][4]["bufferView"] = last - 1
-    short = {"bufferView": last - 1, "byteOffset": len(merged), "componentType": 5123, "count": 3, "type": "SCALAR"}
-    corner = {"bufferView": last, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
-    tree["accessors"] += [short, corner]
-    count = len(tree["accessors"])
-    tree["meshes"].append({"primitives": [{"attributes": {"POSITION": count - 1}, "indices": count - 2}]})
-    tree["buffers"][0]["byteLength"] = len(data)
-    target = tmp_path / "small.glb"
-    found = compress(read_document_of(tree, data, tmp_path), CODE)
-    target.write_bytes(found.data)
+def test_what_plain_geometry_shares_with_coded_one_is_let_go():
+    built, corners = scene(), np.array([[0], [1], [2]], np.uint16)
+    merged = Document(built.bytes).view(4)
+    shared = built.view(merged + corners.tobytes() + b"\0\0")
+    built.tree["accessors"][4]["bufferView"] = shared
+    index = built.array(corners)
+    built.tree["accessors"][index] |= {"bufferView": shared, "byteOffset": len(merged)}
+    few = built.array(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32), min=[0, 0, 0], max=[1, 1, 0])
+    built.mesh({"attributes": {"POSITION": few}, "indices": index})
+    found = compress(Document(built.bytes), CODE)
     assert found.coded == 2
-    after = read_document(str(target))
+    after = Document(found.data)
     index = after.tree["meshes"][2]["primitives"][0]["indices"]
     np.testing.assert_array_equal(after.array(index), corners)
     assert len(after.view(after.tree["accessors"][index]["bufferView"])) == corners.nbytes
-
-
-def read_document_of(tree, data, folder):
-    path = folder / "given.glb"
-    path.write_bytes(glb(tree, data))
-    return read_document(str(path))
 
 
 def pieces_of(document, stream):
@@ -261,7 +144,7 @@ def pieces_of(document, stream):
     return [shape.arrays["POSITION"][shape.index[start : start + count]] for start, count in shape.pieces]
 
 
-def test_primitives_of_a_mesh_share_a_stream(source, tmp_path):
+def test_primitives_of_a_mesh_share_a_stream(source):
     document = read_document(str(source))
     given = document.tree["meshes"][0]["primitives"]
     half = document.tree["accessors"][4]["count"] // 6 * 3
@@ -272,8 +155,7 @@ def test_primitives_of_a_mesh_share_a_stream(source, tmp_path):
         given[number]["indices"] = len(document.tree["accessors"]) - 1
     found = compress(document, CODE)
     assert found.coded == 3 and not found.left
-    (tmp_path / "small.glb").write_bytes(found.data)
-    after = read_document(str(tmp_path / "small.glb"))
+    after = Document(found.data)
     first, second = after.tree["meshes"][0]["primitives"]
     assert first["attributes"] == second["attributes"] and first["indices"] != second["indices"]
     accessors = [after.tree["accessors"][primitive["indices"]] for primitive in (first, second)]
@@ -376,8 +258,9 @@ def test_images_by_a_rule(source, tmp_path):
 
 
 def test_a_gltf_with_files_beside_it(tmp_path):
-    tree, data = scene()
-    tree["buffers"][0]["uri"] = "some data.bin".replace(" ", "%20")
+    built = scene()
+    tree, data = built.tree, built.data
+    tree["buffers"] = [{"byteLength": len(data), "uri": "some%20data.bin"}]
     (tmp_path / "some data.bin").write_bytes(data)
     (tmp_path / "scene.gltf").write_text(json.dumps(tree))
     assert main(["glb", str(tmp_path / "scene.gltf"), "-o", str(tmp_path / "small.glb")]) == 0
@@ -405,20 +288,18 @@ def test_what_an_animation_uses_stays(source):
     document = read_document(str(source))
     document.tree["animations"][0]["samplers"][0]["output"] = 0  # the positions of the mesh with a skin
     found = compress(document, CODE)
-    (source.with_name("small.glb")).write_bytes(found.data)
-    after = read_document(str(source.with_name("small.glb")))
+    after = Document(found.data)
     kept = after.tree["animations"][0]["samplers"][0]["output"]
     np.testing.assert_array_equal(after.array(kept), document.array(0))
     assert found.coded == 2 and after.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"] != kept
 
 
-def test_numbers_are_as_short_as_single_precision_allows(source, tmp_path):
+def test_numbers_are_as_short_as_single_precision_allows(source):
     document = read_document(str(source))
     numbers = [-0.0, 0.06499999761581421, 0.1, 3.0, 1e300]
     document.tree["nodes"][2]["weights"] = numbers
     document.tree["extras"] = {"numbers": numbers}
-    (tmp_path / "small.glb").write_bytes(compress(document, CODE).data)
-    short = read_document(str(tmp_path / "small.glb")).tree
+    short = Document(compress(document, CODE).data).tree
     assert json.dumps(short["nodes"][2]["weights"]) == json.dumps([0, 0.065, 0.1, 3, 1e300])
     assert json.dumps(short["extras"]["numbers"]) == json.dumps(numbers), "extras are not touched"
 
@@ -426,9 +307,10 @@ def test_numbers_are_as_short_as_single_precision_allows(source, tmp_path):
 WRONG = (-1, 0, 2**31 - 1, 2**63, -(2**40), 1.5, 1e308, float("nan"), None, True, "x", "data:,a\0", [], {}, [[]], 5125)
 
 
-def test_whatever_a_tree_holds_is_an_error_of_ours(tmp_path):
+def test_whatever_a_tree_holds_is_an_error_of_ours():
     """Each value replaced by some of what it may not be: numbers, names, lists, whole entries."""
-    tree, data = scene()
+    built = scene()
+    tree, data = built.tree | {"buffers": [{"byteLength": len(built.data)}]}, built.data
 
     def placed(node, path=()):
         for key, value in node.items() if isinstance(node, dict) else enumerate(node):
@@ -437,7 +319,6 @@ def test_whatever_a_tree_holds_is_an_error_of_ours(tmp_path):
                 yield from placed(value, (*path, key))
 
     tried = refused = 0
-    path = tmp_path / "wrong.glb"
     for number, place in enumerate(placed(tree)):
         for value in WRONG[number % 16 :: 16]:
             wrong = copy.deepcopy(tree)
@@ -445,10 +326,9 @@ def test_whatever_a_tree_holds_is_an_error_of_ours(tmp_path):
             for key in place[:-1]:
                 node = node[key]
             node[place[-1]] = value
-            path.write_bytes(glb(wrong, data))
             tried += 1
             try:
-                document = read_document(str(path))
+                document = Document(glb(wrong, data))
                 count_primitives(document)
                 compress(document, {"grid": 4, "quick": True})
             except bsm.BsmError:
@@ -456,24 +336,14 @@ def test_whatever_a_tree_holds_is_an_error_of_ours(tmp_path):
     assert tried > 150 and refused > tried / 5
 
 
-def test_bytes_that_are_used_again_and_again_are_counted(tmp_path):
+def test_bytes_that_are_used_again_and_again_are_counted():
     """A mebibyte of floats as many overlapping accessors of as many primitives of one mesh."""
-    count, data = 80_000, bytes(1 << 20)
-    accessors = [
-        {"bufferView": 0, "byteOffset": 4 * k, "componentType": 5126, "type": "VEC3", "count": count}
-        for k in range(200)
-    ]
-    tree = {
-        "asset": {"version": "2.0"},
-        "buffers": [{"byteLength": len(data)}],
-        "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
-        "accessors": accessors,
-        "meshes": [{"primitives": [{"attributes": {"POSITION": k}} for k in range(200)]}],
-    }
-    path = tmp_path / "again.glb"
-    path.write_bytes(glb(tree, data))
+    built = Built()
+    part = {"bufferView": built.view(bytes(1 << 20)), "componentType": 5126, "type": "VEC3", "count": 80_000}
+    built.tree["accessors"] = [{**part, "byteOffset": 4 * k} for k in range(200)]
+    built.mesh(*({"attributes": {"POSITION": k}} for k in range(200)))
     with pytest.raises(bsm.LimitError, match="memory"):
-        compress(read_document(str(path)), CODE)
+        compress(Document(built.bytes), CODE)
 
 
 def test_trees_that_are_nested_without_end(tmp_path):
@@ -484,12 +354,10 @@ def test_trees_that_are_nested_without_end(tmp_path):
             compress(read_document(str(path)), CODE)
 
 
-def test_no_gltf(tmp_path):
+def test_no_gltf():
     for content in (b"", b"glTF", b"{}", b"[1]", glb({"asset": 3}, b"")):
-        path = tmp_path / "bad.glb"
-        path.write_bytes(content)
         with pytest.raises((bsm.FormatError, bsm.TruncatedError)):
-            read_document(str(path))
+            Document(content)
 
 
 def test_what_a_stream_cannot_hold_is_named(source, tmp_path, capsys):

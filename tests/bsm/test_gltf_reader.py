@@ -9,56 +9,9 @@ import pytest
 import bsm
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
-from bsm.gltf.coding import COMPONENTS
 from bsm.gltf.document import read_document
-from tests.bsm.test_gltf import glb, scene
+from tests.gltf import Built, scene
 from tests.shapes import torus
-
-TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
-
-
-class Built:
-    """A scene that grows: `array` returns the number of an accessor."""
-
-    def __init__(self, **tree):
-        self.tree = {"asset": {"version": "2.0"}, "accessors": [], "bufferViews": [], **tree}
-        self.data = b""
-
-    def view(self, data, **more):
-        self.tree["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **more})
-        self.data += data + b"\0" * (-len(data) % 4)
-        return len(self.tree["bufferViews"]) - 1
-
-    def array(self, values, **more):
-        values = np.asarray(values)
-        values = values.reshape(len(values), -1)
-        rows = np.ascontiguousarray(values).view(np.uint8).reshape(len(values), -1)
-        padded = np.pad(rows, ((0, 0), (0, -rows.shape[1] % 4 if values.shape[1] > 1 else 0)))
-        stride = {} if padded.shape == rows.shape else {"byteStride": padded.shape[1]}
-        accessor = {
-            "componentType": COMPONENTS[values.dtype.name],
-            "count": len(values),
-            "type": TYPES[values.shape[1]],
-        }
-        self.tree["accessors"].append({"bufferView": self.view(padded.tobytes(), **stride), **accessor, **more})
-        return len(self.tree["accessors"]) - 1
-
-    def mesh(self, *primitives, **more):
-        self.tree.setdefault("meshes", []).append({"primitives": list(primitives), **more})
-        return len(self.tree["meshes"]) - 1
-
-    def nodes(self, *nodes):
-        self.tree |= {"nodes": list(nodes), "scenes": [{"nodes": list(range(len(nodes)))}], "scene": 0}
-        return self
-
-    @property
-    def bytes(self):
-        self.tree["buffers"] = [{"byteLength": max(len(self.data), 4)}]
-        return glb(self.tree, self.data.ljust(4, b"\0"))
-
-    def read(self):
-        return read_mesh(self.bytes, "glb")
-
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
 CORNERS = np.array([0, 1, 2, 0, 2, 3], np.uint16)
@@ -430,7 +383,7 @@ def test_meshopt():
 
 
 def test_our_own_scenes_are_read(tmp_path):
-    (tmp_path / "a.glb").write_bytes(glb(*scene()))
+    (tmp_path / "a.glb").write_bytes(scene().bytes)
     assert main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb")]) == 0
     before, after = (read_mesh(tmp_path / name).mesh for name in ("a.glb", "b.glb"))
     assert len(before.faces) == len(after.faces)

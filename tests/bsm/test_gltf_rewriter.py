@@ -12,8 +12,8 @@ from bsm.cli import main
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import Document, read_document
-from tests.bsm.test_gltf import WEB, coded_of, glb, waves
-from tests.bsm.test_gltf_reader import Built
+from tests.bsm.test_gltf import WEB, coded_of, waves
+from tests.gltf import Built, glb
 from tests.shapes import torus
 from tools.attack.doors import errors_of
 

@@ -30,7 +30,7 @@ from bsm.files.motion.frames import Shared, Wanted, painted_like
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
 from bsm.gltf.write import _Scene
-from tests.bsm.test_gltf import glb
+from tests.gltf import glb
 from tests.motion import animators_own, bending
 from tests.shapes import torus
 

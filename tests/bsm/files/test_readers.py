@@ -2,13 +2,14 @@
 
 import gzip
 import json
-import struct
 
+import numpy as np
 import pytest
 
 from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, TruncatedError
 from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.sequence import open_sequence
+from tests.gltf import Built
 from tests.shapes import tetrahedron, torus
 
 OURS = ("obj", "off", "ply", "stl")
@@ -57,22 +58,13 @@ def trimesh():
 
 def gltf(folder):
     """A glTF of one triangle whose numbers are in a file beside it, shown twice: once moved, once mirrored."""
-    numbers = struct.pack("<9f3H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)
-    (folder / "numbers.bin").write_bytes(numbers)
-    scene = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0, 1]}],
-        "nodes": [{"mesh": 0, "translation": [5, 0, 0]}, {"mesh": 0, "scale": [-1, 1, 1]}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "buffers": [{"uri": "numbers.bin", "byteLength": len(numbers)}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
-            {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-        ],
-    }
-    (folder / "a.gltf").write_text(json.dumps(scene))
+    built = Built()
+    points = built.array(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32), min=[0, 0, 0], max=[1, 1, 0])
+    built.mesh({"attributes": {"POSITION": points}, "indices": built.array(np.arange(3, dtype=np.uint16))})
+    built.nodes({"mesh": 0, "translation": [5, 0, 0]}, {"mesh": 0, "scale": [-1, 1, 1]})
+    (folder / "numbers.bin").write_bytes(built.data)
+    built.tree["buffers"] = [{"uri": "numbers.bin", "byteLength": len(built.data)}]
+    (folder / "a.gltf").write_text(json.dumps(built.tree))
     return folder / "a.gltf"
 
 

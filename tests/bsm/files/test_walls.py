@@ -15,6 +15,7 @@ from bsm import Limits
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.files.sequence import open_sequence
+from tests.gltf import Built
 
 
 def npy(array):
@@ -84,17 +85,10 @@ def test_a_gltf_whose_buffer_is_no_file(tmp_path):
     pytest.importorskip("trimesh")
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "loop").symlink_to("loop")
+    built = Built()
+    built.nodes({"mesh": built.mesh({"attributes": {"POSITION": built.array(np.eye(3, dtype=np.float32))}})})
     for uri in ("pipe", "loop"):
-        accessors = [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]
-        tree = {
-            "asset": {"version": "2.0"},
-            "buffers": [{"uri": uri, "byteLength": 36}],
-            "bufferViews": [{"buffer": 0, "byteLength": 36}],
-            "accessors": accessors,
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-            "nodes": [{"mesh": 0}],
-            "scenes": [{"nodes": [0]}],
-        }
+        tree = built.tree | {"buffers": [{"uri": uri, "byteLength": 36}]}
         (tmp_path / "a.gltf").write_text(json.dumps(tree))
         with pytest.raises(bsm.FormatError, match=r"no such file|cannot be opened"):
             read_mesh(tmp_path / "a.gltf")
