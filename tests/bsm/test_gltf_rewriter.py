@@ -50,21 +50,13 @@ def test_extras_are_never_entered():
     """Whatever they hold, under keys that glTF has elsewhere."""
     extras = {"attributes": {"hp": 4}, "input": 1, "indices": 2, "stream": 0, "bufferView": 1, "extensions": {"A": 3}}
     built, _ = ring({"NORMAL": np.tile(np.eye(3, dtype=np.float32)[:1], (384, 1))})
-    for place in (
-        built.tree,
-        built.tree["nodes"][0],
-        built.tree["meshes"][0]["primitives"][0],
-        built.tree["accessors"][0],
-    ):
+    primitive = built.tree["meshes"][0]["primitives"][0]
+    for place in (built.tree, built.tree["nodes"][0], primitive, built.tree["accessors"][0]):
         place["extras"] = extras
     found, after = rewritten(built)
     assert found.coded == 1
-    places = (
-        after.tree,
-        after.tree["nodes"][0],
-        first(after),
-        after.item("accessors", first(after)["attributes"]["POSITION"]),
-    )
+    positions = after.item("accessors", first(after)["attributes"]["POSITION"])
+    places = (after.tree, after.tree["nodes"][0], first(after), positions)
     assert all(place["extras"] == extras for place in places)
 
 

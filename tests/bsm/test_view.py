@@ -16,7 +16,8 @@ import threading
 import time
 import urllib.error
 import urllib.request
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +65,28 @@ def frames_sent(data: bytes) -> tuple[list[np.ndarray], list[int]]:
     return [event.positions for event in events if isinstance(event, bsm.FrameEvent)], lost
 
 
+@contextmanager
+def serving(*content: Any) -> Iterator[PageServer]:
+    """A server of a page, in a thread of its own."""
+    with PageServer([*content]) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield server
+        server.shutdown()
+
+
+@contextmanager
+def viewed(*words: str, source: int | None = None) -> Iterator[str]:
+    """The address that `bsm view` prints, in a process of its own."""
+    command = [sys.executable, "-m", "bsm", "view", "--no-open", *words]
+    quiet: Any = {"stdin": source, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL, "text": True}
+    with subprocess.Popen(command, cwd=ROOT, **quiet) as server:
+        try:
+            assert server.stdout
+            yield server.stdout.readline().strip()
+        finally:
+            server.terminate()
+
+
 def listed(page: str) -> list[dict[str, Any]]:
     found = SLOT.search(page)
     assert found
@@ -98,42 +121,32 @@ def test_meshes_are_encoded_and_shown_beside_their_original(tmp_path, capsys):
 
 def test_server_has_the_page_and_its_streams():
     stream = VECTORS / "good-chain.bsm"
-    command = [sys.executable, "-m", "bsm", "view", str(stream), str(stream), "--no-open"]
-    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
-        try:
-            assert server.stdout
-            address = server.stdout.readline().strip()
-            answer = urllib.request.urlopen(address)
-            page = answer.read().decode()
-            script = page.rpartition('<script type="module">')[2].rpartition("</script>")[0]
-            digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-            assert f"'sha256-{digest}'" in answer.headers["Content-Security-Policy"]
-            assert answer.headers["X-Frame-Options"] == "DENY"
-            entries = listed(page)
-            assert [entry["name"] for entry in entries] == ["good-chain.bsm", "good-chain.bsm (2)"]
-            assert "AGFzbQ" not in page and int(answer.headers["Content-Length"]) == len(page.encode())
-            for path, accepted, packed in (
-                ("", "br, gzip", True),
-                ("", "gzip;q=0", False),
-                ("small.wasm", "gzip", True),
-            ):
-                request = urllib.request.Request(address + path, headers={"Accept-Encoding": accepted})
-                answer = urllib.request.urlopen(request)
-                data = answer.read()
-                assert (answer.headers["Content-Encoding"] == "gzip") == packed
-                assert len(data) == int(answer.headers["Content-Length"])
-                data = gzip.decompress(data) if packed else data
-                assert data == ((WEB / "built" / path).read_bytes() if path else page.encode())
-            assert urllib.request.urlopen(address + entries[1]["layers"][0]["url"]).read() == stream.read_bytes()
-            with pytest.raises(urllib.error.HTTPError, match="404"):
-                urllib.request.urlopen(address + "2")
-            elsewhere = urllib.request.Request(address, headers={"Host": "example.org"})
-            root = address[: address.index("/", 8) + 1]
-            for strange in (elsewhere, root, f"{root}0", f"{root}%C3%A4/", address.rstrip("/")[:-1] + "/"):
-                with pytest.raises(urllib.error.HTTPError, match="403"):
-                    urllib.request.urlopen(strange)
-        finally:
-            server.terminate()
+    with viewed(str(stream), str(stream)) as address:
+        answer = urllib.request.urlopen(address)
+        page = answer.read().decode()
+        script = page.rpartition('<script type="module">')[2].rpartition("</script>")[0]
+        digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+        assert f"'sha256-{digest}'" in answer.headers["Content-Security-Policy"]
+        assert answer.headers["X-Frame-Options"] == "DENY"
+        entries = listed(page)
+        assert [entry["name"] for entry in entries] == ["good-chain.bsm", "good-chain.bsm (2)"]
+        assert "AGFzbQ" not in page and int(answer.headers["Content-Length"]) == len(page.encode())
+        for path, accepted, packed in (("", "br, gzip", True), ("", "gzip;q=0", False), ("small.wasm", "gzip", True)):
+            request = urllib.request.Request(address + path, headers={"Accept-Encoding": accepted})
+            answer = urllib.request.urlopen(request)
+            data = answer.read()
+            assert (answer.headers["Content-Encoding"] == "gzip") == packed
+            assert len(data) == int(answer.headers["Content-Length"])
+            data = gzip.decompress(data) if packed else data
+            assert data == ((WEB / "built" / path).read_bytes() if path else page.encode())
+        assert urllib.request.urlopen(address + entries[1]["layers"][0]["url"]).read() == stream.read_bytes()
+        with pytest.raises(urllib.error.HTTPError, match="404"):
+            urllib.request.urlopen(address + "2")
+        elsewhere = urllib.request.Request(address, headers={"Host": "example.org"})
+        root = address[: address.index("/", 8) + 1]
+        for strange in (elsewhere, root, f"{root}0", f"{root}%C3%A4/", address.rstrip("/")[:-1] + "/"):
+            with pytest.raises(urllib.error.HTTPError, match="403"):
+                urllib.request.urlopen(strange)
 
 
 def test_late_joiners_enter_at_the_newest_group():
@@ -176,8 +189,7 @@ def test_pages_that_have_gone_are_let_go_of(monkeypatch):
     monkeypatch.setattr("bsm.viewer.page._PATIENCE", 0.05)
     growing = Growing("sway.bsm")
     growing.take(MAGIC)
-    with PageServer([growing]) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving(growing) as server:
         before = threading.active_count()
         pages = [socket.create_connection(server.server_address) for _ in range(5)]
         for page in pages:
@@ -191,7 +203,6 @@ def test_pages_that_have_gone_are_let_go_of(monkeypatch):
             time.sleep(0.05)
         assert threading.active_count() == before + 1, "one is still there"
         pages[0].close()
-        server.shutdown()
 
 
 def test_what_is_damaged_is_sent_from_its_beginning():
@@ -231,21 +242,14 @@ def test_what_is_still_being_written_is_watched(way, tmp_path):
     *_, first, _, _, _ = frame_ends(whole)
     os.mkfifo(growing) if way == "pipe" else growing.write_bytes(whole[:first])
     inputs = ["-"] if way == "pipe" else ["--follow", str(growing)]
-    command = [sys.executable, "-m", "bsm", "view", "--no-open", *inputs]
     source = os.open(growing, os.O_RDWR) if way == "pipe" else None
-    quiet: Any = {"stdin": source, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL, "text": True}
-    with subprocess.Popen(command, **quiet) as server:
-        try:
-            if source is not None:
-                os.write(source, whole[:first])
-            assert server.stdout
-            address = server.stdout.readline().strip()
-            live = {"address": address, "whole": str(stream), "growing": str(growing), "ends": frame_ends(whole)[-4:]}
-            javascript("live", BSM_LIVE=json.dumps(live))
-        finally:
-            server.terminate()
-            if source is not None:
-                os.close(source)
+    if source is not None:
+        os.write(source, whole[:first])
+    with viewed(*inputs, source=source) as address:
+        live = {"address": address, "whole": str(stream), "growing": str(growing), "ends": frame_ends(whole)[-4:]}
+        javascript("live", BSM_LIVE=json.dumps(live))
+    if source is not None:
+        os.close(source)
 
 
 @pytest.mark.slow
@@ -260,15 +264,9 @@ def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
         tileset = str(folder / name / "tileset.json")
         assert main(["untile", str(folder), "-o", tileset, "--content", content]) == 0
     levels = bsm.open_tiles(str(folder)).manifest["levels"]
-    command = [sys.executable, "-m", "bsm", "view", "--no-open", str(folder)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
-        try:
-            assert server.stdout
-            seen = {"address": server.stdout.readline().strip(), "folder": str(folder)}
-            seen |= {"coarsest": levels[0]["faces"], "faces": 120_000}
-            javascript("tiles", BSM_TILES=json.dumps(seen))
-        finally:
-            server.terminate()
+    with viewed(str(folder)) as address:
+        seen = {"address": address, "folder": str(folder), "coarsest": levels[0]["faces"], "faces": 120_000}
+        javascript("tiles", BSM_TILES=json.dumps(seen))
 
 
 @pytest.mark.parametrize(
@@ -285,8 +283,7 @@ def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
 def test_files_are_sent_by_ranges(tmp_path, asked, code):
     (tmp_path / "a").write_bytes(b"0123456789abcdef")
     files = {"manifest.json": b"{}", "a": Ranged(str(tmp_path), "a", 16)}
-    with PageServer([Tiled("some", files)]) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving(Tiled("some", files)) as server:
         request = urllib.request.Request(f"{server.address}0/a", headers={"Range": asked} if asked else {})
         try:
             with urllib.request.urlopen(request) as answer:
@@ -296,7 +293,6 @@ def test_files_are_sent_by_ranges(tmp_path, asked, code):
         (tmp_path / "a").unlink()
         with pytest.raises(urllib.error.HTTPError, match="No such file" if code == 206 else str(code)):
             urllib.request.urlopen(request)
-        server.shutdown()
 
 
 def test_tiles_are_looked_at_alone(tmp_path, capsys):
@@ -394,8 +390,7 @@ def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypat
     monkeypatch.setattr("bsm.viewer.page._PATIENCE", 0.05)
     bsm.save(torus(), tmp_path / "ball.ply")
     data = (tmp_path / "ball.ply").read_bytes()
-    with PageServer([]) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving() as server:
         ours = {"Host": server.host, "Origin": f"http://{server.host}", "Content-Length": str(len(data))}
         for changes, code in (
             ({"Origin": "http://example.org"}, 403),
@@ -415,15 +410,13 @@ def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypat
         stream = urllib.request.urlopen(server.address + paths[1]).read()
         assert stream == bsm.encode(tmp_path / "ball.ply", preset="small")
         assert "error" in json.loads(sent(server, ours | {"Content-Length": "9"}, b"no mesh, ").splitlines()[-1])
-        server.shutdown()
 
 
 def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monkeypatch):
     monkeypatch.setattr("bsm.viewer.page._UPLOAD_TIME", 1.5)
     bsm.save(torus(), tmp_path / "ball.ply")
     data = (tmp_path / "ball.ply").read_bytes()
-    with PageServer([]) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving() as server:
         ours = {"Host": server.host, "Origin": f"http://{server.host}"}
         head = [f"POST /{server.token}{UPLOAD}?preset=small&name=a.ply HTTP/1.0", "Content-Length: 1000"]
         lines = [*head, *(f"{name}: {text}" for name, text in ours.items()), "", "ply"]
@@ -439,28 +432,23 @@ def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monk
                     pass
             assert page.recv(1) == b""
             page.close()
-        server.shutdown()
 
 
 @pytest.mark.slow
 @needs_packages
 def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
     bsm.save(torus(), tmp_path / "ball.ply")
-    with PageServer([]) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving() as server:
         given = {"address": server.address, "mesh": str(tmp_path / "ball.ply")}
         javascript("drop", BSM_DROP=json.dumps(given))
-        server.shutdown()
 
 
 @pytest.mark.slow
 @needs_packages
 def test_a_foreign_page_reads_and_encodes_nothing():
-    with PageServer([Content("a.bsm", (Layer("BSM", "", 1, (VECTORS / "good-keys.bsm").read_bytes()),))]) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving(Content("a.bsm", (Layer("BSM", "", 1, (VECTORS / "good-keys.bsm").read_bytes()),))) as server:
         javascript("foreign", BSM_FOREIGN=server.address)
         assert not [path for path in server.content if path.startswith(UPLOAD)]
-        server.shutdown()
 
 
 def test_what_is_neither_stream_nor_mesh_is_refused(tmp_path, capsys):

@@ -10,7 +10,7 @@ import pytest
 import bsm
 from tests.bitstream.streams import encoded, frame_ends
 from tests.engine.decoding import decode, of_sequence, released
-from tests.engine.mutants import compare
+from tools.attack.engine import compare
 from tools.vectors.store import Vector, read_manifest
 
 STATUS = {"format": 3, "corrupt": 4, "unsupported": 5, "limit": 6, "numeric": 7, "truncated": 12}

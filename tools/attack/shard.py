@@ -24,9 +24,9 @@ import numpy as np
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError
 from tests.engine.decoding import decode, of_sequence, released
-from tests.engine.mutants import STATUS
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import random_streams, stored
+from tools.attack.engine import STATUS
 from tools.attack.inputs import mutant, random_stream, unencoded_stream, vector_seeds
 from tools.attack.places import Place, environments, processors
 from tools.attack.tally import Outcome, Tally

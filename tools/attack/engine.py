@@ -1,6 +1,6 @@
 """Mutants of the vectors by the decoder of release 1.0 and by today's, which agree. With flags: by today's alone.
 
-python -m tests.engine.mutants COUNT SEED [--tolerant] [--exact] [--sequences] [--seconds N] [--flags="-O1 -g"]
+python -m tools.attack.engine COUNT SEED [--tolerant] [--exact] [--sequences] [--seconds N] [--flags="-O1 -g"]
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def difference(found: Decoded, stream: bytes, *, exact: bool) -> str | None:
 
 
 def unlike(found: Decoded, outcome: Outcome, *, in_sequence: bool, exact: bool) -> str | None:
-    """The same, of what Python has made of it."""
+    """Return how what the library makes of a stream differs from an outcome in Python; None: not at all."""
     if isinstance(outcome, BsmError):
         expected = STATUS[type(outcome).__name__]
         return None if found.status == expected else f"{found.status} {found.message!r}, expected {expected} {outcome}"
