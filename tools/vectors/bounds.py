@@ -14,12 +14,13 @@ from bsm.bitstream import _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, encode_coefficients
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.packets import Refinement
-from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map
+from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map, write_varint
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
 from bsm.codec.static.ways.grid import levels_field
+from tools.attack.streams import entangled, one_block
 from tools.gridded import gridded
 from tools.surgery import frames_of, header_frame, stream_of, with_header, write_stream
 from tools.vectors.good import BASE, Good
@@ -147,6 +148,13 @@ def _ordered_twice() -> bytes:
     return stream_of([*frames[: place + 1], *frames[place:]])
 
 
+def _given(copies: int, loose: int) -> bytes:
+    """Return an ORDER of 25 vertices that claims copies and loose vertices."""
+    frames = frames_of(encode(shuffled(patch(5, 5)), changed(BASE, keep_order=True)))
+    claimed = write_varint(copies) + write_varint(loose)
+    return stream_of([(k, claimed + p[2:] if k == FrameType.ORDER else p) for k, p in frames])
+
+
 def _padded() -> bytes:
     """Zeros behind the faces, as many as are taken."""
     frames = frames_of(_any(triangle(), 3))
@@ -262,6 +270,19 @@ BOUNDS_BAD: dict[str, Bad] = {
     ),
     "bad-counts-most": Bad(
         "more fans and loops than vertices may be", "limit", lambda: _counts(1 << 24, 0, 0, 9, 1 << 24)
+    ),
+    "bad-order-copies": Bad(
+        "more given vertices than may be, copies (F 9.1)", "limit", lambda: _given((1 << 24) - 24, 0)
+    ),
+    "bad-order-loose": Bad("more of them than may be, loose ones", "limit", lambda: _given(0, (1 << 24) - 24)),
+    "bad-order-loose-most": Bad("2^24 given vertices, one too many", "corrupt", lambda: _given(0, (1 << 24) - 25)),
+    "bad-limit-repeats": Bad(
+        "columns that are made orthonormal one by one, again and again (M 14.3)",
+        "limit",
+        lambda: one_block(22, 22, 484, power=4, shift=2.0**-30),
+    ),
+    "bad-limit-entangled": Bad(
+        "a block whose factorization costs too much (M 14.4)", "limit", lambda: entangled(700, 900)
     ),
     "bad-order-twice": Bad("ORDER, and ORDER again", "corrupt", _ordered_twice),
     "unsupported-version-alone": Bad("a later version, in five bytes", "unsupported", lambda: MAGIC + b"\x20"),

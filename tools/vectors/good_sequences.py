@@ -90,6 +90,16 @@ def _moving(probes: str, *kinds: int, heats: Sequence[int] = (0, 1, 2, 3), **opt
     return Good(probes, make)
 
 
+def _far() -> bytes:
+    """Return values that come from so far that rounding those of the first frame shows in the others."""
+    frames = []
+    for t in range(3):
+        mesh = torus(6, 4, phase=0.2 * t)
+        depth = (np.round(3 * mesh.positions[:, 0], 3) + (1.2345678e7 if t == 0 else 0)).astype(np.float32)
+        frames.append(replace(mesh, attributes=(Attribute("depth", depth[:, None]),)))
+    return b"".join(SequenceEncoder(frames[0].faces, BASE, len(frames)).chunks(frames))
+
+
 def _returning(probes: str, *times: int) -> Good:
     """Frames of a torus, with a color, at times that come again."""
 
@@ -134,6 +144,7 @@ SEQUENCES: dict[str, Good] = {
     "good-sequence-moving-ordered": _moving("the same, with an order of vertices", *[8] * 3, keep_order=True),
     "good-sequence-moving-low-delay": _moving("the same, frame by frame", *[8] * 7, low_delay=1, gop=5),
     "good-sequence-moving-runs": _moving("the same, and a mesh that returns", 6, 6, 5, 5, 6, 6, 6, gop=2),
+    "good-sequence-moving-far": Good("values of the first frame, rounded to their kind (S 10.1)", _far),
     "good-sequence-moving-together": _moving("the same, a few frames at a time", *[8] * 7, low_delay=3),
     "good-sequence-paper": Good("other constants than those of sequences", _by_the_paper),
     "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
