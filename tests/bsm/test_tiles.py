@@ -423,9 +423,8 @@ def test_info_and_verify_of_a_folder(folder):
     ],
 )
 def test_a_manifest_that_makes_no_sense(folder, tmp_path, change):
-    (tmp_path / "manifest.json").write_text(
-        json.dumps({**json.loads((folder / "manifest.json").read_text()), **change})
-    )
+    manifest = json.loads((folder / "manifest.json").read_text())
+    (tmp_path / "manifest.json").write_text(json.dumps(manifest | change))
     with pytest.raises(bsm.FormatError, match="manifest"):
         bsm.open_tiles(str(tmp_path))
 

@@ -1,6 +1,5 @@
 """Sequences in the files of other programs: read as those show them, written so that those read them."""
 
-import io
 import json
 import shutil
 import struct
@@ -29,8 +28,7 @@ from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted, painted_like
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
-from bsm.gltf.write import _Scene
-from tests.gltf import glb
+from tests.gltf import Built, glb
 from tests.motion import animators_own, bending
 from tests.shapes import torus
 
@@ -746,22 +744,18 @@ def test_colors_that_change_come_in(tmp_path, kind, capsys):
     positions, faces, shades = painted_frames()
     path = tmp_path / f"a.{kind}"
     if kind == "glb":
-        scene = _Scene(io.BytesIO())
-        given = {"POSITION": scene.numbers(positions[0].astype(np.float32)), "COLOR_0": scene.numbers(shades[0])}
-        deltas = [(p - positions[0], s - shades[0]) for p, s in zip(positions[1:], shades[1:], strict=True)]
-        targets = [
-            {"POSITION": scene.numbers(p.astype(np.float32)), "COLOR_0": scene.numbers(s.astype(np.float32))}
-            for p, s in deltas
-        ]
-        corners = scene.numbers(faces.reshape(-1, 1).astype(np.uint32))
-        scene.place({"primitives": [{"attributes": given, "indices": corners, "targets": targets}]})
-        weights = np.vstack([np.zeros((1, 4)), np.eye(4)]).astype(np.float32).reshape(-1, 1)
-        times = scene.numbers((np.arange(5) / 24).astype(np.float32)[:, None])
+        built = Built()
+        singles = positions.astype(np.float32)
+        given = {"POSITION": built.array(singles[0]), "COLOR_0": built.array(shades[0])}
+        deltas = zip(singles[1:] - singles[0], shades[1:] - shades[0], strict=True)
+        targets = [{"POSITION": built.array(p), "COLOR_0": built.array(s)} for p, s in deltas]
+        corners = built.array(faces.ravel().astype(np.uint32))
+        built.nodes({"mesh": built.mesh({"attributes": given, "indices": corners, "targets": targets})})
+        weights = built.array(np.vstack([np.zeros((1, 4)), np.eye(4)]).astype(np.float32).ravel())
+        sampler = {"input": built.array((np.arange(5) / 24).astype(np.float32)), "output": weights}
         channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
-        scene.add(
-            "animations", {"samplers": [{"input": times, "output": scene.numbers(weights)}], "channels": [channel]}
-        )
-        path.write_bytes(scene.whole())
+        built.tree["animations"] = [{"samplers": [sampler], "channels": [channel]}]
+        path.write_bytes(built.bytes)
     else:
         from pxr import Sdf, Usd, UsdGeom, Vt
 
