@@ -58,7 +58,11 @@ bool name_attribute(Context *context, const char *name) {
 bool fail_with(Context *context, bsmdec_status status, Message message) {
     if (failed(context)) return false;
     bsmdec_error *error = &context->error;
+#ifdef BSMDEC_TERSE
+    (void)message;
+#else
     write_message(error->message, sizeof error->message, message);
+#endif
     error->status = status;
     error->offset = error->frame = error->block = -1;
     return false;
@@ -150,11 +154,8 @@ void *find_zeros(Arena *arena, int64_t count, size_t size) {
 
 bool within_limit(Context *context, const char *name, double value, double limit) {
     if (!(value > limit)) return true;
-    char text[64] = "";
-    size_t length = strlen(name);
-    memcpy(text, name, length < 24 ? length : 24);
-    strcat(text, " = # is over the limit of #");
-    return FAIL(context, LIMIT, text, (int64_t)(value < 9e18 ? value : 9e18), (int64_t)(limit < 9e18 ? limit : 9e18));
+    return FAIL(context, LIMIT, "$ = # is over the limit of #", (int64_t)(value < 9e18 ? value : 9e18),
+        (int64_t)(limit < 9e18 ? limit : 9e18), 0, name);
 }
 
 static double lesser(double a, double b) { return a < b ? a : b; }

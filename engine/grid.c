@@ -16,11 +16,11 @@ static int32_t most_of(const Header *header) {
 
 static bool charge_grid(Context *context, const Header *header) {
     double n = (double)header->vertices, m = (double)header->faces, span = most_of(header);
-    bool light = header->light == LIGHT;
+    bool light = method_of(header) == LIGHT;
     if (!reserve(context, grid_memory(n, m), 0) || !charge(context, light ? light_work(n, m) : grid_work(n, m), 0)
         || !WITHIN(context, field_bytes, grid_field_bytes(n, m)))
         return false;
-    return header->light != EXACT_FLOATS
+    return method_of(header) != EXACT_FLOATS
         || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
 }
 
@@ -73,14 +73,14 @@ bool begin_grid(GridField *field, Context *context, const Header *header, ConstI
         return false;
     for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
     memcpy(field->largest.data, header->grid, sizeof header->grid);
-    if (header->light == LIGHT) return begin_light(field, arena);
-    return begin_full(field, arena, scratch) && (header->light != EXACT_FLOATS || begin_floats(field, arena));
+    if (method_of(header) == LIGHT) return begin_light(field, arena);
+    return begin_full(field, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena));
 }
 
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {
     Reading reading;
     if (!begin_reading(field->context, payload, &reading)) return false;
-    int64_t done = field->header->light == LIGHT
+    int64_t done = method_of(field->header) == LIGHT
         ? code_light(reading.coder, field->corners, field->light, first, count)
         : code_grid(reading.coder, field->model, field->corners, field->grid, first, count);
     return check_chunk_done(&reading, done, count);
@@ -152,11 +152,11 @@ bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scr
 bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch) {
     Context *context = field->context;
     double bytes = (double)payload.size;
-    if (!charge(context, field->header->light == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes))
+    if (!charge(context, method_of(field->header) == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes))
         return false;
     if (first != field->coded)
         return FAIL(context, CORRUPT, "positions from number # on are missing; others depend on them", field->coded);
-    bool exact = field->header->light == EXACT_FLOATS;
+    bool exact = method_of(field->header) == EXACT_FLOATS;
     Cursor cursor = {context, payload};
     Span values = exact ? take_span(&cursor, take_varint(&cursor)) : payload;
     if (failed(context) || !code_grid_values(field, first, count, values)) return false;

@@ -25,6 +25,15 @@ typedef struct {
     Paper paper;
 } Header;
 
+/* How positions on a grid are coded. */
+INLINE int method_of(const Header *header) {
+#ifdef BSMDEC_LIGHT /* a build of light grids alone */
+    return (void)header, LIGHT;
+#else
+    return header->light;
+#endif
+}
+
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 
 /* All numbers of a header in a row, for other languages. */

@@ -7,18 +7,19 @@ python -m tools.web_constants            fail if that is not what Python has
 from __future__ import annotations
 
 import argparse
-from enum import EnumMeta
 from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.container.header import Field, Header, Paper, defaults_of, fields_of
+from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Field, Paper, defaults_of
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
 TARGET = Path(__file__).parents[1] / "web/src/constants.ts"
 
-_TYPES: dict[tuple[Any, Any], str] = {(tuple, int): "ints", (tuple, float): "floats"}
-_PLAIN: dict[Any, str] = {int: "int", float: "float", str: "string", bytes: "binary"}
+_PLAIN: dict[Any, str] = {int: "int", float: "float"}
+_OF_A_BUILD = ("vertices", "attributes", "light", "sequence", "paper")
+"""Fields that tell which decoder a stream needs."""
+_OF_A_GRID = ("vertices", "faces", "center", "scale", "grid", "lattice", "corner", "light")
 _OTHER_LIMITS = {"block_memory": "memory", "block_memory_per_vertex": "memory_per_vertex"}
 """Limits that the browser's decoder calls otherwise: its own `memory` is that of the machine in the page."""
 _SAME_LIMITS = (
@@ -40,31 +41,22 @@ def _number(value: float) -> str:
 
 
 def _content(value: Any) -> str:
-    if isinstance(value, bytes):
-        return f"new Uint8Array({len(value)})"
-    if isinstance(value, tuple):
-        return f"[{', '.join(map(_number, value))}]"
-    return _number(value)
+    return f"[{', '.join(map(_number, value))}]" if isinstance(value, tuple) else _number(value)
 
 
-def _field(name: str, field: Field, defaults: dict[str, Any]) -> str:
-    kind = "method" if field.reserved else _TYPES.get((field.type, field.item)) or _PLAIN[field.type]
+def _field(name: str, field: Field) -> str:
+    kind = _PLAIN[field.item if field.type is tuple else field.type]
     parts = [f"key: {field.key}", f'type: "{kind}"', f"low: {_number(field.low)}", f"high: {_number(field.high)}"]
-    if name in defaults:
-        parts.append(f"default: {_content(defaults[name])}")
+    if name in HEADER_DEFAULTS:
+        parts.append(f"default: {_content(HEADER_DEFAULTS[name])}")
     if field.type is tuple:
         parts.append(f"lengths: [{field.lengths[0]}, {field.lengths[1]}]")
-    return f"    {camel(name)}: {{ {', '.join(parts)} }},"
+    return f"{{ {', '.join(parts)} }}"
 
 
-def _fields(called: str, kind: Any, what: str) -> str:
-    lines = [_field(name, field, defaults_of(kind)) for name, field in fields_of(kind).items()]
-    return "\n".join([f"/** {what} */", f"export const {called} = {{", *lines, "} satisfies Record<string, Field>;"])
-
-
-def _kinds(kinds: EnumMeta) -> str:
-    lines = [f'    {kind.value}: "{kind.name.lower()}",' for kind in kinds]  # type: ignore[var-annotated]
-    return "\n".join(["/** Types of frames (F 3.4). */", "export const KINDS = {", *lines, "} as const;"])
+def _table(called: str, what: str, entries: dict[Any, str]) -> str:
+    lines = [f"    {name}: {content}," for name, content in entries.items()]
+    return "\n".join([f"/** {what} */", f"export const {called} = {{", *lines, "} as const;"])
 
 
 def limits_there(limits: Limits) -> dict[str, float]:
@@ -75,26 +67,24 @@ def limits_there(limits: Limits) -> dict[str, float]:
 
 def source() -> str:
     """The module."""
-    granted = [f"    {name}: {_number(value)}," for name, value in limits_there(Limits()).items()]
     magic = ", ".join(map(str, (*MAGIC, VERSION)))
-    return (
-        "\n\n".join(
-            [
-                "/** Constants of the format, which `python -m tools.web_constants --write` makes of Python's. */\n"
-                'import type { Field } from "./record";',
-                f"/** What a stream begins with: magic and version. */\nexport const PREAMBLE = [{magic}] as const;\n"
-                f"/** A payload of fewer bytes has a short checksum (F 3). */\nexport const SHORT = {SHORT};\n"
-                f"export const MAX_VARINT_BYTES = {MAX_VARINT_BYTES};",
-                _kinds(FrameType),
-                _fields("HEADER_FIELDS", Header, "Fields of the header (F 4.4)."),
-                _fields("PAPER_FIELDS", Paper, "Numbers of `paper`, by places, and the law's constants (F 4)."),
-                "\n".join(
-                    ["/** Limits that are Python's (M 14.1). */", "export const LIMITS = {", *granted, "} as const;"]
-                ),
-            ]
-        )
-        + "\n"
-    )
+    kinds = {kind.value: f'"{kind.name.lower()}"' for kind in FrameType}
+    keys = {name: str(HEADER_FIELDS[name].key) for name in _OF_A_BUILD}
+    fields = {name: _field(name, HEADER_FIELDS[name]) for name in _OF_A_GRID}
+    law = {camel(name): _number(value) for name, value in defaults_of(Paper).items()}
+    granted = {name: _number(value) for name, value in limits_there(Limits()).items()}
+    parts = [
+        "/** Constants of the format, which `python -m tools.web_constants --write` makes of Python's. */",
+        f"/** What a stream begins with: magic and version. */\nexport const PREAMBLE = [{magic}] as const;\n"
+        f"/** A payload of fewer bytes has a short checksum (F 3). */\nexport const SHORT = {SHORT};\n"
+        f"export const MAX_VARINT_BYTES = {MAX_VARINT_BYTES};",
+        _table("KINDS", "Types of frames (F 3.4).", kinds),
+        _table("HEADER_KEYS", "Keys of the fields that tell which decoder a stream needs (F 4.4).", keys),
+        _table("GRID_FIELDS", "The header of a light grid (F 4.4, F 4.6).", fields),
+        _table("LAW", "The law's constants of blocks (F 4).", law),
+        _table("LIMITS", "Limits that are Python's (M 14.1).", granted),
+    ]
+    return "\n\n".join(parts) + "\n"
 
 
 def main() -> None:

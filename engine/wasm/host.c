@@ -65,6 +65,18 @@ void page_give(void *memory, size_t size) {
     }
 }
 
+static void *allocate(void *host, size_t size) {
+    (void)host;
+    return page_take(size);
+}
+
+static void release(void *host, void *memory, size_t size) {
+    (void)host;
+    page_give(memory, size);
+}
+
+bsmdec_allocator page_host(void) { return (bsmdec_allocator){sizeof(bsmdec_allocator), allocate, release, NULL}; }
+
 void *memcpy(void *restrict to, const void *restrict from, size_t size) { return __builtin_memcpy(to, from, size); }
 
 void *memmove(void *to, const void *from, size_t size) { return __builtin_memmove(to, from, size); }
@@ -81,9 +93,4 @@ size_t strlen(const char *text) {
     size_t size = 0;
     while (text[size] != 0) size++;
     return size;
-}
-
-char *strcat(char *to, const char *from) {
-    memcpy(to + strlen(to), from, strlen(from) + 1);
-    return to;
 }

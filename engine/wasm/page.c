@@ -3,8 +3,6 @@
 
 #include "engine/decoder.h"
 
-#define EXPORT __attribute__((visibility("default")))
-
 /* What a page is given: rows of numbers in this memory. */
 typedef struct {
     int32_t count;
@@ -17,18 +15,8 @@ static Rows rows;
 static double numbers[HEADER_NUMBERS];
 static Arena room; /* for a block of a helper, until the next event */
 
-static void *allocate(void *host, size_t size) {
-    (void)host;
-    return page_take(size);
-}
-
-static void release(void *host, void *memory, size_t size) {
-    (void)host;
-    page_give(memory, size);
-}
-
 /* `limits`: those of bsmdec.h in their order. Chains are shared by `among`, of whom this is `number`. */
-EXPORT bool page_open(const double *limits, int tolerant, int number_of_share, int among) {
+bool page_open(const double *limits, int tolerant, int number_of_share, int among) {
     static bool made;
     if (!made) {
         make_tables();
@@ -36,7 +24,7 @@ EXPORT bool page_open(const double *limits, int tolerant, int number_of_share, i
         make_priors();
         made = true;
     }
-    bsmdec_allocator host = {sizeof host, allocate, release, NULL};
+    const bsmdec_allocator host = page_host();
     bsmdec_limits bounds = {.size = sizeof bounds};
     memcpy(&bounds.vertices, limits, sizeof bounds - offsetof(bsmdec_limits, vertices));
     decoder = bsmdec_open(&(bsmdec_options){.size = sizeof(bsmdec_options), .limits = &bounds, .allocator = &host,
@@ -47,36 +35,36 @@ EXPORT bool page_open(const double *limits, int tolerant, int number_of_share, i
     return true;
 }
 
-EXPORT void page_close(void) {
+void page_close(void) {
     release_all(&room);
     bsmdec_close(decoder);
 }
 
-EXPORT void page_share(int among) { decoder->share.among = among; }
+void page_share(int among) { decoder->share.among = among; }
 
-EXPORT int page_push(const void *bytes, size_t size) { return bsmdec_push(decoder, bytes, size); }
+int page_push(const void *bytes, size_t size) { return bsmdec_push(decoder, bytes, size); }
 
-EXPORT void page_finish(void) { bsmdec_finish(decoder); }
+void page_finish(void) { bsmdec_finish(decoder); }
 
-EXPORT const bsmdec_event *page_next(void) {
+const bsmdec_event *page_next(void) {
     release_all(&room);
     bsmdec_next(decoder, &event);
     return &event;
 }
 
-EXPORT const bsmdec_error *page_error(int of_loss) {
+const bsmdec_error *page_error(int of_loss) {
     return of_loss ? bsmdec_last_loss(decoder) : bsmdec_last_error(decoder);
 }
 
 /* Bytes that were made use of, work that was charged, vertices that the faces so far have. */
-EXPORT const double *page_state(void) {
+const double *page_state(void) {
     numbers[0] = (double)decoder->reader.offset;
     numbers[1] = decoder->context.spent.spent;
     numbers[2] = (double)decoder->context.spent.vertices;
     return numbers;
 }
 
-EXPORT const double *page_header(void) {
+const double *page_header(void) {
     list_header(&decoder->reader.headers[decoder->reader.header], numbers);
     return numbers;
 }
@@ -86,27 +74,27 @@ static const Rows *row_of(int64_t count, const void *vertices, const void *posit
     return &rows;
 }
 
-EXPORT int page_faces(uint32_t *corners, size_t count) { return bsmdec_faces(decoder, corners, count); }
-EXPORT int page_positions(double *coordinates, size_t count) { return bsmdec_positions(decoder, coordinates, count); }
-EXPORT int page_metadata(int index, bsmdec_metadata *entry) { return bsmdec_metadata_at(decoder, index, entry); }
-EXPORT int page_attribute(int index, bsmdec_attribute *attribute) {
+int page_faces(uint32_t *corners, size_t count) { return bsmdec_faces(decoder, corners, count); }
+int page_positions(double *coordinates, size_t count) { return bsmdec_positions(decoder, coordinates, count); }
+int page_metadata(int index, bsmdec_metadata *entry) { return bsmdec_metadata_at(decoder, index, entry); }
+int page_attribute(int index, bsmdec_attribute *attribute) {
     return bsmdec_attribute_at(decoder, index, attribute);
 }
-EXPORT int page_values(int index, void *values, size_t size) {
+int page_values(int index, void *values, size_t size) {
     return bsmdec_attribute_values(decoder, index, values, size);
 }
-EXPORT int page_indices(int index, uint32_t *indices, size_t count) {
+int page_indices(int index, uint32_t *indices, size_t count) {
     return bsmdec_attribute_indices(decoder, index, indices, count);
 }
 
 /* The block that a helper decoded last. */
-EXPORT const Rows *page_handed(void) {
+const Rows *page_handed(void) {
     const DecodedBlock *block = &decoder->share.handed;
     return row_of(block->vertices.size, block->vertices.data, block->positions.data, block->weights.data);
 }
 
 /* Room for a block that a helper decoded; `page_add` adds it. */
-EXPORT const Rows *page_room(int count) {
+const Rows *page_room(int count) {
     Ints vertices;
     Doubles2 positions;
     Doubles weights;
@@ -116,7 +104,7 @@ EXPORT const Rows *page_room(int count) {
     return row_of(count, vertices.data, positions.data, weights.data);
 }
 
-EXPORT bool page_add(int index) {
+bool page_add(int index) {
     const Mesh *mesh = &decoder->mesh;
     const int32_t *vertices = rows.vertices;
     if (!mesh->has_chains || index < 0 || index >= mesh->blocks.count
@@ -130,7 +118,7 @@ EXPORT bool page_add(int index) {
 }
 
 /* A block that a helper could not decode: whether the decoder continues. */
-EXPORT bool page_lose(int index) {
+bool page_lose(int index) {
     lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, index);
     return decoder->tolerant && decoder->mesh.header.gop_frames == 0;
 }
@@ -140,18 +128,18 @@ static const Rows *row_of_changes(bsmdec_status status, const bsmdec_changes *ch
 }
 
 /* Changes since the last call; NULL with an error if they are unknown. */
-EXPORT const Rows *page_changes(void) {
+const Rows *page_changes(void) {
     bsmdec_changes changes;
     return row_of_changes(bsmdec_read_changes(decoder, &changes), &changes);
 }
 
-EXPORT const Rows *page_loose(void) {
+const Rows *page_loose(void) {
     bsmdec_changes changes;
     return row_of_changes(bsmdec_read_loose(decoder, &changes), &changes);
 }
 
 /* Vertices without a position; how many are less exact than they were encoded, and which. */
-EXPORT const Rows *page_losses(void) {
+const Rows *page_losses(void) {
     bsmdec_losses losses;
     if (bsmdec_read_losses(decoder, &losses) != BSMDEC_OK) return NULL;
     numbers[0] = (double)losses.degraded_count;

@@ -2,11 +2,11 @@
 #ifndef BSMDEC_PAGE_H
 #define BSMDEC_PAGE_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "engine/bsmdec.h"
 
 void *page_take(size_t size);
 void page_give(void *memory, size_t size);
+bsmdec_allocator page_host(void);
 /* Tables, and what coefficients start from (web/scripts/kernels.mjs). */
 void make_tables(void);
 void make_value_tables(void);

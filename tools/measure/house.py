@@ -34,12 +34,12 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_591,
+    "product in all languages, lines": 62_024,
     "product Python, lines": 33_417,
-    "product C and C++, lines": 21_572,
+    "product C and C++, lines": 21_561,
     "product Rust, lines": 908,
-    "product TypeScript, lines": 6_645,
-    "product lines over 120 columns": 229,
+    "product TypeScript, lines": 6_137,
+    "product lines over 120 columns": 220,
     "all Python, lines": 74_386,
     "product modules": 201,
     "product C files and headers": 73,

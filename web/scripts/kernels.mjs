@@ -27,8 +27,8 @@ const PAGE = [
     "take", "give", "open", "close", "share", "push", "finish", "next", "error", "state", "header", "loose", "faces", "positions", "metadata", "attribute",
     "values", "indices", "handed", "room", "add", "lose", "changes", "losses",
 ].map((name) => `page_${name}`);
-/** Kernels of light grids, which TypeScript calls. */
-const LIGHT = ["make_tables", "code_one_unsigned", "match_halfedges", "conquer_surface", "code_fans", "code_degenerate", "link_corners", "code_light", "place_values"];
+/** Functions for a page that decodes light grids alone (engine/wasm/light.c). */
+const LIGHT = ["page_take", "page_give", ...["open", "close", "charge", "error", "begin", "faces", "positions"].map((name) => `light_${name}`)];
 
 const TARGET = "--target=wasm32";
 const FLAGS = [
@@ -134,31 +134,31 @@ function checkTables(clang, objects, priors, target) {
 
 /** Sources of what takes most time, which are compiled for speed, and not for their size alone; vectors that they do not ask for make them slower. */
 const FAST = /basis\/cholesky|signal\/frames|codec\/blocks|conquest|fields\/(layer|corners|expectation|grid)|engine\/coding/;
-const SPEED = ["-O3", "-fno-vectorize", "-fno-slp-vectorize"];
+const SPEED = ["-fno-vectorize", "-fno-slp-vectorize"];
 
 /** Sources that stay apart when the rest is optimized as one: what runs WebAssembly compiles smaller functions sooner. */
 const APART = /engine\/(structure|topology|layer|stages)/;
 
-/** How a source is compiled. */
-function optionsOf(source, fast) {
-    if (fast.test(source)) return SPEED;
-    return ["-Oz", ...(APART.test(source) ? [] : ["-flto"]), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : [])];
+/** How a source is compiled; the decoder of light grids is the smallest. */
+function optionsOf(source, fast, light) {
+    if (fast.test(source)) return [light ? "-O2" : "-O3", ...SPEED];
+    return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
 }
 
-/** Every build: whether with vector instructions, what of the decoder it is without, and which sources are compiled for speed. */
+/** Every build: whether with vector instructions, what of the decoder it is without, and which sources are compiled for speed; `light`: for light grids alone. */
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": { vectors: true },
     "built/kernels-scalar.wasm": { vectors: false },
     "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
     "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
-    "built/quick.wasm": { vectors: true, exported: ["__heap_base", ...LIGHT], fast: /fields|conquest/ },
+    "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec/, fast: /conquest/, light: true },
 };
 
 /** Objects of sources, which builds have in common. */
 const compiled = new Map();
 
 /** One of them. */
-export function compileKernels({ vectors, exported = PAGE, without, fast = FAST }) {
+export function compileKernels({ vectors, exported = PAGE, without, fast = FAST, light = false }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -168,7 +168,7 @@ export function compileKernels({ vectors, exported = PAGE, without, fast = FAST 
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            const options = [...FLAGS, ...optionsOf(source, fast), ...(without && source.startsWith("engine") ? ["-DBSMDEC_TERSE"] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
+            const options = [...FLAGS, ...optionsOf(source, fast, light), ...(without && source.startsWith("engine") ? ["-DBSMDEC_TERSE"] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
             const key = options.join(" ");
             if (source === data || !compiled.has(key)) {
                 clang(...options, "-o", object);

@@ -1,5 +1,4 @@
 /** Constants of the format, which `python -m tools.web_constants --write` makes of Python's. */
-import type { Field } from "./record";
 
 /** What a stream begins with: magic and version. */
 export const PREAMBLE = [137, 66, 83, 77, 16] as const;
@@ -23,40 +22,38 @@ export const KINDS = {
     15: "end",
 } as const;
 
-/** Fields of the header (F 4.4). */
-export const HEADER_FIELDS = {
+/** Keys of the fields that tell which decoder a stream needs (F 4.4). */
+export const HEADER_KEYS = {
+    vertices: 1,
+    attributes: 12,
+    light: 16,
+    sequence: 17,
+    paper: 19,
+} as const;
+
+/** The header of a light grid (F 4.4, F 4.6). */
+export const GRID_FIELDS = {
     vertices: { key: 1, type: "int", low: 1, high: 2147483647 },
     faces: { key: 2, type: "int", low: 1, high: 2147483647 },
-    blocks: { key: 3, type: "int", low: 0, high: 2147483647, default: 0 },
-    blockSize: { key: 4, type: "int", low: 0, high: 2147483647, default: 0 },
-    coefficients: { key: 5, type: "int", low: 0, high: 2147483647, default: 0 },
-    keyInterval: { key: 6, type: "int", low: 0, high: 2147483647, default: 0 },
-    step: { key: 7, type: "float", low: 9.094947017729282e-13, high: 1048576, default: 0.00390625 },
-    center: { key: 8, type: "floats", low: -1e+300, high: 1e+300, default: [0, 0, 0], lengths: [3, 3] },
+    center: { key: 8, type: "float", low: -1e+300, high: 1e+300, default: [0, 0, 0], lengths: [3, 3] },
     scale: { key: 9, type: "float", low: 1e-300, high: 1e+300, default: 1 },
-    smoothing: { key: 10, type: "float", low: 0, high: 1000000, default: 0 },
-    refinement: { key: 11, type: "floats", low: 0, high: 64, default: [], lengths: [0, 2] },
-    attributes: { key: 12, type: "int", low: 0, high: 255, default: 0 },
-    grid: { key: 13, type: "ints", low: 0, high: 1048575, default: [], lengths: [0, 3] },
-    lattice: { key: 14, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 2] },
-    corner: { key: 15, type: "ints", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
-    light: { key: 16, type: "method", low: 0, high: 2, default: 0 },
-    sequence: { key: 17, type: "ints", low: 0, high: 2147483647, default: [], lengths: [0, 2] },
-    run: { key: 18, type: "ints", low: 0, high: 2147483647, default: [], lengths: [0, 2] },
-    paper: { key: 19, type: "floats", low: 0, high: 1073741824, default: [], lengths: [0, 8] },
-} satisfies Record<string, Field>;
+    grid: { key: 13, type: "int", low: 0, high: 1048575, default: [], lengths: [0, 3] },
+    lattice: { key: 14, type: "int", low: 1, high: 2147483647, default: [], lengths: [0, 2] },
+    corner: { key: 15, type: "int", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
+    light: { key: 16, type: "int", low: 0, high: 2, default: 0 },
+} as const;
 
-/** Numbers of `paper`, by places, and the law's constants (F 4). */
-export const PAPER_FIELDS = {
-    bits: { key: 0, type: "int", low: 0, high: 32, default: 0 },
-    coarser: { key: 1, type: "int", low: 0, high: 30, default: 0 },
-    exact: { key: 2, type: "int", low: 0, high: 1, default: 0 },
-    power: { key: 3, type: "int", low: 1, high: 64, default: 3 },
-    iterations: { key: 4, type: "int", low: 1, high: 1024, default: 1 },
-    keyIterations: { key: 5, type: "int", low: 1, high: 1024, default: 2 },
-    shift: { key: 6, type: "float", low: 9.313225746154785e-10, high: 1073741824, default: 0.0078125 },
-    springs: { key: 7, type: "int", low: 0, high: 1, default: 1 },
-} satisfies Record<string, Field>;
+/** The law's constants of blocks (F 4). */
+export const LAW = {
+    bits: 0,
+    coarser: 0,
+    exact: 0,
+    power: 3,
+    iterations: 1,
+    keyIterations: 2,
+    shift: 0.0078125,
+    springs: 1,
+} as const;
 
 /** Limits that are Python's (M 14.1). */
 export const LIMITS = {

@@ -1,16 +1,16 @@
 /** The decoder in C: its calls, and what lies in its memory. */
 import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
-import { BsmError, errorLike, LimitError } from "./errors";
+import { BsmError, errorLike } from "./errors";
 import type { Changes, Loose, Metadata } from "./events";
 import type { Header } from "./header";
-import type { Exports, Kernels } from "./kernels";
-import { DEFAULT_LIMITS, type Limits } from "./limits";
+import type { Kernels } from "./kernels";
+import type { Limits } from "./limits";
+import { errorName, Memory } from "./memory";
 import type { Share, SharedBlock } from "./share";
 
 /** Events in the order of engine/bsmdec.h, and one of decoders with helpers. */
 export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, , AWAITED] = Array.from({ length: 14 }, (_, i) => i);
 
-const NAMES: Record<number, string> = { 3: "Format", 4: "Corrupt", 5: "Unsupported", 6: "Limit", 7: "Numeric", 8: "Limit", 12: "Truncated" };
 const VIEWS: Kind<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array];
 const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
@@ -23,8 +23,6 @@ interface Kind<View> {
     new (buffer: ArrayBuffer, at: number, length: number): View;
 }
 
-type Call = (...args: number[]) => number;
-
 /** An event as the decoder in C reports it, with the numbers of vertices and faces once they are known. */
 export interface RawEvent {
     type: number;
@@ -34,28 +32,9 @@ export interface RawEvent {
     faces: number;
 }
 
-export class Engine {
-    /** Undefined once it is released, or has failed by itself: nothing is called then. */
-    private exports?: Exports;
-
-    constructor(
-        private readonly kernels: Kernels,
-        limits: Partial<Limits>,
-        tolerant: boolean,
-        { number, among }: Share = { number: 0, among: 0 },
-    ) {
-        this.exports = kernels.borrow();
-        const l = { ...DEFAULT_LIMITS, ...limits };
-        const bounds = [
-            l.vertices, l.faces, l.blocks, l.blockSize, l.coefficients, l.frames, l.gopFrames, l.frameBytes, l.metadataBytes, l.attributes,
-            l.attributeValues, l.sequenceBytes, l.memory, l.work, l.workPerVertex, l.workPerByte, Infinity, l.blockMemory,
-            l.blockMemoryPerVertex, l.memoryPerByte, Infinity, l.memory,
-        ];
-        const opened = this.lent(8 * bounds.length, (at) => {
-            new Float64Array(this.buffer, at).set(bounds);
-            return this.call("page_open", at, tolerant ? 1 : 0, number, among);
-        });
-        if (!opened) throw new LimitError("this machine has no memory for a decoder");
+export class Engine extends Memory {
+    constructor(kernels: Kernels, limits: Partial<Limits>, tolerant: boolean, { number, among }: Share = { number: 0, among: 0 }) {
+        super(kernels, limits, "page_open", tolerant ? 1 : 0, number, among);
     }
 
     push(data: Uint8Array): void {
@@ -87,7 +66,7 @@ export class Engine {
         const at = this.call("page_error", isLoss ? 1 : 0);
         const view = new DataView(this.buffer, at);
         const [offset, frame, block] = [8, 16, 24].map((place) => Number(view.getBigInt64(place, true))).map((value) => (value < 0 ? undefined : value));
-        return errorLike({ name: `${NAMES[view.getInt32(0, true)] ?? "Bsm"}Error`, problem: this.text(at + 32), place: { offset, frame, block } });
+        return errorLike({ name: errorName(view.getInt32(0, true)), problem: this.text(at + 32), place: { offset, frame, block } });
     }
 
     /** Bytes that were made use of, work that was charged, vertices that the faces so far have. */
@@ -194,30 +173,7 @@ export class Engine {
 
     /** Leave the memory to the next decoder. */
     release(): void {
-        const { exports } = this;
-        if (!exports) return;
-        this.call("page_close");
-        this.kernels.take(exports);
-        this.exports = undefined;
-    }
-
-    private get own(): Exports {
-        if (!this.exports) throw new Error("this decoder was released");
-        return this.exports;
-    }
-
-    private get buffer(): ArrayBuffer {
-        return this.own.memory.buffer;
-    }
-
-    private call(name: string, ...args: number[]): number {
-        const { own } = this;
-        try {
-            return (own[name] as Call)(...args) >>> 0;
-        } catch (error) {
-            this.exports = undefined; // memory that a trap has left in disorder is never used again
-            throw error;
-        }
+        this.end("page_close");
     }
 
     /** A count and three places; without them the error of the stream is thrown. */
@@ -231,10 +187,6 @@ export class Engine {
         return new Int32Array(this.buffer, count > 0 ? at : 0, count).slice();
     }
 
-    private doubles(at: number, count: number): Float64Array {
-        return new Float64Array(this.buffer, count > 0 ? at : 0, count).slice();
-    }
-
     private copied(at: number, count: number): Uint8Array {
         return new Uint8Array(this.buffer, at, count).slice();
     }
@@ -242,16 +194,6 @@ export class Engine {
     private text(at: number): string {
         const bytes = new Uint8Array(this.buffer, at);
         return TEXTS.decode(bytes.slice(0, bytes.indexOf(0)));
-    }
-
-    private lent<Result>(size: number, work: (at: number) => Result): Result {
-        const at = this.call("page_take", size);
-        if (at === 0) throw new LimitError(`this machine has no ${size} bytes of memory for the decoder`);
-        try {
-            return work(at);
-        } finally {
-            if (this.exports) this.call("page_give", at, size);
-        }
     }
 
     private filled<View>(kind: Kind<{ slice(): View }>, count: number, fill: (at: number, count: number) => number): View {

@@ -1,39 +1,84 @@
 /** Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else. */
 import { required } from "./required";
 import { crc32 } from "./checksums";
-import { Budget, LIGHT_COST, meshCost } from "./budget";
-import { decodeConnectivity } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./events";
-import { BsmError, CorruptError, UnsupportedError } from "./errors";
-import { Grid } from "./grid";
+import { BsmError, CorruptError, errorLike, UnsupportedError } from "./errors";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
-import { Memory, type Ints } from "./memory";
+import { errorName, Memory } from "./memory";
 import type { Packet } from "./packets";
 import { Reader } from "./reader";
 import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 
 export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
+/** The functions of engine/wasm/light.c, which decode what the reader gives them. */
+class Light extends Memory {
+    constructor(kernels: Kernels, limits: Limits) {
+        super(kernels, limits, "light_open");
+    }
+
+    /** Charge work, and the bytes that ask for it (M 14.3). */
+    charge(work: number, received: number): void {
+        this.check(this.call("light_charge", work, received));
+    }
+
+    begin({ vertices, faces, grid, lattice, corner, center, scale }: Header): void {
+        const numbers = [vertices, faces, scale, ...grid, ...center, ...(corner.length ? corner : [0, 0, 0]), ...(lattice.length ? lattice : [0, 0])];
+        this.lent(8 * numbers.length, (at) => {
+            new Float64Array(this.buffer, at).set(numbers);
+            this.call("light_begin", at);
+        });
+    }
+
+    faces(payload: Uint8Array, count: number): Int32Array {
+        const at = this.given("light_faces", payload);
+        return new Int32Array(this.buffer, at, 3 * count).slice();
+    }
+
+    /** Where the positions are, once those of `count` vertices from `first` on are there. */
+    decode(payload: Uint8Array, first: number, count: number): number {
+        return this.given("light_positions", payload, first, count);
+    }
+
+    positions(at: number, count: number): Float64Array {
+        return this.doubles(at, 3 * count);
+    }
+
+    /** Leave the memory to the next decoder. */
+    release(): void {
+        this.end("light_close");
+    }
+
+    private given(name: string, payload: Uint8Array, ...more: number[]): number {
+        return this.lent(payload.length, (at) => {
+            new Uint8Array(this.buffer, at).set(payload);
+            return this.check(this.call(name, at, payload.length, ...more));
+        });
+    }
+
+    private check(result: number): number {
+        if (!result) throw errorLike({ name: errorName(this.call("light_error")), problem: "", place: {} });
+        return result;
+    }
+}
+
 /** Takes the bytes of a stream as they come, and gives events as soon as they can be known. */
 export class Decoder {
-    private readonly limits: Limits;
     private readonly reader: Reader;
-    private readonly memory: Memory;
-    private readonly budget: Budget;
+    private readonly light: Light;
     private readonly queue: Event[] = [];
     private error?: BsmError;
     private header?: Header;
-    private faces?: Ints;
-    private grid?: Grid;
+    private faces?: Int32Array;
+    private places = 0;
     private chunks = 0;
 
-    constructor(private readonly kernels: Kernels, limits: Partial<Limits> = {}) {
-        this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.memory = new Memory(kernels.borrow(), this.limits.memory);
-        this.budget = new Budget(this.limits);
-        this.reader = new Reader(this.limits, this.budget.charge.bind(this.budget));
+    constructor(kernels: Kernels, given: Partial<Limits> = {}) {
+        const limits = { ...DEFAULT_LIMITS, ...given };
+        const light = (this.light = new Light(kernels, limits));
+        this.reader = new Reader(limits, light.charge.bind(light));
     }
 
     /** Take more bytes of the stream. */
@@ -70,21 +115,28 @@ export class Decoder {
 
     /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
     release(): void {
-        this.kernels.take(this.memory.exports);
+        this.light.release();
     }
 
     /** Decode the rest of a complete stream. */
     finish(): Mesh {
         this.receiveEof();
         while (this.nextEvent() !== END_OF_STREAM);
-        return { positions: required(this.grid).positions, faces: required(this.faces).view.slice(), attributes: [] };
+        return { positions: this.positions, faces: required(this.faces), attributes: [] };
+    }
+
+    private get positions(): Float64Array {
+        return this.light.positions(this.places, required(this.header).vertices);
     }
 
     private accept(packet: Packet): void {
         switch (packet.type) {
-            case "header": return this.acceptHeader(packet.header);
+            case "header":
+                this.header = packet.header;
+                this.light.begin(packet.header);
+                return void this.queue.push(packet);
             case "metadata": return void this.queue.push(packet);
-            case "connectivity": return this.acceptConnectivity(packet.data);
+            case "connectivity": return void (this.faces = this.light.faces(packet.data, required(this.header).faces));
             case "order": throw new UnsupportedError("this build decodes no original order; bsm.js does");
             case "grid": return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
@@ -96,35 +148,19 @@ export class Decoder {
     /** Compare the checksum of positions, if the stream has one (F 5.10). */
     private check(expected?: number): void {
         if (expected === undefined) return;
-        const places = required(this.grid).positions.map((place) => place + 0); // -0 counts as 0
+        const places = this.positions.map((place) => place + 0); // -0 counts as 0
         if (crc32(new Uint8Array(places.buffer)) !== expected) throw new CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw");
     }
 
-    private acceptHeader(header: Header): void {
-        this.header = header;
-        this.queue.push({ type: "header", header });
-    }
-
-    private acceptConnectivity(data: Uint8Array): void {
-        const header = required(this.header);
-        this.faces = decodeConnectivity(this.memory, data, header, this.limits);
-        this.budget.grant(header.vertices);
-        this.budget.charge(meshCost(header.vertices, header.faces, data.length), data.length);
-    }
-
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
-        const grid = (this.grid ??= this.begunGrid());
-        this.budget.charge(LIGHT_COST.frame(data.length), data.length);
-        const changes = grid.decode(first, count, data);
-        this.queue.push({ type: "block", index: this.chunks++, ...changes });
-    }
-
-    private begunGrid(): Grid {
-        const { vertices, faces } = required(this.header);
-        const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
-        this.queue.push({ type: "connectivity", faces: required(this.faces).view.slice(), vertices, loose });
-        this.budget.charge(LIGHT_COST.whole(vertices, faces));
-        return new Grid(this.memory, required(this.faces), required(this.header));
+        if (first === 0) {
+            const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
+            this.queue.push({ type: "connectivity", faces: required(this.faces).slice(), vertices: required(this.header).vertices, loose });
+        }
+        this.places = this.light.decode(data, first, count);
+        const vertices = Int32Array.from({ length: count }, (_, i) => first + i);
+        const positions = this.light.positions(this.places + 24 * first, count);
+        this.queue.push({ type: "block", index: this.chunks++, vertices, positions, final: new Uint8Array(count).fill(1) });
     }
 }
 

@@ -39,9 +39,3 @@ export function checkLimit(limits: Limits, name: keyof Limits, value: number): v
         throw new LimitError(`${name} = ${value} is over the limit of ${limits[name]}; raise it if you trust the source`);
     }
 }
-
-/** Throw `LimitError` if a stream of these vertices and received bytes needs more memory (M 14.8). */
-export function checkMemory(limits: Limits, value: number, vertices: number, received: number): void {
-    const blockMemory = limits.blockMemory + limits.blockMemoryPerVertex * vertices + limits.memoryPerByte * received;
-    checkLimit({ ...limits, blockMemory }, "blockMemory", value);
-}

@@ -1,165 +1,75 @@
-/**
- * The kernels in C, compiled to WebAssembly, and the memory that they work on.
- *
- * Memory is a stack: what is allocated behind a mark is given back as a whole, and everything that a stream can ask for
- * is counted against one limit before it exists. An array is known by its place, since its view changes where memory
- * grows.
- */
+/** Calls of C that was compiled to WebAssembly, and the memory that it works on. */
 import { LimitError } from "./errors";
-import type { Exports } from "./kernels";
+import type { Exports, Kernels } from "./kernels";
+import { DEFAULT_LIMITS, type Limits } from "./limits";
 
-type Numbers = Uint8Array | Int32Array | Uint32Array | BigInt64Array | Float64Array;
+const NAMES: Record<number, string> = { 3: "Format", 4: "Corrupt", 5: "Unsupported", 6: "Limit", 7: "Numeric", 8: "Limit", 12: "Truncated" };
 
-interface Kind<View extends Numbers> {
-    readonly BYTES_PER_ELEMENT: number;
-    new (buffer: ArrayBufferLike, offset: number, length: number): View;
+/** The name of the error that a status of engine/bsmdec.h means. */
+export function errorName(status: number): string {
+    return `${NAMES[status] ?? "Bsm"}Error`;
 }
 
-/** What a kernel takes: int64, double, arrays as the structures of bitstream/kernel.h, structures of all these. */
-export type Argument = bigint | number | Place<Numbers> | readonly Argument[];
-
-/** An array in the memory of the kernels; of two dimensions if `columns` is given. */
-export class Place<View extends Numbers> {
-    private numbers?: View;
-
-    constructor(
-        private readonly memory: Memory,
-        readonly kind: Kind<View>,
-        readonly pointer: number,
-        readonly length: number,
-        readonly columns?: number,
-    ) {}
-
-    /** Its numbers, until the next allocation. */
-    get view(): View {
-        const { buffer } = this.memory;
-        const { numbers } = this;
-        if (numbers?.buffer === buffer) return numbers;
-        return (this.numbers = new this.kind(buffer, this.pointer, this.length));
-    }
-
-    get rows(): number {
-        return this.columns === undefined ? this.length : this.columns && this.length / this.columns;
-    }
-
-    /** The numbers from `start` on, as an array of their own shape. */
-    part(start: number, length: number, columns?: number): Place<View> {
-        if (start < 0 || length < 0 || start + length > this.length) throw new RangeError("a part outside of its array");
-        return new Place(this.memory, this.kind, this.pointer + start * this.kind.BYTES_PER_ELEMENT, length, columns);
-    }
-}
-
-export type Bytes = Place<Uint8Array>;
-export type Ints = Place<Int32Array>;
-export type Words = Place<Uint32Array>;
-export type Longs = Place<BigInt64Array>;
-export type Doubles = Place<Float64Array>;
-
-const PAGE = 65536;
-const LINE = 16;
-const ARGUMENT_BYTES = 1024;
-const MISUSED = -(2n ** 63n);
-
-/** A stack of arrays, and the kernels that take them. */
 export class Memory {
-    buffer: ArrayBuffer;
-    private readonly frame: number;
-    private top: number;
+    /** Undefined once it is given back, or has failed by itself: nothing is called then. */
+    private exports?: Exports;
 
-    constructor(readonly exports: Exports, private readonly limit: number) {
-        this.buffer = exports.memory.buffer;
-        this.frame = align((exports.__heap_base as WebAssembly.Global).value as number);
-        this.top = this.frame + ARGUMENT_BYTES;
-        this.reserve(this.top);
-        this.run("make_tables");
-    }
-
-    /** What `work` returns; all that it allocates is given back. */
-    scratch<Result>(work: () => Result): Result {
-        const mark = this.top;
-        try {
-            return work();
-        } finally {
-            this.top = mark;
-        }
-    }
-
-    bytes(length: number): Bytes {
-        return this.place(Uint8Array, length);
-    }
-
-    ints(length: number, columns?: number): Ints {
-        return this.place(Int32Array, length, columns);
-    }
-
-    words(length: number): Words {
-        return this.place(Uint32Array, length);
-    }
-
-    longs(length: number, columns?: number): Longs {
-        return this.place(BigInt64Array, length, columns);
-    }
-
-    doubles(length: number, columns?: number): Doubles {
-        return this.place(Float64Array, length, columns);
-    }
-
-    call(name: string, ...args: Argument[]): number {
-        const result = this.invoke(name, args);
-        if (result === MISUSED) throw new RangeError(`arrays that do not fit together were given to ${name}`);
-        return Number(result);
-    }
-
-    run(name: string, ...args: Argument[]): number {
-        return Number(this.invoke(name, args) ?? 0);
-    }
-
-    private invoke(name: string, args: Argument[]): unknown {
-        const view = new DataView(this.buffer, this.frame, ARGUMENT_BYTES);
-        let at = 0;
-        const write = (argument: Argument): void => {
-            if (typeof argument === "bigint") view.setBigInt64(at, argument, true);
-            else if (typeof argument === "number") view.setFloat64(at, argument, true);
-            else if (argument instanceof Place) return writeArray(argument);
-            else return argument.forEach(write);
-            at += 8;
-        };
-        const writeArray = ({ pointer, rows, columns }: Place<Numbers>): void => {
-            view.setUint32(at, pointer, true);
-            for (const size of columns === undefined ? [rows] : [rows, columns]) view.setBigInt64((at += 8), BigInt(size), true);
-            at += 8;
-        };
-        const passed = args.map((argument) => {
-            if (typeof argument === "bigint" || typeof argument === "number") return argument;
-            const start = at;
-            write(argument);
-            return this.frame + start;
+    /** Call the first function, `begin`, with the limits and more. */
+    constructor(private readonly kernels: Kernels, limits: Partial<Limits>, begin: string, ...more: number[]) {
+        this.exports = kernels.borrow();
+        const l = { ...DEFAULT_LIMITS, ...limits };
+        const bounds = [
+            l.vertices, l.faces, l.blocks, l.blockSize, l.coefficients, l.frames, l.gopFrames, l.frameBytes, l.metadataBytes, l.attributes,
+            l.attributeValues, l.sequenceBytes, l.memory, l.work, l.workPerVertex, l.workPerByte, Infinity, l.blockMemory,
+            l.blockMemoryPerVertex, l.memoryPerByte, Infinity, l.memory,
+        ];
+        const opened = this.lent(8 * bounds.length, (at) => {
+            new Float64Array(this.buffer, at).set(bounds);
+            return this.call(begin, at, ...more);
         });
-        return (this.exports[name] as (...args: (bigint | number)[]) => unknown)(...passed);
+        if (!opened) throw new LimitError("this machine has no memory for a decoder");
     }
 
-    private place<View extends Numbers>(kind: Kind<View>, length: number, columns?: number): Place<View> {
-        const pointer = this.top;
-        const end = align(pointer + length * kind.BYTES_PER_ELEMENT);
-        this.reserve(end);
-        this.top = end;
-        return new Place(this, kind, pointer, length, columns);
+    protected get buffer(): ArrayBuffer {
+        return this.own.memory.buffer;
     }
 
-    private reserve(end: number): void {
-        if (end > this.limit) throw new LimitError(`memory = ${end} bytes is over the limit of ${this.limit}`);
-        const size = this.buffer.byteLength;
-        if (end <= size) return;
+    protected call(name: string, ...args: number[]): number {
+        const { own } = this;
         try {
-            // By a quarter at least: each time all views of it are lost.
-            this.exports.memory.grow(Math.ceil(Math.max(end - size, Math.min(size / 4, this.limit - size)) / PAGE));
-            this.buffer = this.exports.memory.buffer;
-        } catch {
-            throw new LimitError(`this machine has no ${end} bytes of memory for the decoder`);
+            return (own[name] as (...args: number[]) => number)(...args) >>> 0;
+        } catch (error) {
+            this.exports = undefined; // memory that a trap has left in disorder is never used again
+            throw error;
         }
     }
-}
 
-function align(address: number): number {
-    return Math.ceil(address / LINE) * LINE;
+    protected doubles(at: number, count: number): Float64Array {
+        return new Float64Array(this.buffer, count > 0 ? at : 0, count).slice();
+    }
+
+    /** The result of `work` with some bytes of the memory, which are free afterwards. */
+    protected lent<Result>(size: number, work: (at: number) => Result): Result {
+        const at = this.call("page_take", size);
+        if (at === 0) throw new LimitError(`this machine has no ${size} bytes of memory for the decoder`);
+        try {
+            return work(at);
+        } finally {
+            if (this.exports) this.call("page_give", at, size);
+        }
+    }
+
+    /** Call the last function, and leave the memory to the next decoder. */
+    protected end(name: string): void {
+        const { exports } = this;
+        if (!exports) return;
+        this.call(name);
+        this.kernels.take(exports);
+        this.exports = undefined;
+    }
+
+    private get own(): Exports {
+        if (!this.exports) throw new Error("this decoder was released");
+        return this.exports;
+    }
 }

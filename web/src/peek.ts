@@ -1,5 +1,5 @@
 /** The first bytes of a stream, as far as they tell which decoder it needs. */
-import { HEADER_FIELDS, PREAMBLE } from "./constants";
+import { HEADER_KEYS, PREAMBLE } from "./constants";
 import { BsmError } from "./errors";
 import { parseMap } from "./maps";
 import { parseVarint } from "./varint";
@@ -22,10 +22,10 @@ export function needOf(data: Uint8Array): Need | undefined {
         if (end > data.length) return data[0] === PREAMBLE[0] && tag.value % 16 === 1 ? undefined : { build: "whole", vertices: 0 };
         const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, value]) => [Number(key.value), value.type === "array" ? value.value[0] : value]));
         const first = (key: number): number => Number(header.get(key)?.value ?? 0);
-        const { vertices, paper, sequence, attributes, light } = HEADER_FIELDS;
-        const isPacked = first(paper.key) > 0;
-        const build = isPacked || header.has(attributes.key) ? "whole" : header.has(sequence.key) ? "moving" : first(light.key) === 1 ? "quick" : "small";
-        return { build, vertices: first(vertices.key) };
+        const { vertices, paper, sequence, attributes, light } = HEADER_KEYS;
+        const isPacked = first(paper) > 0;
+        const build = isPacked || header.has(attributes) ? "whole" : header.has(sequence) ? "moving" : first(light) === 1 ? "quick" : "small";
+        return { build, vertices: first(vertices) };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;
         return { build: "whole", vertices: 0 };

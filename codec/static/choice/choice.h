@@ -54,6 +54,5 @@ int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double 
 int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps);
 int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
     ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Bytes wrong, Bytes open);
-int64_t count_bends(ConstInts2 bends, int64_t stride, Ints2 counts);
 
 #endif
