@@ -132,7 +132,6 @@ BASE = 0.36  # the step of blocks below a layer, over the square root of the lay
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
-ROOM = 1.8  # of steps that are within reach: their diagonal over the reach
 FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
 
 
@@ -265,8 +264,8 @@ class Refined:
         self._prepared, self._bounds, self._settled = prepared, bounds, settled
         self._spectral = Spectral(prepared, options, WIDEST)
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
-        reach = ROOM * float(bounds.reaches.min())
-        self.least, self.most = FINEST_LAYER, max(min(COARSEST, reach / math.sqrt(3.0)), FINEST_LAYER)
+        self._diagonal = 2.0 * float(bounds.reaches.min())
+        self.least, self.most = FINEST_LAYER, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), FINEST_LAYER)
 
     @cached_property
     def first(self) -> float:
@@ -306,7 +305,7 @@ class Refined:
     def _evened(self, step: float) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
         base, reaches = self._base, self._bounds.reaches
-        room = (ROOM * float(reaches.min()) / step) ** 2 - 1.0
+        room = (self._diagonal / step) ** 2 - 1.0
         ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), RATIO)
         layer = Layer(single(step), ratio)
         steps, known = base.expected_steps(layer), partial(base.known_steps, layer)

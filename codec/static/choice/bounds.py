@@ -84,10 +84,16 @@ class Candidate:
     make: Callable[[], Draft]
     unfold: Callable[[], "Candidate | None"] = lambda: None
     settled: bool = False  # whether levels are kept within reach, whatever the step is
+    guess: Callable[[], float] | None = None
 
     @cached_property
     def draft(self) -> Draft:
         return self.make()
+
+    @cached_property
+    def size(self) -> float:
+        """About how many bytes the stream takes."""
+        return self.draft.size if self.guess is None else self.guess()
 
 
 def turned(candidate: Candidate) -> Candidate | None:

@@ -4,6 +4,7 @@ import math
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -20,15 +21,15 @@ from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, t
 from bsm.codec.static.choice.shaping import SAMPLE, Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import Grid, encode_grid
+from bsm.codec.static.ways.grid import Grid, encode_grid, sampled_ratio
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
 
 
-def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
-    """The stream of places on a grid, shape (n, 3), none negative."""
-    grid = replace(grid, light=prepared.light)
+def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False) -> Draft:
+    """The stream of places on a grid, shape (n, 3), none negative; with the small model, which is quick, if `light`."""
+    grid = replace(grid, light=light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places))
     return Draft(header, body, grid.positions(places), places)
@@ -172,7 +173,8 @@ class Gridded:
 
     @cached_property
     def first(self) -> float:
-        return min(self._bounds.first_step, COARSEST)
+        # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
+        return min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
 
     def at(self, step: float) -> Candidate:
         return self.begun if math.isclose(step, self.first) else self._made(step)
@@ -215,7 +217,8 @@ class Gridded:
             yield self.at(step / self._prepared.units.scale)
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
+        coded, step = partial(grid_draft, self._prepared, grid, places), grid.step / self._prepared.units.scale
         positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))
-        return Candidate(
-            grid.step / self._prepared.units.scale, positions, lambda: grid_draft(self._prepared, grid, places)
-        )
+        sampled = partial(sampled_ratio, self._prepared.mesh.faces, grid, places, SAMPLE)
+        few = len(places) <= SAMPLE or self._prepared.light
+        return Candidate(step, positions, coded, guess=None if few else lambda: coded(light=True).size * sampled())

@@ -63,8 +63,8 @@ class Search:
         grid = Gridded(self._prepared, bounds)
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
         for way in self._ways(bounds, grid):
-            least = min((candidate.draft.size for candidate in kept), default=math.inf)
-            if isinstance(way, Gridded) and kept and SHAPED * grid.begun.draft.size > least:
+            least = min((candidate.size for candidate in kept), default=math.inf)
+            if isinstance(way, Gridded) and kept and SHAPED * grid.begun.size > least:
                 continue
             found = widest(way, bounds, least, tries=self._tries)
             kept += [] if found is None else [found]
@@ -138,7 +138,7 @@ class Search:
         if bounds.contract.look == math.inf:
             blocks.append(Plain(prepared, options, bounds))
         with suppress(LimitError):  # blocks that decoders would refuse
-            if grid.begun.draft.size < blocks[0].at(max(blocks[0].first, blocks[0].least)).draft.size:
+            if grid.begun.size < blocks[0].at(max(blocks[0].first, blocks[0].least)).size:
                 return grids + blocks
         return blocks + grids
 
@@ -151,7 +151,7 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
     def at(step: float) -> float | None:
         candidate, sure = way.at(step), math.inf
         if most_bytes < math.inf:  # a step twice as wide saves three bits of a vertex at most, half as wide costs one
-            bits = math.log(2.0) * 8.0 * (candidate.draft.size - most_bytes) / len(candidate.positions)
+            bits = math.log(2.0) * 8.0 * (candidate.size - most_bytes) / len(candidate.positions)
             sure = -bits * STEEPEST if bits < 0.0 else -bits / (3.0 * STEEPEST)
         over, folded = bounds.excess(candidate), bounds.folds(candidate.positions)
         if over <= 0.0 and bounds.keeps(candidate.positions):
@@ -163,5 +163,5 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
         slack = 2.0 * SLACK if isinstance(way, Refined) and bounds.contract.look < math.inf else SLACK
         fine = SLACK / 4.0 if tries > TRIES else slack
         secant(at, min(max(way.first, way.least), way.most), way.least, way.most, tries, slack=fine)
-    smallest = min(kept, key=lambda found: (found[0], found[1].draft.size), default=(False, None))[1]
-    return None if smallest is None or smallest.draft.size >= most_bytes else smallest
+    smallest = min(kept, key=lambda found: (found[0], found[1].size), default=(False, None))[1]
+    return None if smallest is None or smallest.size >= most_bytes else smallest
