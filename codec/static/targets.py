@@ -221,10 +221,11 @@ def secant(
 ) -> None:
     """Try numbers, to come to about the largest one whose excess is at most 0; None says that no other is wanted."""
     low, high = math.log(least), math.log(most)
-    at, slope, before = min(max(math.log(first), low), high), rise, (math.nan, math.nan)
+    step, slope, before = min(max(first, least), most), rise, (math.nan, math.nan)
+    at = math.log(step)
     tried: list[tuple[float, float]] = []
     for _ in range(tries):
-        value = excess(math.exp(at))
+        value = excess(step)
         if value is None:
             return
         if before[0] != at:
@@ -246,6 +247,7 @@ def secant(
             share = (-slack / 2.0 - good[1]) / (bad[1] - good[1])
             at = good[0] + min(max(share, NEAREST), 1.0 - NEAREST) * (bad[0] - good[0])
         at = min(max(at, low), high)
+        step = math.exp(at)
 
 
 Found = TypeVar("Found", bound=Outcome)

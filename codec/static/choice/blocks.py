@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -266,17 +266,11 @@ class Refined:
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = FINEST_LAYER, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), FINEST_LAYER)
+        self.at = lru_cache(1)(self._made)
 
     @cached_property
     def first(self) -> float:
         return self._bounds.first_step / math.sqrt(2.0)  # all of it is along normals, of a grid's about half
-
-    def at(self, step: float) -> Candidate:
-        return self._begun if math.isclose(step, self.first) else self._made(step)
-
-    @cached_property
-    def _begun(self) -> Candidate:
-        return self._made(self.first)
 
     def _made(self, step: float) -> Candidate:
         base = self._base

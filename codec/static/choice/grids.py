@@ -4,7 +4,7 @@ import math
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -170,19 +170,12 @@ class Gridded:
         self.least = max(float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4), smallest)
         self.most = COARSEST
         self._bounds = bounds
+        self.at = lru_cache(1)(self._made)
 
     @cached_property
     def first(self) -> float:
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
         return min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
-
-    def at(self, step: float) -> Candidate:
-        return self.begun if math.isclose(step, self.first) else self._made(step)
-
-    @cached_property
-    def begun(self) -> Candidate:
-        """The result of the first step."""
-        return self._made(self.first)
 
     def _made(self, step: float) -> Candidate:
         unit = self._prepared.units.scale
@@ -211,10 +204,13 @@ class Gridded:
         return replace(candidate, unfold=unfold)
 
     def made(self) -> Iterator[Candidate]:
-        """The grid that the mesh was made on."""
-        step = made_on(self._prepared.mesh.positions)
+        """The grid that the mesh was made on, in single precision; and exactly, where one holds all positions."""
+        positions = self._prepared.mesh.positions
+        step = made_on(positions)
         if step is not None:
             yield self.at(step / self._prepared.units.scale)
+            exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step), np.float64)
+            yield from () if exactly is None else (self._candidate(*exactly),)
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         coded, step = partial(grid_draft, self._prepared, grid, places), grid.step / self._prepared.units.scale

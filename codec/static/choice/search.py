@@ -64,7 +64,7 @@ class Search:
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
         for way in self._ways(bounds, grid):
             least = min((candidate.size for candidate in kept), default=math.inf)
-            if isinstance(way, Gridded) and kept and SHAPED * grid.begun.size > least:
+            if isinstance(way, Gridded) and kept and SHAPED * grid.at(grid.first).size > least:
                 continue
             found = widest(way, bounds, least, tries=self._tries)
             kept += [] if found is None else [found]
@@ -138,7 +138,7 @@ class Search:
         if bounds.contract.look == math.inf:
             blocks.append(Plain(prepared, options, bounds))
         with suppress(LimitError):  # blocks that decoders would refuse
-            if grid.begun.size < blocks[0].at(max(blocks[0].first, blocks[0].least)).size:
+            if grid.at(grid.first).size < blocks[0].at(max(blocks[0].first, blocks[0].least)).size:
                 return grids + blocks
         return blocks + grids
 
