@@ -1,9 +1,9 @@
 """`python -m tools.attack doors`: do others read in a file what comes back from a stream of it?
 
 Each file is read, encoded with `lossless` (or `grid14`, where single precision is too coarse), decoded and compared
-with what trimesh, meshio and PyMeshLab read: area, orientation, places, colors, texture coordinates and normals as
-moments, which depend neither on the order of faces nor on the cuts of polygons; the number of triangles; and names of
-materials. A difference is right if a note of ours names it, or explained in `doors.json`, or it is a finding.
+with what trimesh, meshio, PyMeshLab, Open3D and usd-core read: area, orientation, places, colors, texture coordinates
+and normals as moments, which depend neither on the order of faces nor on the cuts of polygons; the number of triangles;
+and names of materials. A difference is right if a note of ours names it, or explained in `doors.json`, or a finding.
 
 Files are those of packages of Debian and PyPI, listed in `doors.json` with licence and SHA-256, and of folders.
 """
@@ -12,14 +12,16 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import importlib
 import json
-import os
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from dataclasses import dataclass, field
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -38,7 +40,9 @@ Array = npt.NDArray[Any]
 LIST = Path(__file__).parent / "doors.json"
 EXACT, ON_GRID = 1e-5, 1e-3  # by how much moments may differ, relative to what they add up
 LARGEST = 3_000_000  # bytes of a file
-KINDS = ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf", "vtp")
+USD = ("usd", "usda", "usdc", "usdz")
+KINDS = ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf", "vtp", *USD)
+SECONDS = 120  # that a reader may take for a file
 
 
 @dataclass
@@ -110,9 +114,7 @@ def of_trimesh(path: Path) -> Read:
         if "vertex_normals" in part._cache and np.array_equal(matrix, np.eye(4)):
             values.setdefault("normal", []).append(part.vertex_normals[faces])
     whole = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
-    groups = (
-        {*scene.geometry} if path.suffix.lower() in (".3mf", ".dae") and len(parts) == len(scene.geometry) > 1 else {}
-    )
+    groups = {*scene.geometry} if path.suffix.lower() == ".3mf" and len(parts) == len(scene.geometry) > 1 else {}
     return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"}, {*groups})
 
 
@@ -160,27 +162,84 @@ def of_open3d(path: Path) -> Read:
     return Read(np.asarray(mesh.vertices)[faces], values)
 
 
+def of_usd(path: Path) -> Read:
+    """Cut the polygons of a stage, at its first time, into fans."""
+    pxr = imported("pxr", "USD files are compared with usd-core", "usd")
+    usd, geom = (importlib.import_module(f"{pxr.__name__}.{name}") for name in ("Usd", "UsdGeom"))
+    stage = usd.Stage.Open(str(path))
+    code, triangles = usd.TimeCode(stage.GetStartTimeCode()), [np.zeros((0, 3, 3))]
+    cache = geom.XformCache(code)
+    for prim in usd.PrimRange(stage.GetPseudoRoot(), usd.TraverseInstanceProxies(usd.PrimDefaultPredicate)):
+        mesh, seen = geom.Mesh(prim), geom.Imageable(prim)
+        if (
+            not mesh
+            or seen.ComputeVisibility(code) == geom.Tokens.invisible
+            or seen.ComputePurpose() == geom.Tokens.guide
+        ):
+            continue
+        matrix = np.array(cache.GetLocalToWorldTransform(prim))
+        points = np.asarray(mesh.GetPointsAttr().Get(code), np.float64) @ matrix[:3, :3] + matrix[3, :3]
+        corners, first = np.asarray(mesh.GetFaceVertexIndicesAttr().Get(code)), 0
+        fans = []
+        for size in np.asarray(mesh.GetFaceVertexCountsAttr().Get(code)).tolist():
+            fans += [(corners[first], corners[first + i], corners[first + i + 1]) for i in range(1, size - 1)]
+            first += size
+        faces = np.array(fans, np.int64).reshape(-1, 3)
+        turned = (mesh.GetOrientationAttr().Get() == geom.Tokens.leftHanded) != (np.linalg.det(matrix[:3, :3]) < 0)
+        triangles.append(points[faces[:, ::-1] if turned else faces])
+    return Read(np.concatenate(triangles))
+
+
 OTHERS: dict[str, tuple[Callable[[Path], Read], tuple[str, ...]]] = {
     "trimesh": (of_trimesh, ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf")),
     "meshio": (of_meshio, ("ply", "obj", "stl", "off", "vtp")),
     "open3d": (of_open3d, ("ply", "stl", "off")),
     "pymeshlab": (of_pymeshlab, ("ply", "obj", "stl", "off", "dae", "3mf")),
+    "usd": (of_usd, USD),
 }
+
+
+def attempt(name: str, path: Path) -> Read | None:
+    """What a reader finds in a file; their own errors stay here, for with one comes the library."""
+    try:
+        return OTHERS[name][0](path)
+    except (Exception, SystemExit):  # they promise nothing about files that they do not like
+        return None
+
+
+class Apart:
+    """Readers in a process of their own, which may crash or hang; a crash is tried again, for it may be of before."""
+
+    def __init__(self) -> None:
+        self._pool: ProcessPoolExecutor | None = None
+
+    def read(self, name: str, path: Path) -> Read | None:
+        for _ in range(2):
+            self._pool = self._pool or ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=40)
+            try:
+                return self._pool.submit(attempt, name, path).result(SECONDS)
+            except (BrokenExecutor, TimeoutError):
+                for process in (self._pool._processes or {}).values():
+                    process.kill()
+                self._pool.shutdown(wait=False)
+                self._pool = None
+        return None
+
+    def close(self) -> None:
+        if self._pool is not None:
+            self._pool.shutdown()
+
+
 _WORDS = {"color": "color", "texcoord": "texture", "normal": "normal"}
 
 
-def compared(path: Path, readers: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+def compared(path: Path, readers: Sequence[str], apart: Apart) -> Iterator[tuple[str, str, str]]:
     """Who was compared with, with which result ("same", "noted" or "differs"), and the difference."""
     kind = path.suffix[1:].lower()
     theirs: dict[str, Read] = {}
-    for name in readers:
-        work, kinds = OTHERS[name]
-        if kind in kinds:
-            try:
-                theirs[name] = work(path)
-            except (Exception, SystemExit):  # they promise nothing about files that they do not like
-                continue
-    theirs = {name: read for name, read in theirs.items() if len(read.triangles)}
+    for name in (name for name in readers if kind in OTHERS[name][1]):
+        if (read := apart.read(name, path)) and len(read.triangles):
+            theirs[name] = read
     try:
         given = bsm.read_mesh(path)
         ours, notes, most = *coded(given.mesh), EXACT
@@ -326,9 +385,9 @@ def main() -> NoReturn:
         here = [path for path in sorted(folder.rglob("*")) if path.suffix[1:].lower() in KINDS]
         files += [(str(path.relative_to(folder)), path) for path in here if path.stat().st_size <= LARGEST]
     explained = json.loads(LIST.read_text())["explained"]
-    counts, findings = Counter[str](), 0
+    counts, findings, apart = Counter[str](), 0, Apart()
     for name, path in files:
-        for reader, result, difference in compared(path, args.readers):
+        for reader, result, difference in compared(path, args.readers, apart):
             why = next((why for key, why in explained.items() if key in f"{reader} {name}: {difference}"), "")
             result = "explained" if result == "differs" and why else result
             counts[result] += 1
@@ -336,7 +395,8 @@ def main() -> NoReturn:
                 findings += 1
                 print(f"{name}: {reader}: {difference}", flush=True)
     print(f"{len(files)} files; comparisons: {dict(counts)}; {findings} findings", flush=True)
-    os._exit(1 if findings else 0)  # PyMeshLab crashes where Python takes it down
+    apart.close()
+    sys.exit(1 if findings else 0)
 
 
 if __name__ == "__main__":

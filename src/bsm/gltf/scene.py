@@ -639,7 +639,8 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
         )
         for part, end in zip(parts, ends.tolist())
     )
-    whole = shapes.joined_parts(made, limits, document.received)
+    counts = [(len(part.base), len(part.faces)) for part in parts]
+    whole = shapes.joined_parts(made, counts, limits, document.received)
     absent = _absent_images(document)
     metadata: dict[str, Value] = {"up": "y", "unit": "meters", **_extras(document)}
     if any(number >= 0 for number in used):

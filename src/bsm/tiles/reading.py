@@ -1,6 +1,7 @@
 """Mesh files of any size, piece by piece: positions, faces, colors and normals as plain arrays on the disk."""
 
 import tempfile
+from codecs import BOM_UTF8
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
@@ -246,7 +247,7 @@ def _read_npz(given: Input, left_out: LeftOut) -> Pieces:
 
 
 def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
-    rest, seen = b"", 0
+    rest, seen = given.read(len(BOM_UTF8)).removeprefix(BOM_UTF8), 0
     with tempfile.TemporaryFile() as file:
         while data := given.read(_TEXT):
             text = rest + data

@@ -3,6 +3,7 @@
 import io
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import starmap
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -34,8 +35,11 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
             tags = [str(element.tag).rpartition("}")[2] for element in document.xmlnode.getroot().iter()]
             scene = _Scene(collada, beside)
             nodes = document.scene.nodes if document.scene is not None else ()
-            placed = _placed(collada, nodes, FREE_PARTS + len(data) // BYTES_OF_PART)
-            found = joined_parts((p for node, matrix in placed for p in scene.parts(node, matrix)), limits, len(data))
+            placed = list(_placed(collada, nodes, FREE_PARTS + len(data) // BYTES_OF_PART))
+            surfaces = [surface for node, matrix in placed for surface in scene.surfaces(node, matrix)]
+            shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
+            counts = [(len(shape.positions), max(len(shape.corners) - 2 * len(shape.sizes), 0)) for shape in shapes]
+            found = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
             about = document.assetInfo
             metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
             metadata["unit"] = f"{about.unitmeter} * meters" if about.unitmeter not in (None, 1.0) else "meters"
@@ -60,7 +64,8 @@ def _placed(collada: Any, nodes: Any, most: int) -> Iterator[tuple[Any, Doubles]
             count += len(node.children)
             if count > most:
                 raise LimitError(f"this DAE file places over {most:,} parts, the limit for its bytes")
-            waiting += [(child, matrix @ node.matrix) for child in reversed(node.children)]
+            moved = matrix @ node.matrix
+            waiting += [(child, moved) for child in reversed(node.children)]
 
 
 class _Scene:
@@ -72,23 +77,34 @@ class _Scene:
         self.images: dict[str, Value] = {}
         self.absent: dict[str, None] = {}
         self._numbers: dict[str, int] = {}
+        self._shapes: dict[int, Part] = {}
 
-    def parts(self, node: Any, matrix: Doubles) -> Iterator[Part]:
-        bound = {material.symbol: material.target for material in node.materials}
-        for primitive in node.geometry.primitives:
-            if isinstance(primitive, self._collada.lineset.LineSet) or primitive.vertex is None:
-                continue
-            material = bound.get(primitive.material)
-            name = None if material is None else str(material.id)
-            if name not in self.materials:
-                self.materials[name] = {} if material is None else self._words(material)
-            number = list(self.materials).index(name)
+    def surfaces(self, node: Any, matrix: Doubles) -> list[tuple[Any, Any, Doubles]]:
+        """The primitives with polygons of a node, each with the node and its matrix."""
+        lines = self._collada.lineset.LineSet
+        held = (p for p in node.geometry.primitives if not isinstance(p, lines) and p.vertex is not None)
+        return [(primitive, node, matrix) for primitive in held]
+
+    def shape(self, primitive: Any) -> Part:
+        """The polygons of a primitive, which may stand in several places."""
+        if id(primitive) not in self._shapes:
             sizes = np.asarray(getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64)
             index = np.asarray(primitive.index, np.int64).reshape(-1, primitive.index.shape[-1])
             rows, corners = np.unique(primitive.vertex_index, return_inverse=True)
             points = np.asarray(primitive.vertex, np.float64)[rows]
-            called, of_each = str(node.geometry.name or node.geometry.id), np.full(len(sizes), number)
-            yield Part(points, sizes, corners.reshape(-1), _columns(primitive, index), of_each, called).placed(matrix)
+            part = Part(points, sizes, corners.reshape(-1), _columns(primitive, index), np.zeros_like(sizes), "")
+            self._shapes[id(primitive)] = part
+        return self._shapes[id(primitive)]
+
+    def part(self, primitive: Any, node: Any, matrix: Doubles) -> Part:
+        bound = {material.symbol: material.target for material in node.materials}
+        material = bound.get(primitive.material)
+        name = None if material is None else str(material.id)
+        if name not in self.materials:
+            self.materials[name] = {} if material is None else self._words(material)
+        shape, number = self.shape(primitive), list(self.materials).index(name)
+        named = replace(shape, materials=shape.materials + number, name=str(node.geometry.name or node.geometry.id))
+        return named.placed(matrix)
 
     def _words(self, material: Any) -> Material:
         """A material in the words of libraries of OBJ, which are those of COLLADA."""

@@ -288,21 +288,21 @@ class Part:
         return replace(self, positions=self.positions @ linear.T + matrix[:3, 3], corners=corners, columns=columns)
 
 
-def joined_parts(given: Iterable[Part], limits: Limits, received: int) -> Polygons:
+def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limits: Limits, received: int) -> Polygons:
     """Join the parts of a scene, and say which faces are of which part, if there are several, and material.
 
-    Parts are counted as they come. Values that some have and others do not are zero there (white, for colors).
+    `counts` are the vertices and triangles of each, which are checked before any part is made. Values that some parts
+    have and others do not are zero there (white, for colors).
     """
-    parts: list[Part] = []
-    begin, triangles, kinds = [0], 0, set[tuple[str, str]]()
-    for part in given:
-        parts.append(part)
-        begin.append(begin[-1] + len(part.positions))
-        triangles += int(np.maximum(part.sizes - 2, 0).sum())
-        kinds |= {(column.name, column.domain) for column in part.columns}
-        require_count("vertices", begin[-1], limits)
-        require_count("faces", triangles, limits)
-        limits.check_memory(PER_JOINED * (1 + len(kinds)) * triangles + PER_PART * len(parts), begin[-1], received)
+    vertices, triangles = (sum(count[place] for count in counts) for place in range(2))
+    require_count("vertices", vertices, limits)
+    require_count("faces", triangles, limits)
+    memory = PER_JOINED * triangles + PER_PART * len(counts)
+    limits.check_memory(memory, vertices, received)
+    parts = list(given)
+    kinds = {(column.name, column.domain) for part in parts for column in part.columns}
+    limits.check_memory(memory + PER_JOINED * len(kinds) * triangles, vertices, received)
+    begin = np.cumsum([0, *(len(part.positions) for part in parts)])
     nothing = np.empty(0, np.int64)
     rows: list[dict[Domain, int]] = [
         {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)} for part in parts

@@ -1,6 +1,7 @@
 """STL: triangles without common vertices, binary or text."""
 
 import re
+from codecs import BOM_UTF8
 
 import numpy as np
 
@@ -22,7 +23,7 @@ _UNKNOWN = (0, 0xFFFFFFFF)  # numbers of triangles by programs that did not know
 def is_text(head: bytes, size: int | None) -> bool:
     """Return whether an STL is text; binary files that begin with "solid" have zeros or the right size."""
     claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little") if len(head) >= HEAD else -1
-    if size == HEAD + RECORD.itemsize * claimed or head.lstrip()[:5].lower() != b"solid":
+    if size == HEAD + RECORD.itemsize * claimed or head.removeprefix(BOM_UTF8).lstrip()[:5].lower() != b"solid":
         return False
     return b"\0" not in head[:1024]
 

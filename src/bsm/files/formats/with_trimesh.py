@@ -148,7 +148,8 @@ def _polygons(
             points, sizes = np.asarray(mesh.vertices, np.float64), np.full(len(faces), 3)
             yield Part(points, sizes, faces.reshape(-1), _columns(mesh), materials, name).placed(matrix)
 
-    whole = joined_parts(made(), limits, received)
+    counts = [(len(mesh.vertices), len(mesh.faces)) for mesh in meshes]
+    whole = joined_parts(made(), counts, limits, received)
     metadata, left = _metadata(meshes, of_scene)
     named = {} if _NO_NAMES.fullmatch(str(whole.metadata.get("name", ""))) else whole.metadata
     return replace(whole, metadata={**named, **metadata, **of_materials}, dropped=tuple(left))

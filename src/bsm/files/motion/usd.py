@@ -557,16 +557,21 @@ class _Stage:
     def mesh(self, time: float) -> shapes.MeshFile:
         """The mesh at a time, with everything; polygons are cut into triangles."""
         geom, code, materials = self.pxr.UsdGeom, self.pxr.Usd.TimeCode(time), self._materials
-        cache, made = geom.XformCache(code), []
-        for part in self.parts:
+        cache = geom.XformCache(code)
+
+        def made(part: Any) -> shapes.Part:
             shape = part.shape
             mirrored = np.linalg.det(part.matrix(code, cache)[:3, :3]) < 0.0
             order = shapes.turned_corners(shape.counts, np.full(len(shape.counts), shape.left_handed != mirrored))
             columns = [c if c.indices is None else replace(c, indices=c.indices[order]) for c in shape.columns]
             numbers = materials.of_faces(part.prim, len(shape.counts), shape.time)
             corners, name = shape.corners[order], part.name if len(self.parts) > 1 else part.prim.GetName()
-            made.append(shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name))
-        found = shapes.joined_parts(made, self._limits, 1 << 62)
+            return shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name)
+
+        counts = [
+            (part.shape.vertices, max(len(part.shape.corners) - 2 * len(part.shape.counts), 0)) for part in self.parts
+        ]
+        found = shapes.joined_parts(map(made, self.parts), counts, self._limits, 1 << 62)
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
