@@ -189,17 +189,14 @@ def _of_polygons(
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:
     """Return the sizes and corners of polygons in a flat list, where the number of corners precedes each polygon."""
-    # Where the next polygon would begin if one began at each place; twice as many steps in each round.
-    jump = np.append(np.minimum(np.arange(1, len(flat) + 1) + np.maximum(flat, 0), len(flat)), len(flat))
-    starts = np.zeros(1, np.int64)
-    while jump[0] < len(flat):
-        starts = np.append(starts, jump[starts])
-        jump = jump[jump]
-    starts = np.unique(np.append(starts, jump[starts]))[:-1]
+    starts, at = [], 0
+    while 0 <= at < len(flat):
+        starts.append(at)
+        at += 1 + max(int(flat[at]), 0)
     sizes = flat[starts]
-    if (sizes < 0).any() or starts[-1] + 1 + sizes[-1] != len(flat):
+    if (sizes < 0).any() or at != len(flat):
         raise MeshError("flat faces must be a count followed by as many vertices, for each face")
-    return sizes, flat[ranges(starts + 1, sizes)]
+    return sizes, flat[ranges(np.array(starts) + 1, sizes)]
 
 
 # ------------------------------------------------------------------------------------------- beside points and faces

@@ -4,17 +4,16 @@ import importlib.util
 import io
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
-from urllib.parse import unquote
 
 import numpy as np
 
 from bsm.bitstream.errors import BsmError, FormatError, MeshError, how_to_install, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
-from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
+from bsm.files.formats.metadata import Material, Value, described, kind_of_image
 from bsm.files.formats.placed import placed_triangles
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
 from bsm.files.room import Doubles
@@ -42,11 +41,10 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         complete = all(map(importlib.util.find_spec, ("lxml", "networkx", "collada")))
         more = "" if complete else f" (trimesh reads 3MF, DAE and others after: {how_to_install('formats')})"
         raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}; {_WAY}")
-    resolver = _Resolver(Beside(Path(path).resolve().parent if path else None, limits.metadata_bytes))
     try:
         with np.errstate(all="ignore"):  # a later check refuses infinite values
             expected, left_out = placed_triangles(data, limits) if kind == "3mf" else (None, ())
-            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False, resolver=resolver)
+            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
             found = joined(scene, limits, len(data))
         if expected not in (None, len(found.sizes)):
             raise MeshError(f"trimesh gives {len(found.sizes)} of the {expected} triangles that this 3MF file places")
@@ -57,28 +55,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     metadata = dict(found.metadata)
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file
-    notes = [f"{name} was left out: {why}" for name, why in resolver.absent.items()]
-    return replace(found, metadata=metadata, notes=(*found.notes, *notes), dropped=(*found.dropped, *left_out))
-
-
-@dataclass
-class _Resolver:
-    """What trimesh asks for the files beside a mesh."""
-
-    beside: Beside
-    absent: dict[str, str] = field(default_factory=dict)
-
-    def get(self, name: str) -> bytes:
-        found = self.beside.read(unquote(name))
-        if isinstance(found, str):
-            self.absent[name] = found
-            raise ValueError(found)
-        return found
-
-    __getitem__ = get
-
-    def namespaced(self, _: str) -> "_Resolver":
-        return self
+    return replace(found, metadata=metadata, dropped=(*found.dropped, *left_out))
 
 
 def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
