@@ -11,7 +11,6 @@ from bsm.bitstream.errors import counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
-from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.causes import Grid
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import NO_OUTLIERS, Outliers, find_outliers
@@ -20,7 +19,7 @@ from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.recipe import RAYS, Patient, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Forecast, Progress, Rehearsal, discrepant, silent
-from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
+from bsm.codec.denoise.safety import judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
@@ -85,9 +84,7 @@ STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flatteni
 LEFT_UNEVEN = 0.55  # share of the angle that stays then
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
-LEARNT, LEARNT_MORE = 0.4, 0.025
-"""Share of the learnt normals in the mean with those of the recipes; and movement over noise with them, above that
-without them, from which on they are left out."""
+LEARNT = 0.4  # share of the learnt normals in the mean with those of the recipes
 SLIDING = 0.6  # noise across the normals, over noise along them, from which on vertices slide along the surface
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
@@ -110,7 +107,6 @@ class AutomaticChoice:
     noise: NoiseLevel
     untreated: float
     expected: float
-    rehearsals: int
     learnt: float = 0.0
     outliers: int = 0
     ripples: tuple[float, ...] = ()
@@ -155,7 +151,7 @@ class AutomaticChoice:
 def calm(positions: Positions, patient: Patient) -> tuple[Positions, Outliers, Ripples, Finding]:
     """The positions, shape (n, 3), with outliers and ripples put back, both, and the noise of the rest."""
     finding = find_noise(positions, patient.probe)
-    outliers = NO_OUTLIERS if finding.exact else find_outliers(positions, patient.probe)
+    outliers = NO_OUTLIERS if finding.exact else find_outliers(positions, patient.probe, finding)
     calmed = outliers.put_back(positions)
     ripples = NO_RIPPLES if finding.exact else find_ripples(calmed, patient.probe)
     calmed = ripples.put_back(calmed)
@@ -169,7 +165,7 @@ def choose(
 ) -> AutomaticChoice:
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
-        return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
+        return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
     if finding.kind == "uneven fused":
         return _persist(positions, finding, patient)
     if finding.kind in ("cells", "steps"):
@@ -201,7 +197,7 @@ def choose(
         reason = f"{reason}, but the expected error is as large as the change"
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
-    choice = AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
+    choice = AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, share)
     return replace(choice, forecast=rehearsal.forecast(taught)) if goal == "shading" else choice
 
 
@@ -212,7 +208,7 @@ def _persist(positions: Positions, finding: Finding, patient: Patient) -> Automa
     steps = (Step(UNEVEN_FUSED, times),)
     untreated = Reference(positions, patient.topology.faces).theta(patient.treatments(positions).mean(steps))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
-    return AutomaticChoice(steps, finding.kind, finding.reason, noise, untreated, LEFT_UNEVEN * untreated, 0)
+    return AutomaticChoice(steps, finding.kind, finding.reason, noise, untreated, LEFT_UNEVEN * untreated)
 
 
 def _bounded(finding: Finding) -> AutomaticChoice:
@@ -225,7 +221,7 @@ def _bounded(finding: Finding) -> AutomaticChoice:
         step = Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS)
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
     unknown = Forecast(0.0, 0.0, sure=False, known=False)
-    return AutomaticChoice((step,), finding.kind, finding.reason, noise, 0.0, 0.0, 0, forecast=unknown)
+    return AutomaticChoice((step,), finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 
 def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:
@@ -247,29 +243,16 @@ def treat(
     patient.view, patient.bound = finding.view, finding.bound
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
-    full, verdict = _judged(treatments.mean(choice.steps), noisy, finding, patient)
-    learnt = 0.0
-    if choice.learnt > 0.0:
-        mean = joined(full, treatments.learnt, choice.learnt, patient.topology)
-        other, judgement = _judged(mean, noisy, finding, patient)
-        # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
-        if judgement.movement < verdict.movement + LEARNT_MORE:
-            full, verdict, learnt = other, judgement, choice.learnt
+    full = keep_good(noisy, treatments.mean(choice.steps, choice.learnt), finding.levels > 0.0)
+    if finding.bound is not None:
+        full = finding.bound.within(noisy, full)
+    verdict = judge(noisy, full, finding, patient.probe)
     if not verdict.holds:
-        return noisy, replace(choice, steps=(), learnt=learnt, reason=verdict.reason)
+        return noisy, replace(choice, steps=(), reason=verdict.reason)
     share = restraint(verdict.movement, finding)
     result = full if share == 1.0 else noisy + share * (full - noisy)
     result = keep_good(noisy, result, verdict.good)
-    choice = replace(choice, learnt=learnt)
     if choice.forecast:
         part = noisy + strength * (result - noisy)
         choice = choice.seen(share * strength, full, part, finding.levels > 0.0, patient.topology)
     return result, choice
-
-
-def _judged(result: Positions, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
-    """Return the result for a noisy mesh, moved as far as allowed, and its notes."""
-    result = keep_good(noisy, result, finding.levels > 0.0)
-    if finding.bound is not None:
-        result = finding.bound.within(noisy, result)
-    return result, judge(noisy, result, finding, patient.probe)

@@ -18,12 +18,13 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.normals import fine_step
-from bsm.codec.denoise.recipe import DenoiseOptions, Patient, hand_over
+from bsm.codec.denoise.normals import FINE_STEPS
+from bsm.codec.denoise.recipe import HAND_OVERS, DenoiseOptions, Patient
 from bsm.codec.denoise.rehearsal import GOALS, Progress, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
+from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.threads import ordered_map
 
 Frames = npt.NDArray[np.float64]
@@ -88,7 +89,8 @@ class FrameDenoiser:
             given, welded = pair
             assert choice is not None and found is not None
             if choice.outliers:
-                welded = find_outliers(welded, self._patient.probe).put_back(welded)
+                probe = self._patient.probe
+                welded = find_outliers(welded, probe, find_noise(welded, probe)).put_back(welded)
             if choice.ripples:
                 welded = find_ripples(welded, self._patient.probe).put_back(welded)
             result, done = treat(choice, welded, found, self._patient, self._strength)
@@ -134,7 +136,7 @@ class FrameDenoiser:
             if len(seen) >= FEWEST_FRAMES:
                 filter_ = filter_ or TemporalFilter(self._patient.topology.faces, n)
                 steadied = filter_(welded)
-                edge = self._patient.edge(welded[0])
+                edge = mean_edge_length(welded[0], self._patient.topology.faces)
                 if np.sqrt(3.0) * steadied.deviation > UNSTEADY * edge:
                     welded = steadied.frames
                     level = np.sqrt(3.0) * steadied.deviation * steadied.remaining
@@ -153,7 +155,7 @@ class FrameDenoiser:
     def _by_options(self, frames: Iterator[Positions], options: DenoiseOptions) -> Iterator[Pair]:
         """Given frames, and welded results that pass the gates."""
         topology = self._patient.topology
-        start, step = hand_over(options.hand_over), fine_step(options.fine)
+        start, step = HAND_OVERS[options.hand_over], FINE_STEPS[options.fine]
         iterations = {} if options.iterations is None else {"iterations": options.iterations}
         coarse = None
         if options.hand_over != "none":

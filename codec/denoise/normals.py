@@ -8,7 +8,6 @@ import numpy as np
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.choices import named
 from bsm.codec.denoise.surface import (
     FaceGeometry,
     Floats,
@@ -126,7 +125,3 @@ def _normals(geometry: FaceGeometry, topology: Topology, sigma_r: float) -> Iter
 FineStep = Callable[..., Positions]
 """From positions (n, 3), faces (m, 3) and a number of iterations, whose default is the method's own."""
 FINE_STEPS: dict[str, FineStep] = {"guided": guided_normal_filtering, "bilateral-normal": bilateral_normal_filtering}
-
-
-def fine_step(name: str) -> FineStep:
-    return named("fine step", FINE_STEPS, name)

@@ -16,9 +16,8 @@ from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
 from bsm.codec.denoise.noise.causes import Bound, Grid
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.normals import Guide, GuidedFilter, filtered_normals, fine_step, own_normals, patch_guidance
+from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, own_normals, patch_guidance
 from bsm.codec.denoise.surface import Topology, face_geometry, surface_normals
-from bsm.codec.geometry.metrics import mean_edge_length
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
@@ -47,10 +46,6 @@ HAND_OVERS: dict[str, HandOver] = {
     "normals": coarse_normals,
     "none": lambda noisy, coarse, topology: np.array(noisy),
 }
-
-
-def hand_over(name: str) -> HandOver:
-    return named("hand-over", HAND_OVERS, name)
 
 
 @public
@@ -92,8 +87,8 @@ class DenoiseOptions:
     block_size: int = BLOCK_SIZE
 
     def __post_init__(self) -> None:
-        hand_over(self.hand_over)
-        fine_step(self.fine)
+        named("hand-over", HAND_OVERS, self.hand_over)
+        named("fine step", FINE_STEPS, self.fine)
         if self.iterations is not None and self.iterations < 0:
             raise OptionError(f"iterations must not be negative, not {self.iterations}")
         if not 0.0 < self.keep <= 1.0 or self.block_size < 1:
@@ -147,7 +142,7 @@ class Treatments:
                 positions = self._view.flattened(self.noisy, self._topology, recipe.keep)
             else:
                 smooth = self._smooth(recipe.keep) if recipe.needs_coarse else self.noisy
-                positions = hand_over(recipe.hand_over)(self.noisy, smooth, self._topology)
+                positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._topology)
             start = self._starts[where] = GuidedFilter(self._within(positions), self._topology, self._within)
         if recipe.guide == LOCAL:
             return filtered_normals(start.positions, self._topology, recipe.sigma_r)
@@ -193,9 +188,6 @@ class Patient:
         self.expect(keep)
         assert self._coarse is not None
         return self._coarse(positions, keep)
-
-    def edge(self, positions: Positions) -> float:
-        return mean_edge_length(positions, self.topology.faces)
 
     def treated(self, positions: Positions) -> Treatments:
         if isinstance(self.bound, Grid):

@@ -78,19 +78,22 @@ class Finding:
         return replace(self, levels=self.levels[members], growth=growth)
 
 
-MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "few")
+MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "irregular", "few")
 MANY_WINDOWS = 25  # fewer say less about the spread of levels
+LEAST_ACROSS = 0.01  # in mean edges; depths have nothing across
 SLOPE, SHIFT = 0.6, 0.15  # of the broad level over the whiteness (logarithms), for all lengths of correlation
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What filters leave of a mesh along a direction at each vertex; levels are those of the windows, in mean edges."""
+    """What filters leave of a mesh along a direction at each vertex, and across it; levels are those of the windows, in
+    mean edges."""
 
     probe: Probe
     normals: Floats
     edge: float
     along: Floats
+    across: Floats
     levels: Floats
     broad: Floats
     finest: Floats
@@ -110,30 +113,32 @@ class Evidence:
 
     def measures(self, windows: Mask) -> Floats:
         """Return what rules weigh, in the order of `MEASURES`: the level and whiteness (logarithms), how far the broad
-        frequencies are from those of such noise, how uneven fine and broad levels are, and the lack of windows."""
+        frequencies are from those of such noise, how uneven fine and broad levels are, how irregular the triangles
+        are (a logarithm), and the lack of windows."""
         fine, broad = self.levels[windows], self.broad[windows]
         broader = np.log(max(np.median(broad / np.maximum(fine, 1e-9)), 1e-9))
         level, whiteness = np.log(np.maximum([self.level(windows), self.whiteness(windows)], 1e-9))
         uneven = (min(spread(levels, self.probe.windows), 1.5) for levels in (fine, broad))
         off = abs(broader + SLOPE * whiteness + SHIFT)
-        return np.array(
-            [level, whiteness, off, *uneven, max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)]
-        )
+        across = self.across[windows[self.probe.windows.labels] & self.probe.counted]
+        irregular = np.log(max(float(np.quantile(across, 0.9)), LEAST_ACROSS))
+        few = max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)
+        return np.array([level, whiteness, off, *uneven, irregular, few])
 
     def weakened(self, growth: Floats) -> Evidence:
         """Evidence of noise without its growth, shape (n,)."""
         here = self.probe.windows.means(growth)
         levels = (values / here for values in (self.levels, self.broad, self.finest))
-        return Evidence(self.probe, self.normals, self.edge, self.along / growth, *levels)
+        return Evidence(self.probe, self.normals, self.edge, self.along / growth, self.across, *levels)
 
 
 def look(probe: Probe, values: Floats, directions: Floats, edge: float) -> Evidence:
     """See `values`, shape (n, d), along `directions`, shape (n, d)."""
-    fine, broad, finest = (
-        np.einsum("ij,ij->i", filtered(values), directions) for filtered in (probe.fine, probe.broad, probe.finest)
-    )
-    levels = (probe.levels(along) for along in (fine, broad, finest))
-    return Evidence(probe, directions, edge, fine, *levels)
+    fine, broad, finest = (filtered(values) for filtered in (probe.fine, probe.broad, probe.finest))
+    along, *others = (np.einsum("ij,ij->i", seen, directions) for seen in (fine, broad, finest))
+    across = np.linalg.norm(fine - along[:, None] * directions, axis=1)
+    levels = (probe.levels(each) for each in (along, *others))
+    return Evidence(probe, directions, edge, along, across, *levels)
 
 
 def spread(levels: Floats, windows: Windows) -> float:

@@ -15,21 +15,22 @@ import numpy as np
 from scipy.sparse import linalg
 
 from bsm.codec.arrays import Positions
+from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
-from bsm.codec.denoise.surface import Floats, face_geometry
+from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.surface import Floats, Mask, face_geometry
 from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import mean_edge_length
 
 CLEAR = 0.7
 """Share of the energy around it that a clear outlier explains by itself: no clean mesh tried has more than a few."""
-LESS_CLEAR = (0.5, 0.35, 0.25)
+LESS_CLEAR = (0.5, 0.35)
 FEWEST_SHARE = 0.004  # clear outliers, as a share of the vertices, from which on they are believed
 FEWEST = 12
 MOST_SHARE = 0.2
 ONE_SIDED = 0.5
-FAINT, WORTH, STRONG = 0.03, 0.05, 0.15
-"""Smallest displacement looked for, in mean edges; the median of those found from which on it is worth it; and the
-median from which on the least clear ones are believed as well: among faint ones they are detail."""
+FAINT, WORTH = 0.03, 0.05
+"""Smallest displacement looked for, in mean edges; and the median of those found from which on it is worth it."""
 LARGEST = 1.2
 """Largest less clear outlier, over the displacement that nine in ten of the clear ones do not reach."""
 DISTINCT = 4.0  # displacement over what calm surroundings show
@@ -37,8 +38,11 @@ CALM, CALM_BOUND = 0.5, 0.6745
 STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75
 """Distance from the middle of the neighbors, in theirs, of a vertex that may be far off, and of one that is; and the
 length of the mean normal around it below which it stands out."""
-STRAYS, STRAY_SHARE, STRAY_USUAL, FARTHER = 25, 0.0018, 1.2, 2.5
-"""How many are plainly off, how far nine tenths may be, and how much farther those are: noise alone has fewer, too."""
+STRAYS, STRAY_SHARE, STRAY_USUAL, FARTHER = 25, 0.0018, 1.0, 2.5
+"""How many are plainly off, how far nine tenths may be, and how much farther those are: noise alone has fewer."""
+STRAY_FAR, STRAY_LEFT = 1.5, 0.15
+"""Median way back of those plainly off, in mean edges, and the share that may still stand out there: slivers of CAD
+models go 0.1 to 1.3 edges, or a fifth stays."""
 STRAY_TURNS = 2
 HIGH = 2.2  # height over the noise around, from which on vertices are strays where there are many; noise so high gains
 ROUNDS = 40
@@ -60,10 +64,12 @@ class Outliers:
 NO_OUTLIERS = Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
 
 
-def find_outliers(positions: Positions, probe: Probe) -> Outliers:
-    """Find vertices that lie far outside their neighbors, noise or not; then what stands out of calm surroundings."""
+def find_outliers(positions: Positions, probe: Probe, finding: Finding) -> Outliers:
+    """Find vertices that lie far outside their neighbors, noise or not; then what stands out of a mesh without noise,
+    which the finding for `positions`, shape (n, 3), tells."""
     back = put_strays_back(positions, probe)
-    back = _peeled(back, probe).put_back(back)
+    if not (finding if back is positions else find_noise(back, probe)).noisy:
+        back = _peeled(back, probe).put_back(back)
     vertices = np.flatnonzero((back != positions).any(axis=1))
     return Outliers(vertices, (positions - back)[vertices])
 
@@ -72,19 +78,16 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
     """Vertices far outside their neighbors, put in the middle of them, if there are many."""
     if not probe.counted.any():
         return positions
-    around, n = probe.topology.around, len(positions)
-    sizes = np.diff(around.starts)
-    owners = np.repeat(np.arange(n), sizes)
+    n = len(positions)
     place, stray = positions, np.zeros(n, dtype=np.bool_)
     for turn in range(STRAY_TURNS):
         distance, height = _distances(place, probe)
         usual = float(np.quantile(distance[probe.counted], 0.9))
-        normals = face_geometry(place, probe.topology.faces).normals[around.members]
-        together = np.stack([np.bincount(owners, column, n) for column in normals.T], axis=1)
-        spiky = probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes)
-        plain = int((spiky & (distance > max(PLAINLY, FARTHER * usual))).sum())
-        if turn == 0 and (plain < max(STRAYS, STRAY_SHARE * n) or usual > STRAY_USUAL):
-            return positions
+        spiky = _spiky(place, probe)
+        if turn == 0:
+            plain = spiky & (distance > max(PLAINLY, FARTHER * usual))
+            if plain.sum() < max(STRAYS, STRAY_SHARE * n) or usual > STRAY_USUAL:
+                return positions
         noise = (probe.windows.quantiles(height, SHARE) / BOUND)[probe.windows.labels]
         stray |= spiky & (distance > max(STRAY, 2.0 * usual)) | (height > np.fmax(HIGH * noise, 1.0))
         if stray.sum() > MOST_SHARE * n:
@@ -93,7 +96,19 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
         weight = probe.average @ known
         middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
         place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
-    return place
+    way = np.median(np.linalg.norm(place - positions, axis=1)[plain])
+    far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces)
+    return place if far and _spiky(place, probe)[plain].mean() < STRAY_LEFT else positions
+
+
+def _spiky(positions: Positions, probe: Probe) -> Mask:
+    """Vertices, shape (n,), around which the normals point all ways."""
+    around, n = probe.topology.around, len(positions)
+    sizes = np.diff(around.starts)
+    owners = np.repeat(np.arange(n), sizes)
+    normals = face_geometry(positions, probe.topology.faces).normals[around.members]
+    together = np.stack([np.bincount(owners, column, n) for column in normals.T], axis=1)
+    return np.asarray(probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes))
 
 
 def _distances(positions: Positions, probe: Probe) -> tuple[Floats, Floats]:
@@ -135,8 +150,6 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
             few = len(off) < max(FEWEST, FEWEST_SHARE * len(amounts))
             if few or abs(np.sign(off).mean()) >= ONE_SIDED or np.median(np.abs(off)) <= WORTH:
                 return NO_OUTLIERS
-            if share == LESS_CLEAR[-1] and np.median(np.abs(off)) < STRONG:
-                break
             standard = np.abs(rest) / np.where(gain > 0.0, gain, np.inf)
             if share == LESS_CLEAR[0]:
                 most = LARGEST * float(np.quantile(np.abs(off), 0.9))

@@ -25,11 +25,11 @@ from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
 RULES = {
-    "white": (1.95, 11.40, -4.48, -13.59, -4.26, -8.42, 8.46),
-    "correlated": (1.16, 1.62, -6.12, 0.00, -22.39, -12.03, 14.08),
-    "local": (2.25, 21.49, -14.58, -3.51, -12.01, -3.01, 9.82),
-    "view": (3.98, 0.19, -3.78, -9.66, -7.22, -18.10, 10.31),
-    "axis": (3.31, 8.59, 0.00, -35.17, -16.24, -15.46, 18.76),
+    "white": (2.94, 12.52, -3.53, -9.01, 0.00, -1.10, -9.80, 7.71),
+    "correlated": (0.00, 1.56, -5.68, -16.67, -2.00, -1.33, 0.00, 3.71),
+    "local": (4.60, 15.14, -4.08, 0.00, 0.00, -4.03, -6.65, 6.41),
+    "view": (6.94, -6.14, 0.00, -24.15, 0.00, 0.00, -23.40, 14.49),
+    "axis": (3.58, 15.95, 0.00, -27.46, 0.00, -3.24, -14.37, 8.02),
 }
 """Of each kind, the weights of `measures` and a constant: noise is believed if the sum is positive. `tools.train_noise`
 fits them, and names the meshes that it holds out."""
@@ -156,6 +156,8 @@ def _stepped(positions: Positions, evidence: Evidence) -> Finding | None:
     width = pixel(view.plane(positions), evidence.probe.topology) * ((positions - view.eye) @ view.axis)
     heights = steps.step * (np.square(depth) if steps.inverse else 1.0) * np.ones(len(depth))
     amount = heights / np.sqrt(12.0)
+    if np.median(amount) < FAINTEST * evidence.edge:
+        return None
     axis = "xyz"[int(np.argmax(np.abs(steps.axis)))]
     what = "inverse depth" if steps.inverse else "depth"
     reason = f"steps of {steps.step:.3g} in the {what} of one view, along {axis}; no vertex moves by over half of one"
@@ -234,6 +236,8 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
         growth = np.exp(rate * depth)
         along = along.weakened(growth)
     level = float(np.sqrt(max(along.level(windows.valid) ** 2 - values[1], 0.0)))  # the shape is as strong across
+    if level < FAINTEST:
+        return None
     amount = level * edge * (np.ones(len(depth)) if growth is None else growth)
     reason = f"noise along one axis ({', '.join(f'{component:.2f}' for component in axis)})"
     if growth is not None:
@@ -289,8 +293,6 @@ def _otsu(ordered: Floats) -> float:
     count = len(ordered)
     sums = np.cumsum(ordered)
     below = np.arange(1, count)
-    if count < 2:
-        return float(ordered[0]) if count else 0.0
     difference = sums[:-1] / below - (sums[-1] - sums[:-1]) / (count - below)
     place = int(np.argmax(below * (count - below) * difference**2))
     return float(0.5 * (ordered[place] + ordered[place + 1]))

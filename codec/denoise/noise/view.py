@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse import linalg
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.probe import SHARE, Probe
@@ -18,7 +19,7 @@ FAR = 1e3  # extents between an eye and the mesh from which on rays are parallel
 REGULAR, ONE_SIDED = 0.08, 0.98
 """Middle distance of pixels from the mean of their neighbors, in edges, and share of the faces seen from one side."""
 BEND = 0.05  # change of slope up to which bends are rounded, not sharp
-ROUNDS, STEPS, STAND_OUT = 6, 120, 2.0
+ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,9 @@ class View:
             least = max(BEND, float(np.median(bent))) if turn == 0 else BEND
             weights = sparse.diags(strength * self.level * lengths / np.maximum(bent, least))
             system = (sparse.diags(trust) + bends.T @ weights @ bends).tocsr()
-            heights = _solved(system, trust * given, heights)
+            heights, _ = linalg.cg(
+                system, trust * given, heights, rtol=EXACT, maxiter=STEPS, M=sparse.diags(1.0 / system.diagonal())
+            )
             off = np.abs(heights - given)
             usual = STAND_OUT * float(np.median(off)) / 0.6745
             trust = np.minimum(1.0, usual / np.maximum(off, 1e-9)) if usual > 0.0 else trust
@@ -92,25 +95,6 @@ def bending(plane: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Float
         weights[:, 1] -= share * weights[:, column]
     where = np.repeat(rows, 4), np.stack([*ends, *tips], axis=1).ravel()
     return sparse.csr_matrix((weights.ravel(), where), shape=(len(first), topology.n)), lengths
-
-
-def _solved(system: sparse.csr_matrix, wanted: Floats, start: Floats) -> Floats:
-    """Conjugate gradients, scaled by the diagonal."""
-    scale = 1.0 / system.diagonal()
-    solution, rest = start, wanted - system @ start
-    towards = scale * rest
-    energy = float(rest @ towards)
-    enough = 1e-10 * float(wanted @ (scale * wanted))
-    for _ in range(STEPS):
-        if energy <= enough:
-            break
-        image = system @ towards
-        length = energy / float(towards @ image)
-        solution, rest = solution + length * towards, rest - length * image
-        scaled = scale * rest
-        before, energy = energy, float(rest @ scaled)
-        towards = scaled + energy / before * towards
-    return solution
 
 
 def find_view(positions: Positions, probe: Probe) -> View | None:

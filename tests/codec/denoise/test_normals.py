@@ -3,14 +3,7 @@
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.normals import (
-    FINE_STEPS,
-    FineStep,
-    bilateral_normal_filtering,
-    filter_normals,
-    fine_step,
-    patch_guidance,
-)
+from bsm.codec.denoise.normals import FINE_STEPS, FineStep, bilateral_normal_filtering, filter_normals, patch_guidance
 from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
@@ -121,5 +114,5 @@ def test_the_guide_is_the_mean_of_the_most_consistent_patch() -> None:
 )
 def test_theta_is_the_published_one(partners: Partners, step: str, clean: str, noisy: str, expected: float) -> None:
     original, mesh = partners(clean, noisy)
-    denoised = fine_step(step)(mesh.positions, mesh.faces)
+    denoised = FINE_STEPS[step](mesh.positions, mesh.faces)
     assert theta(original.positions, denoised, mesh.faces) == pytest.approx(expected, rel=0.03)
