@@ -84,17 +84,12 @@ class Laplacian:
     diagonal: Matrix
 
 
-def laplacian_of(block: Block) -> Laplacian:
-    """L of a block whose rows are in the order of a recursive bisection, with all weights one."""
-    fronts = find_fronts(block.offsets, block.neighbors)
-    return Laplacian(block, fronts, np.empty(0), block.degrees.astype(np.float64))
-
-
-def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:
-    """`laplacian_of` with the given weights, one for each entry of `block.neighbors`, shape (e,)."""
+def laplacian_of(block: Block, weights: Matrix | None = None) -> Laplacian:
+    """L of a block in the order of a recursive bisection; weights of `block.neighbors`, shape (e,), are one if None."""
     rows = np.repeat(np.arange(block.size), block.degrees)
     diagonal: Matrix = np.bincount(rows, weights=weights, minlength=block.size).astype(np.float64)
-    return Laplacian(block, find_fronts(block.offsets, block.neighbors), weights, diagonal)
+    fronts = find_fronts(block.offsets, block.neighbors)
+    return Laplacian(block, fronts, np.empty(0) if weights is None else weights, diagonal)
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,5 +217,4 @@ def hold(graph: Graph, weights: Matrix, rank: Indices, block: Block) -> Held:
     given = graph.offsets, graph.neighbors, weights, rank, vertices, block.offsets, block.neighbors
     count = _kernels.hold(*given, inner, springs, starts, outer, stiffness)
     around, ends = np.unique(outer[:count], return_inverse=True)
-    laplacian = weighted_laplacian(block, inner)
-    return Held(laplacian, springs, starts, around, ends.astype(np.int32), stiffness[:count].copy())
+    return Held(laplacian_of(block, inner), springs, starts, around, ends.astype(np.int32), stiffness[:count].copy())

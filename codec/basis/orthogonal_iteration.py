@@ -111,34 +111,25 @@ def hash_columns(rows: int, columns: int) -> Matrix:
     return hashed
 
 
-def residual_norms(positions: Matrix, coefficients: Matrix) -> Matrix:
-    """The error that a subspace of every size leaves."""
-    total = float(np.square(positions).sum())
-    captured = np.concatenate([[0.0], np.cumsum(np.square(coefficients).sum(axis=1))])
-    return np.sqrt(np.maximum(total - captured, 0.0))
-
-
-def dynamic_size(positions: Matrix, coefficients: Matrix, previous: int, lowest: float, highest: float) -> int:
-    """c_i: from the predecessor's size, one column more while the error is over eps_h, one less while under eps_l."""
-    norms = residual_norms(positions, coefficients)
-    size = min(max(previous, 1), len(coefficients))
-    if norms[size] > highest:
-        while size < len(coefficients) and norms[size] > highest:
-            size += 1
-    else:
-        while size > 1 and norms[size] < lowest and norms[size - 1] <= highest:
-            size -= 1
-    return size
-
-
 class DynamicSize:
     """c_i of one block of a chain after the other."""
 
     def __init__(self, lowest: float, highest: float, first: int) -> None:
-        self._thresholds = lowest, highest
-        self._size = first
+        self._lowest, self._highest, self._size = lowest, highest, first
 
     def follow(self, positions: Matrix, coefficients: Matrix) -> int:
-        """`dynamic_size` from the block before, for `positions`, shape (n, 3), and `coefficients`, shape (c, 3)."""
-        self._size = dynamic_size(positions, coefficients, self._size, *self._thresholds)
-        return self._size
+        """Return c_i for positions, shape (n, 3), and coefficients, shape (c, 3).
+
+        From the predecessor's size, one column more while the error is over eps_h, one less while under eps_l.
+        """
+        captured = np.concatenate([[0.0], np.cumsum(np.square(coefficients).sum(axis=1))])
+        norms = np.sqrt(np.maximum(float(np.square(positions).sum()) - captured, 0.0))
+        size = min(max(self._size, 1), len(coefficients))
+        if norms[size] > self._highest:
+            while size < len(coefficients) and norms[size] > self._highest:
+                size += 1
+        else:
+            while size > 1 and norms[size] < self._lowest and norms[size - 1] <= self._highest:
+                size -= 1
+        self._size = size
+        return size

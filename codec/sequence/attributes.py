@@ -30,12 +30,6 @@ FIRST_FRAME = 0.5  # bound of the first frame, as a fraction of the bound of the
 LARGEST = 1e100
 
 
-def beyond_one(first: Values) -> Matrix:
-    """Differences of the first frame's values, shape (n, d), from those of vertex 0, which may be large."""
-    wide = first.astype(np.float64)
-    return np.asarray(wide - wide[:1])
-
-
 def changed(first: Values, change: Matrix) -> Values:
     """Values, shape (n, d), that differ from the first frame's by so much; integers are the nearest of their kind."""
     with np.errstate(over="ignore", invalid="ignore"):
@@ -162,8 +156,9 @@ class MovingAttributeEncoder:
 
     @property
     def start(self) -> Matrix:
-        """What `MovingAttribute` says of it, shape (k, c)."""
-        return beyond_one(self.first)
+        """Differences of the first frame's values from those of vertex 0, which may be large, shape (k, c)."""
+        wide = self.first.astype(np.float64)
+        return np.asarray(wide - wide[:1])
 
     @property
     def note(self) -> str:

@@ -112,6 +112,9 @@ if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
 
 OVERHEAD = 14  # bytes of a GOP besides its levels, about
+PLACES, SENT, CLEARLY = 8, 0.4, 0.95
+"""Places where a cut is looked for at first; bytes of one more component over those of all on average, about; and the
+share of the numbers with which a cut is worth an attempt."""
 LIKE = 0.5
 """If kept frames are nearer than this, in squares and relative to the latest one, the next frames start from them."""
 
@@ -128,6 +131,34 @@ class LearntGop:
     def frames(self, places: Order) -> Iterator[Matrix]:
         """Return some of the frames as decoded, each of shape (n, d)."""
         return temporal.frames_of(self.components, 0, self.basis[:, places])
+
+    def lengths(self, places: Order) -> list[int]:
+        """Return the lengths of GOPs in which frames at `places` need fewest numbers: motion changes between them."""
+        shapes = np.tensordot(np.linalg.qr(self.components, mode="r"), self.basis[:, places], axes=(1, 2))
+        columns = self.field.width * len(places)
+        sent = SENT * columns * len(self.field.levels) / max(1, len(self.field.basis))
+        return _cut(shapes, sent, temporal.WORTH * self.field.step**2)
+
+
+def _cut(shapes: Matrix, sent: float, worth: float) -> list[int]:
+    """Return lengths of GOPs for motion of a shape (r, d, T), by the numbers of each component and its basis."""
+    frames = shapes.shape[2]
+
+    def numbers(part: Matrix) -> float:
+        rows = part.reshape(len(part), -1)
+        columns = rows.shape[1]
+        return float(np.count_nonzero(np.linalg.eigvalsh(rows @ rows.T) > worth * columns) * (columns + sent))
+
+    def cost(place: int) -> tuple[float, int]:
+        return numbers(shapes[..., :place]) + numbers(shapes[..., place:]), abs(2 * place - frames)
+
+    stride = frames // PLACES
+    best = min(range(stride, frames - stride + 1, stride), key=cost) if stride > 1 else 0
+    if not best or cost(best)[0] >= CLEARLY * numbers(shapes):
+        return [frames]
+    while stride := stride // 2:
+        best = min((best - stride, best, best + stride), key=cost)
+    return [*_cut(shapes[..., :best], sent, worth), *_cut(shapes[..., best:], sent, worth)]
 
 
 class GopEncoder:

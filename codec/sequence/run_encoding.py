@@ -32,8 +32,6 @@ FIRST_STEP = 0.3
 FIRST_FRAME = rules_of(LAW_OF_SEQUENCES)
 """The first frame is one chain; the dictionaries of its key block and those of all parts start from cosines alike."""
 
-HARDLY_CUT = 256  # this many frames are one GOP: in no sequence seen did two cost less
-
 TOGETHER = 4
 """GOPs with a basis in a chain, where each refers to the one before. A viewer that joins late waits for its end."""
 
@@ -111,6 +109,10 @@ class EncodedGops:
     learnt: tuple[LearntGop, ...] = ()
 
     @property
+    def size(self) -> int:
+        return sum(body.size for body in self.bodies)
+
+    @property
     def cost(self) -> float:
         return sum(gop.cost for gop in self.learnt)
 
@@ -144,43 +146,46 @@ class RunEncoder:
         first_frame: FirstFrame | None = None
         coded_for = 0.0
 
-        def encode(asked: _Pass, progress: Progress) -> EncodedGops:
+        def begun(step: float, progress: Progress) -> EncodedGops:
             nonlocal first_frame, coded_for
-            if first_frame is None or not NEAR[0] <= asked.step / coded_for <= NEAR[1]:
-                coded_for = asked.step
-                fitting = replace(self._options, step=asked.step)
+            if first_frame is None or not NEAR[0] <= step / coded_for <= NEAR[1]:
+                coded_for = step
+                fitting = replace(self._options, step=step)
                 heard = silent if self._options.promise else progress
                 first_frame = encode_first_frame(self._prepared, fitting, self._count, heard, before, moving)
-            return _encoded(first_frame, GopEncoder(first_frame.setting, self._options), asked, group, 0, progress)
+            return EncodedGops(first_frame, GopEncoder(first_frame.setting, self._options), ())
 
-        return self._kept(encode, group.positions, None)
+        return self._kept(begun, group, 0, None)
 
     def next(self, group: Group, number: int, before: EncodedGops) -> EncodedGops:
-        """The GOP behind another; its first frame has this number."""
-
-        def encode(asked: _Pass, progress: Progress) -> EncodedGops:
-            return _encoded(before.first_frame, before.encoder.copy(), asked, group, number, progress)
-
-        return self._kept(encode, group.positions, before.encoder.step)
+        """The GOP after another; its first frame has this number."""
+        return self._kept(
+            lambda *_: EncodedGops(before.first_frame, before.encoder.copy(), ()), group, number, before.encoder.step
+        )
 
     def _kept(
-        self, encode: Callable[[_Pass, Progress], EncodedGops], frames: Positions, step: float | None
+        self, begun: Callable[[float, Progress], EncodedGops], group: Group, number: int, step: float | None
     ) -> EncodedGops:
-        """What keeps the promise, near the `step` of the GOP before, if there is one."""
+        """Encode frames so that they keep the promise, near the `step` of the GOP before, if there is one."""
         options, promise, units = self._options, self._options.promise, self._prepared.units
         if promise is None:
-            return encode(_Pass(options.step if step is None else step), self._progress)
-        cut, near = None, Nearing(self._progress)
+            step = options.step if step is None else step
+            every = np.ones(len(group))
+            return _encoded(begun(step, self._progress), step, every, (), group, number, self._progress)
+        lengths: tuple[int, ...] = ()
+        near = Nearing(self._progress)
 
         def attempt(step: float, weights: Matrix) -> EncodedGops:
-            nonlocal cut
-            found = encode(_Pass(step, weights, cut), near.within(PASS * LEVELS))
+            nonlocal lengths
+            heard = near.within(PASS * LEVELS)
+            found = _encoded(begun(step, heard), step, weights, lengths, group, number, heard)
             near.by(PASS * (1.0 - LEVELS))
-            cut = len(found.bodies) > 1  # as the first attempt was, so are the others
+            lengths = tuple(body.frames for body in found.bodies)  # as the first attempt was cut, so are the others
             return found
 
-        search = StepSearch(frames, self._prepared.mesh.faces, promise, units.scale, options.threads)
-        found = search.run(attempt, step or promise.first_step, finest_step(frames, options))
+        search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units.scale, options.threads)
+        first, finest = step or promise.first_step, finest_step(group.positions, options)
+        found = search.run(attempt, first, finest, weighed=not options.low_delay)
         near.to(1.0)
         return found
 
@@ -198,52 +203,49 @@ def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) 
     return max(FINEST_STEP, 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL)
 
 
-@dataclass(frozen=True, eq=False)
-class _Pass:
-    """How to encode frames; `cut`: whether as several GOPs, None: as costs less."""
-
-    step: float
-    weights: Matrix | None = None
-    cut: bool | None = None
-
-
 def _encoded(
-    first_frame: FirstFrame, encoder: GopEncoder, asked: _Pass, group: Group, number: int, progress: Progress
+    before: EncodedGops,
+    step: float,
+    weights: Matrix,
+    lengths: Sequence[int],
+    group: Group,
+    number: int,
+    progress: Progress,
 ) -> EncodedGops:
-    """Encode the next frames, of which the first has this number."""
-    encoder.step = asked.step
-    frames = group.positions
+    """Encode frames, of which the first has this number, as GOPs of these lengths, or of those that cost least."""
+    encoder, frames = before.encoder, group.positions
+    encoder.step = step
     if encoder.low_delay:
         key = encoder.is_key(number, frames.shape[1])
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         field = encoder.encode_next(frames, progress, key=key)
-        return EncodedGops(first_frame, encoder, (GopBody(method, len(frames), (field,)),))
-    weights = np.ones(len(frames)) if asked.weights is None else asked.weights
+        return replace(before, bodies=(GopBody(method, len(frames), (field,)),))
     same = group.same(encoder.step)
-    return _learnt(EncodedGops(first_frame, encoder, ()), frames, weights, same, asked.cut, progress)
+    gops = _in_parts(before, frames, weights, same, lengths or (len(frames),), progress)
+    if not lengths and len(gops.bodies) == 1:
+        lengths = gops.learnt[0].lengths(gops.bodies[0].places)
+        cut = gops if len(lengths) == 1 else _in_parts(before, frames, weights, same, lengths, silent)
+        gops = min(gops, cut, key=lambda found: found.cost)
+    return gops
 
 
-def _learnt(
-    before: EncodedGops, frames: Positions, weights: Matrix, same: Order, cut: bool | None, progress: Progress
+def _in_parts(
+    before: EncodedGops, frames: Positions, weights: Matrix, same: Order, lengths: Sequence[int], progress: Progress
 ) -> EncodedGops:
-    """Encode frames as one GOP with a basis, or as more where that costs less or decoders would lack the memory."""
-    half = len(frames) // 2
-    whole: EncodedGops | None = None
-    if not (cut and half):
-        whole = _whole(before, frames, weights, same, progress)
-        has_room = before.first_frame.has_room(*whole.bodies)
-        if not half or (has_room and (cut is not None or len(frames) <= HARDLY_CUT)):
-            return whole
-        if not has_room:
-            whole = None
-    first = _learnt(before, frames[:half], weights[:half], same[:half], False, silent)
-    second = _learnt(first, frames[half:], weights[half:], same[half:], False, silent)
-    halves = replace(second, bodies=first.bodies + second.bodies, learnt=first.learnt + second.learnt)
-    return halves if whole is None or halves.cost < whole.cost else whole
+    """Append frames to GOPs, as GOPs with a basis of these lengths, or half of them where decoders lack the memory."""
+    gops, begin = before, 0
+    for length in lengths:
+        part, half = slice(begin, begin + length), length // 2
+        found = _whole(gops, frames[part], weights[part], same[part], progress)
+        if half and not before.first_frame.has_room(found.bodies[-1]):
+            halves = half, length - half
+            found = _in_parts(gops, frames[part], weights[part], same[part], halves, silent)
+        gops, begin = found, begin + length
+    return gops
 
 
 def _whole(before: EncodedGops, frames: Positions, weights: Matrix, same: Order, progress: Progress) -> EncodedGops:
-    """Encode frames as one GOP with a basis, repeated frames once."""
+    """Append frames as one GOP with a basis, repeated frames once."""
     kept, places = distinct_frames(same)
     encoder = before.encoder.copy()
     method = encoder.method_with_basis(TOGETHER)
@@ -251,4 +253,4 @@ def _whole(before: EncodedGops, frames: Positions, weights: Matrix, same: Order,
     weights = np.sqrt(np.bincount(places, weights**2))
     learnt = encoder.encode_learnt(frames[kept] if repeats else frames, weights, method, progress)
     body = GopBody(method, len(frames), (learnt.field,), places if repeats else None)
-    return EncodedGops(before.first_frame, encoder, (body,), (learnt,))
+    return EncodedGops(before.first_frame, encoder, (*before.bodies, body), (*before.learnt, learnt))

@@ -16,28 +16,32 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.sequence.options import Promise
-from bsm.codec.static.targets import COARSEST_STEP, secant
+from bsm.codec.static.targets import COARSEST_STEP
 from bsm.codec.threads import ordered_map
 
 KNOTS = 8  # frames, evenly over a GOP, that are drawn at every attempt, besides the worst one of each attempt
 DEVIATIONS = 4.0
 """Standard deviations: an attempt is accepted once all frames that may exceed the bound within them are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
-SLACK, SLACK_OF_ONE = 0.04, 0.15
+SLACK, SLACK_OF_ONE = 0.06, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
-SLOPE = 1.0  # power of the step with which the look distance grows
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
-EVENING, WIDEST = 1.6, 4.0
-"""Power of looks that weighs frames so that all look about alike, and the largest weight."""
+EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
+"""Power of looks by which the first attempt weighs frames, the k-th by 1 / k of it; the least look that counts,
+relative to the largest; and the largest logarithm of a weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
-EVENED = 0.1  # by how much weights lower the excess, about
-TRIES, ENOUGH = 20, 5  # attempts at a step: at most, and once one keeps the promise
+RELIEF = 0.3  # share of the largest change of a weight by which the excess falls, about
+TRIES, ENOUGH = 20, 5  # attempts at a step: at most, and those after which one that keeps the promise suffices
 _PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
 
 class Candidate(Protocol):
     """Frames that were encoded with some step."""
+
+    @property
+    def size(self) -> int:
+        """Bytes."""
 
     @property
     def decoded(self) -> Positions:
@@ -60,31 +64,34 @@ class StepSearch:
             self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
             self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
 
-    def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float) -> Found:
-        """Return the coarsest encoding that keeps the promise in every frame; `encode` takes step and weights."""
-        kept: tuple[float, Found] | None = None
-        least, tries, weights = math.inf, 0, np.ones(len(self._frames))
+    def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
+        """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights.
 
-        def excess(step: float) -> float | None:
-            nonlocal kept, least, tries
-            least, tries = min(least, step), tries + 1
-            found = encode(step, weights)
-            value = self._measure(found.decoded).excess
-            if value <= 0.0 and (kept is None or step > kept[0]):
-                kept = step, found
-            return value if kept is None or tries < ENOUGH else None
-
-        many = len(self._frames) > 1
-        slack = SLACK if many else SLACK_OF_ONE
-        first = min(max(first, finest), COARSEST_STEP)
-        if many and self._knots:  # the first attempt only tells the weights
-            measured = self._measure(encode(first, weights).decoded)
-            weights = _evening(measured.looks())
-            first *= math.exp(-(measured.excess - EVENED + slack / 2.0) / SLOPE)
-        secant(excess, min(max(first, finest), COARSEST_STEP), finest, COARSEST_STEP, TRIES, SLOPE, slack)
+        Weights of frames follow their looks from attempt to attempt, unless encodings are not `weighed`.
+        """
+        kept: Found | None = None
+        step, evened, missed, most = first, np.zeros(len(self._frames)), 0, COARSEST_STEP
+        uneven = weighed and len(evened) > 1 and bool(self._knots)
+        slack = SLACK if len(evened) > 1 else SLACK_OF_ONE
+        for attempt in range(1, TRIES + 1):
+            step = min(max(step, finest), most)
+            found = encode(step, np.exp(evened))
+            measured = self._measure(found.decoded)
+            excess, relief = measured.excess, 0.0
+            if excess <= 0.0 and (kept is None or found.size <= kept.size):
+                kept = found
+            enough = attempt >= ENOUGH or (excess > -slack and (attempt > 1 or not uneven))
+            if step == (most if excess <= 0.0 else finest) or (excess <= 0.0 and enough):
+                break
+            missed = missed + 1 if excess > 0.0 else 0
+            if uneven:
+                change = EVENING * _evening(measured.looks()) / attempt
+                relief = RELIEF * float(change.max())
+                evened = (evened + change).clip(-WIDEST, WIDEST)
+            step *= math.exp(relief - excess - slack / 2.0 * (1 + missed))
         if kept is None:
-            raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {least:.2g}")
-        return kept[1]
+            raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {step:.2g}")
+        return kept
 
     def _measure(self, decoded: Positions) -> Measured:
         """Measure all frames, and draw those that may exceed the bound until one does."""
@@ -166,11 +173,10 @@ class Measured:
 
 
 def _evening(looks: Matrix) -> Matrix:
-    """Return weights of frames, shape (T,), with which all of them look about alike."""
-    logarithms = np.log(np.maximum(looks, 1e-3 * looks.max(initial=0.0) or 1.0))
-    padded = np.pad(EVENING * (logarithms - logarithms.mean()), len(BELL) // 2, mode="edge")
-    smooth = np.convolve(padded, BELL, mode="valid")
-    return np.asarray(np.exp(smooth - smooth.mean()).clip(1.0 / WIDEST, WIDEST))
+    """Return logarithms of weights of frames, shape (T,), with which all of them look about alike."""
+    logarithms = np.log(np.maximum(looks, LEAST_LOOK * looks.max(initial=0.0) or 1.0))
+    smooth = np.convolve(np.pad(logarithms, len(BELL) // 2, mode="edge"), BELL, mode="valid")
+    return np.asarray(smooth - smooth.mean())
 
 
 def look_of_frame(original: Positions, decoded: Positions, faces: Faces) -> float | None:

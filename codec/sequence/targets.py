@@ -48,8 +48,8 @@ def compare_runs(runs: Runs) -> SequenceComparison:
         each += [(frame, frame.rms / diagonal, frame.max_error / diagonal) for frame in found]
         wrong += float(np.square(original - decoded).sum())
         extent += float(np.square(original - original.mean(axis=1, keepdims=True)).sum())
-        changes = _changes(original, decoded)
-        flicker, motion = flicker + changes[0], motion + changes[1]
+        flicker += float(np.square(np.diff(decoded - original, 2, axis=0)).sum())
+        motion += float(np.square(np.diff(original, 2, axis=0)).sum())
     nmsve = float(np.mean([frame.nmsve for frame, _, _ in each]))
     return SequenceComparison(
         kg=_percent(wrong, extent),
@@ -65,11 +65,6 @@ def _percent(part: float, whole: float) -> float:
     if part == 0.0:
         return 0.0
     return 100.0 * math.sqrt(part / whole) if whole else math.inf
-
-
-def _changes(original: Positions, decoded: Positions) -> tuple[float, float]:
-    error, motion = (float(np.square(np.diff(part, 2, axis=0)).sum()) for part in (decoded - original, original))
-    return error, motion
 
 
 @public

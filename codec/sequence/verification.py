@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, LimitError, VerificationError
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.arrays import Faces, Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.decoding import SequenceDecoder
 from bsm.codec.events import ConnectivityEvent, EndEvent, FrameEvent, Signal
 from bsm.codec.geometry.mesh import Metadata
@@ -109,7 +108,9 @@ class SequenceVerifier:
             require_attributes(still, self._carried, self.faces, self._original)
             self._checked = True
         for each in expected.moving:
-            _require_near(frame.attributes[each.number].values, each, self._matched)
+            decoded = np.asarray(frame.attributes[each.number].values, np.float64)
+            off = each.bound.between(decoded, each.values[self._matched].astype(np.float64))
+            require(off <= 1.0, f"a decoded attribute that moves is {off:.3g} times as far off as it may be")
         if self._shown is not None:
             self._shown.append(frame.positions)
 
@@ -127,9 +128,3 @@ class SequenceVerifier:
         error = shading_error(original, frame.positions, frame.faces)
         if self._worst is None or error > self._worst[0]:
             self._worst = error, original, frame.positions, frame.faces
-
-
-def _require_near(decoded: npt.NDArray[np.generic], moving: Expected, matched: Order) -> None:
-    """Require that values in a frame, shape (k, c), are as near as was asked."""
-    off = moving.bound.between(np.asarray(decoded, np.float64), moving.values[matched].astype(np.float64))
-    require(off <= 1.0, f"a decoded attribute that moves is {off:.3g} times as far off as it may be")

@@ -106,12 +106,6 @@ class Known:
         return found
 
 
-def unheld(laplacian: Laplacian, shift: float) -> Surroundings:
-    """Surroundings of a block that knows of nothing."""
-    size = laplacian.block.size
-    return Surroundings(laplacian, np.zeros(size), shift, np.zeros((size, 3)))
-
-
 def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
     """Values that continue the known ones into the rows of a block: mean + (L + S + delta)^-1 (y - S mean)."""
     rows, columns = pulls.shape
@@ -206,7 +200,9 @@ class Chain:
         """Return the known values around a block."""
         laplacian = laplacian_of(block)
         shift = self._rules.shift
-        return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
+        if self._known is None:
+            return Surroundings(laplacian, np.zeros(block.size), shift, np.zeros((block.size, 3)))
+        return self._known.around(laplacian, shift)
 
     def dictionary(self, around: Surroundings, width: int) -> Basis:
         """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only."""

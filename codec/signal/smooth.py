@@ -84,13 +84,8 @@ def local_frames(positions: Positions, faces: Faces) -> Matrix:
 def raised(positions: Positions, frames: Matrix, levels: Levels, step: float) -> Positions:
     """Positions moved along the normals of frames, shape (n, 3)."""
     moved = np.array(positions, np.float64, order="C")
-    lift(moved, frames, levels, step)
+    _kernels.add_heights(moved, frames, np.ascontiguousarray(levels, np.int32), step)
     return moved
-
-
-def lift(positions: Positions, frames: Matrix, levels: Levels, step: float) -> None:
-    """`raised` in place: `positions`, shape (n, 3), `frames`, (n, 9), and `levels`, (n, 1) or (n, 3), as there."""
-    _kernels.add_heights(positions, frames, np.ascontiguousarray(levels, np.int32), step)
 
 
 def slide(positions: Positions, frames: Matrix, levels: Levels, steps: Matrix) -> None:

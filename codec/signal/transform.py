@@ -54,10 +54,6 @@ half of it costs 1.8 %, twice 2.5 %.
 """
 
 
-def dequantize(levels: Integers, step: float) -> Matrix:
-    return np.asarray(levels * step, dtype=np.float64)
-
-
 def smallest_step(block_size: int) -> float:
     """Finest step whose levels hold every coefficient, and every difference of two, of a block of n_d vertices."""
     return float(np.sqrt(block_size) / LARGEST_LEVEL)

@@ -86,7 +86,7 @@ class Packed:
         return pack_coefficients(transform.levels_to_unsigned(levels, self.bits, self.coarser), self.bits)
 
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
-        return ground.add(transform.dequantize(levels, self.step))
+        return ground.add(np.asarray(levels * self.step, np.float64))
 
 
 @dataclass(eq=False)

@@ -7,14 +7,13 @@ from hypothesis import strategies as st
 from bsm import Encoder, NumericError, decode
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import (
+    DynamicSize,
     completed,
     cosine_columns,
-    dynamic_size,
     exact_basis,
     first_columns,
     hash_columns,
     orthogonal_iteration,
-    residual_norms,
 )
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
@@ -87,11 +86,11 @@ def test_the_size_grows_over_the_upper_and_shrinks_under_the_lower_threshold():
     positions = np.zeros((10, 3))
     positions[:, 0] = np.arange(1.0, 11.0)[::-1]
     coefficients = positions  # the basis is the identity: residuals are tails of 10, 9, 8, ...
-    norms = residual_norms(positions, coefficients)
+    norms = [np.linalg.norm(positions[size:]) for size in range(10)]
     for previous in range(1, 11):
-        size = dynamic_size(positions, coefficients, previous, norms[6] - 0.1, norms[5] + 0.1)
+        size = DynamicSize(norms[6] - 0.1, norms[5] + 0.1, previous).follow(positions, coefficients)
         assert size == min(max(previous, 5), 6)
-    assert dynamic_size(positions, coefficients, 3, 1e-9, 1e-8) == 10
+    assert DynamicSize(1e-9, 1e-8, 3).follow(positions, coefficients) == 10
 
 
 def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():
