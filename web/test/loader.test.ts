@@ -5,8 +5,10 @@ import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { build } from "esbuild";
 import { chromium, type Browser, type Page } from "playwright-core";
+import { SphereGeometry } from "three";
 import { serveSite, POLICY, type Site } from "./server";
 import { decode } from "../src/index";
+import { frontOf } from "../src/viewer/camera";
 import { sceneOf } from "./scene";
 import { BUILDS, CHROMIUM, compile, eventsOf, FLAGS, PATIENCE, VECTORS, WEB } from "./shared";
 
@@ -600,4 +602,12 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             if (place === "free") assert.equal(seen.helped, 3);
         });
     }
+});
+
+test("a surface faces the mean of its normals, and a closed one nowhere", () => {
+    const closed = frontOf(new SphereGeometry(1, 40, 30, 0, 2 * Math.PI));
+    assert.ok(closed.length() < 1e-3, `${closed.toArray()}`);
+    const front = frontOf(new SphereGeometry(1, 40, 30, 0, Math.PI)); // the half of z > 0
+    assert.ok(front.z > 0.49 && Math.hypot(front.x, front.y) < 1e-3, `${front.toArray()}`);
+    assert.equal(frontOf().length(), 0);
 });

@@ -3,7 +3,7 @@ import {
     type BufferAttribute, type BufferGeometry, type DataTexture, DirectionalLight, DoubleSide, Group, type Material, MathUtils, Mesh, MeshBasicMaterial,
     MeshStandardMaterial, NeutralToneMapping, PlaneGeometry, PMREMGenerator, Scene, Vector3, WebGLRenderer,
 } from "three";
-import { Camera, type Points } from "./camera";
+import { Camera, frontOf, type Points } from "./camera";
 import { GROUND, shadowOf, studio } from "./light";
 
 const CLAY = 0xcdc6ba;
@@ -102,7 +102,7 @@ export class Stage {
     }
 
     /** Have points of meshes in the middle, and fill the picture with them, unless the reader chose another place. */
-    fill(samples: ArrayLike<number>[], turn?: [number, number, number], normals?: BufferAttribute): void {
+    fill(samples: ArrayLike<number>[], turn?: [number, number, number], geometry?: BufferGeometry): void {
         const { camera, ground, turned } = this;
         const [low, high, point] = [Infinity, -Infinity, 0].map((far) => new Vector3(far, far, far));
         const points: Points = (act) => {
@@ -114,9 +114,7 @@ export class Stage {
         ground.position.y = Infinity;
         points(() => (ground.position.y = Math.min(ground.position.y, point.applyMatrix4(turned.matrixWorld).y)));
         if (camera.touched) return;
-        const front = new Vector3();
-        for (let i = 0; i < (normals?.count ?? 0); i++) front.add(point.fromBufferAttribute(normals!, i));
-        camera.aim(points, turned.matrixWorld, front.divideScalar(normals?.count || 1).applyEuler(turned.rotation));
+        camera.aim(points, turned.matrixWorld, frontOf(geometry).applyEuler(turned.rotation));
     }
 
     shadow(geometry: BufferGeometry): void {

@@ -1,5 +1,4 @@
 /** A stream as it arrives, beside its original and Draco; sequences play, tiles come as they are looked at. */
-import type { BufferAttribute } from "three";
 import { errorLike, type Header, type LossEvent } from "../index";
 import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
@@ -291,7 +290,7 @@ export class View {
         const every = Math.ceil(frames.length / SAMPLED);
         const some = frames.filter((_, i) => i % every === 0).map(({ positions }) => positions);
         const samples = some.length > 0 ? some : [geometry.getAttribute("position")?.array ?? []];
-        stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
+        stage.fill(samples, turnOf(geometry.metadata), geometry);
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
         const told = (error: unknown): void => this.form.say("problem", `The original cannot be shown. ${error instanceof Error ? error.message : error}`);
