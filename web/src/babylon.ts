@@ -11,23 +11,13 @@ const MOST_NORMAL = 32767;
 /** What Babylon.js calls what vertices have. */
 const KINDS: Record<string, string> = { uv: "uv", uv1: "uv2", color: "color" };
 
-/** The frames of a stream, played on meshes of a scene: `mesh.metadata.sequence` of each. */
-export interface BabylonSequence {
+class Played {
     /** Whether all frames are there. */
-    complete: boolean;
-    /** The frame that is shown. */
-    shown: number;
-    readonly frames: { picture: FramePicture; shape: Shape }[];
-    /** What it says of time: `playing`, `loop`, `frame`. */
-    readonly playback: Playback;
-    /** Show a frame, or the last of those that are there. */
-    seek(frame: number): this;
-}
-
-class Played implements BabylonSequence {
     complete = false;
+    /** The frame that is shown. */
     shown = 0;
     readonly frames: { picture: FramePicture; shape: Shape }[] = [];
+    /** What it says of time: `playing`, `loop`, `frame`. */
     readonly playback: Playback;
     private readonly worn = new Map<AbstractMesh, Shape>();
 
@@ -49,6 +39,7 @@ class Played implements BabylonSequence {
         });
     }
 
+    /** Show a frame, or the last of those that are there. */
     seek(frame: number): this {
         this.playback.seek(Math.min(Math.max(0, Math.floor(frame)), this.frames.length - 1));
         this.show(this.playback.frame);
@@ -75,6 +66,9 @@ class Played implements BabylonSequence {
         }
     }
 }
+
+/** The frames of a stream, played on meshes of a scene: `mesh.metadata.sequence` of each. */
+export type BabylonSequence = Pick<Played, "complete" | "shown" | "frames" | "playback" | "seek">;
 
 /** Streams are decoded in threads, each once; meshes that say so play the frames of theirs. */
 class BabylonBSMExtension implements IGLTFLoaderExtension {

@@ -4,7 +4,6 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { BSMGeometry } from "./geometry";
 import { BSMLoader, BSMSequence, sceneOf } from "./three";
 
-const SECOND = 1000;
 /** Pages may style the element as they like; the text lies in front of the picture. */
 const STYLE = `
 :host { display: block; position: relative; background: radial-gradient(circle at 50% 40%, #eef0f3, #aeb6c2); }
@@ -101,7 +100,7 @@ export class BSMPlayer extends Base {
         this.fit();
         let before = performance.now();
         renderer.setAnimationLoop((now) => {
-            this.sequence?.update(Math.max(0, now - before) / SECOND);
+            this.sequence?.update(Math.max(0, now - before) / 1000);
             before = now;
             this.controls?.update();
             renderer.render(this.scene, this.camera);

@@ -1,5 +1,5 @@
 /** The camera: it shows the front of a mesh first, as large as the picture, and follows mouse, touch and keys. */
-import { type BufferAttribute, type BufferGeometry, MathUtils, Matrix4, PerspectiveCamera, Spherical, Vector3 } from "three";
+import { type BufferAttribute, MathUtils, Matrix4, PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
@@ -9,23 +9,16 @@ const AROUND = 1.06 / Math.sin(FIELD / 2); // distance that shows a whole ball o
 const FILLED = 0.94; // of the picture
 const DOCK = 70; // pixels of the controls at the bottom
 const VIEW = new Spherical(1, 72 * MathUtils.DEG2RAD, 35 * MathUtils.DEG2RAD); // the first view
-const OPEN = 0.1; // length of the mean normal of a surface that has a front
+const OPEN = 0.15; // length of the mean normal of a surface that has a front
 
 /** The corners of all meshes, one after the other: what `act` is given is used again. */
 export type Points = (act: (point: Vector3) => void) => void;
 
-/** The mean normal of a surface, by area: that of a closed one is 0. */
-export function frontOf(geometry?: BufferGeometry): Vector3 {
-    const [front, corner, from, to] = Array.from({ length: 4 }, () => new Vector3());
-    const [place, index] = [geometry?.getAttribute("position") as BufferAttribute, geometry?.getIndex()?.array ?? []];
-    let area = 0;
-    for (let at = 0; at < index.length; at += 3) {
-        corner.fromBufferAttribute(place, index[at]);
-        from.fromBufferAttribute(place, index[at + 1]).sub(corner);
-        front.add(from.cross(to.fromBufferAttribute(place, index[at + 2]).sub(corner)));
-        area += from.length();
-    }
-    return front.divideScalar(area || 1);
+/** The mean normal of the vertices of a surface: that of a closed one is nearly 0. */
+export function frontOf(normals?: BufferAttribute): Vector3 {
+    const [front, normal] = [new Vector3(), new Vector3()];
+    for (let i = 0; i < (normals?.count ?? 0); i++) front.add(normal.fromBufferAttribute(normals!, i));
+    return front.divideScalar(normals?.count || 1);
 }
 
 export class Camera extends PerspectiveCamera {

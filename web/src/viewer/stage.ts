@@ -102,7 +102,7 @@ export class Stage {
     }
 
     /** Have points of meshes in the middle, and fill the picture with them, unless the reader chose another place. */
-    fill(samples: ArrayLike<number>[], turn?: [number, number, number], geometry?: BufferGeometry): void {
+    fill(samples: ArrayLike<number>[], turn?: [number, number, number], normals?: BufferAttribute): void {
         const { camera, ground, turned } = this;
         const [low, high, point] = [Infinity, -Infinity, 0].map((far) => new Vector3(far, far, far));
         const points: Points = (act) => {
@@ -114,7 +114,7 @@ export class Stage {
         ground.position.y = Infinity;
         points(() => (ground.position.y = Math.min(ground.position.y, point.applyMatrix4(turned.matrixWorld).y)));
         if (camera.touched) return;
-        camera.aim(points, turned.matrixWorld, frontOf(geometry).applyEuler(turned.rotation));
+        camera.aim(points, turned.matrixWorld, frontOf(normals).applyEuler(turned.rotation));
     }
 
     shadow(geometry: BufferGeometry): void {

@@ -182,7 +182,6 @@ export class TileSet {
                 tile.asked = false;
                 return;
             }
-            if (geometry.color) geometry.setAttribute("color", geometry.color);
             tile.geometry = geometry;
         } catch (error) {
             this.problem = `Tile ${name} cannot be shown; showing a coarser tile: ${error instanceof Error ? error.message : error}`;

@@ -1,4 +1,5 @@
 /** A stream as it arrives, beside its original and Draco; sequences play, tiles come as they are looked at. */
+import type { BufferAttribute } from "three";
 import { errorLike, type Header, type LossEvent } from "../index";
 import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
@@ -15,7 +16,6 @@ import { TileSet, wholeOf } from "./tiles";
 import { Upload, type Encode } from "./upload";
 import template from "./view.html";
 
-const SECOND = 1000;
 const SAMPLED = 12; // frames that the camera makes room for
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
@@ -174,7 +174,7 @@ export class View {
         const download = `${this.content.name.replace(/\.\w+$/, "") || "mesh"}.png`;
         const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download });
         link.click();
-        setTimeout(() => URL.revokeObjectURL(link.href), 60 * SECOND);
+        setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
     }
 
     /** Look for the tiles that are to be seen, when the camera has moved or some have come. */
@@ -290,7 +290,7 @@ export class View {
         const every = Math.ceil(frames.length / SAMPLED);
         const some = frames.filter((_, i) => i % every === 0).map(({ positions }) => positions);
         const samples = some.length > 0 ? some : [geometry.getAttribute("position")?.array ?? []];
-        stage.fill(samples, turnOf(geometry.metadata), geometry);
+        stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
         const told = (error: unknown): void => this.form.say("problem", `The original cannot be shown. ${error instanceof Error ? error.message : error}`);
