@@ -99,6 +99,17 @@ def test_a_link_that_the_user_did_not_name_is_replaced_itself(tmp_path):
     assert (tmp_path / "real").read_bytes() == b"old"
 
 
+def test_a_link_in_the_place_of_an_unfinished_file_is_not_followed(tmp_path):
+    (tmp_path / "real").write_bytes(b"old")
+    os.chmod(tmp_path / "real", 0o600)
+    with open_output(tmp_path / "a", overwrite=True) as file:
+        file.write(b"new")
+        (unfinished,) = (path for path in tmp_path.iterdir() if path.name not in ("a", "real"))
+        unfinished.unlink()
+        unfinished.symlink_to("real")
+    assert stat.S_IMODE((tmp_path / "real").stat().st_mode) == 0o600 and (tmp_path / "real").read_bytes() == b"old"
+
+
 def test_what_lies_in_the_place_of_a_dead_writers_file_is_not_waited_for(tmp_path):
     """A pipe would be waited for; a file that a link names is not ours."""
     os.mkfifo(tmp_path / ".a.abcd1234.part")

@@ -79,7 +79,8 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False, follow
                 yield file
                 file.flush()
                 os.fsync(file.fileno())
-            os.chmod(name, _permissions(target))
+                # Another program may have put a link in its place, which only a name would follow.
+                os.chmod(file.fileno() if os.chmod in os.supports_fd else name, _permissions(target))
             if overwrite:
                 os.replace(name, target)
             else:
