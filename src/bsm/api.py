@@ -44,6 +44,7 @@ def encode(
     /,
     *,
     metadata: Metadata | None = None,
+    simplify: bool = False,
     progress: Heard = None,
     **keywords: Unpack[OptionKeywords],
 ) -> bytes:
@@ -57,6 +58,9 @@ def encode(
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
         Added to the metadata of the mesh.
+    simplify : bool
+        Also try fewer triangles: the smallest stream counts that keeps the promised look, and `max_error` as the
+        distance between the surfaces. Attributes other than normals and colors of vertices are errors.
     progress : callable, optional
         Called in this thread with the finished work and the total; the first number never falls. If it raises an
         exception, the work ends, the exception reaches the caller, and unfinished files are removed.
@@ -68,13 +72,12 @@ def encode(
     Returns
     -------
     bytes
-        A stream. Unless `keep_order` is true, vertices and faces have the coder's order, which `Encoder.vertex_order`
-        returns.
+        A stream. Unless `keep_order` is true, vertices and faces have the order of `Encoder.vertex_order`.
 
     Warns
     -----
     BsmWarning
-        If the stream cannot hold something in the file or mesh. `Encoder.notes` has the details.
+        If the stream cannot hold something in the file or mesh; see `Encoder.notes`.
 
     Raises
     ------
@@ -100,8 +103,14 @@ def encode(
         source = with_metadata(without_provenance(as_mesh(mesh)), chosen, metadata or {})
         if lengths := in_own_unit(keywords, source.metadata):
             chosen = keywords_to.encode_options(**{**keywords, **lengths})
-        encoder = Encoder(source, chosen)
-        data = b"".join(encoder.chunks(reported))
+        if simplify:
+            from bsm.simplification import encode_simplified
+
+            found = encode_simplified(source, chosen or EncodeOptions(), reported)
+            encoder, data = found.encoder, b"".join(found.attempt.frames)
+        else:
+            encoder = Encoder(source, chosen)
+            data = b"".join(encoder.chunks(reported))
     warn(encoder.losses)
     return data
 
@@ -117,6 +126,7 @@ def encode_many(
     resume: bool = False,
     overwrite: bool = False,
     metadata: Mapping[str, str] | None = None,
+    simplify: bool = False,
     progress: Heard = None,
     **keywords: Unpack[OptionKeywords],
 ) -> list[dict[str, Any]]:
@@ -132,7 +142,7 @@ def encode_many(
         Number of processes; 0: one per core. Each imports the main module of your program again, so guard its work by
         ``if __name__ == "__main__"``.
     dask : str, optional
-        Address of the scheduler of a Dask cluster to use instead of processes.
+        Address of the scheduler of a Dask cluster, instead of processes.
     report : path, optional
         A JSON file for the result of each file, updated during the work.
     resume : bool
@@ -141,6 +151,8 @@ def encode_many(
         Whether to replace existing files.
     metadata : mapping from str to str, optional
         Added to the metadata of each mesh.
+    simplify : bool
+        As in `encode`.
     progress : callable, optional
         As in `encode`, for all files together. If it raises an exception, finished files are kept.
     **keywords
@@ -171,10 +183,8 @@ def encode_many(
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
-    if isinstance(jobs, bool) or not isinstance(jobs, int):
-        raise ArgumentError(f"jobs must be a whole number, not {jobs!r}")
-    if jobs < 0:
-        raise OptionError(f"jobs must be 0 or above, not {jobs}")
+    if isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 0:
+        raise ArgumentError(f"jobs must be a whole number from 0 on, not {jobs!r}")
     check_mapping("metadata", {} if metadata is None else metadata)
     names = [named(source) for source in sources]
     run = Run(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
@@ -182,8 +192,8 @@ def encode_many(
     planned = plan(names, folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
-    entries = metadata or {}
-    job = EncodeJob(force=overwrite, quiet=True, metadata=entries, options=options, threads=threads)
+    more: dict[str, Any] = {"metadata": metadata or {}, "options": options, "simplify": simplify}
+    job = EncodeJob(force=overwrite, quiet=True, threads=threads, **more)
     return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
 

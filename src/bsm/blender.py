@@ -11,6 +11,7 @@ import math
 import os
 import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -355,7 +356,7 @@ def export_object(
         metadata["unit"] = "meters"
     try:
         scene.frame_set(numbers[0])
-        with _Evaluated(moving) as (data, place):
+        with _evaluated(moving) as (data, place):
             faces, corners = triangles_of(data)
             if not len(faces):
                 raise MeshError(f"{moving.name} has no faces")
@@ -380,7 +381,7 @@ def _frames(scene: Any, moving: Any, numbers: range, progress: Progress | None) 
     known: tuple[int, ...] = ()
     for done, number in enumerate(numbers, 1):
         scene.frame_set(number)
-        with _Evaluated(moving) as (data, place):
+        with _evaluated(moving) as (data, place):
             # How polygons are cut into triangles may change when they bend; that is not another mesh.
             sizes = len(data.vertices), len(data.loops), len(data.polygons)
             known = known or sizes
@@ -403,15 +404,14 @@ def _points(data: Any, place: Any) -> Positions:
     return found
 
 
-class _Evaluated:
-    def __init__(self, moving: Any) -> None:
-        self._found = moving.evaluated_get(bpy.context.evaluated_depsgraph_get())
-
-    def __enter__(self) -> tuple[Any, Any]:
-        try:
-            return self._found.to_mesh(), self._found.matrix_world
-        except RuntimeError as error:
-            raise MeshError(f"{self._found.name} has no surface: {error}") from error
-
-    def __exit__(self, *_: object) -> None:
-        self._found.to_mesh_clear()
+@contextmanager
+def _evaluated(moving: Any) -> Iterator[tuple[Any, Any]]:
+    found = moving.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    try:
+        data = found.to_mesh()
+    except RuntimeError as error:
+        raise MeshError(f"{found.name} has no surface: {error}") from error
+    try:
+        yield data, found.matrix_world
+    finally:
+        found.to_mesh_clear()

@@ -148,9 +148,6 @@ class Parser(argparse.ArgumentParser):
         super().__init__(**{"formatter_class": Formatter, **keywords})
         self._negative_number_matcher = re.compile(r"-[\d.][\d.,e+-]*$")  # points and boxes begin with numbers, too
 
-    def format_usage(self) -> str:
-        return f"usage: {self.prog}{self._inputs()}\n"
-
     def format_help(self) -> str:
         self.usage = f"{self.prog}{self._inputs()}"
         return super().format_help()

@@ -44,12 +44,10 @@ def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
     """Number the vertices as the input of the encoder did, without those that no face used."""
     if len(order) != len(mesh.positions):
         raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {len(mesh.positions)}")
-    places = np.empty(len(order), np.int64)  # the rank of each entry
-    places[np.argsort(order)] = np.arange(len(order))
-    before, every_face = np.argsort(places), np.arange(len(mesh.faces))
-    attributes = tuple(attribute.taken(before, every_face) for attribute in mesh.attributes)
-    faces = places[mesh.faces].astype(np.int32)
-    return replace(mesh, positions=mesh.positions[before], faces=faces, attributes=attributes)
+    rows, every_face = np.argsort(order), np.arange(len(mesh.faces))
+    attributes = tuple(attribute.taken(rows, every_face) for attribute in mesh.attributes)
+    faces = np.argsort(rows)[mesh.faces].astype(np.int32)
+    return replace(mesh, positions=mesh.positions[rows], faces=faces, attributes=attributes)
 
 
 def order_of_used(order: Order, original: TriangleMesh, decoded: TriangleMesh) -> Order:
@@ -83,8 +81,8 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
             return np.append(numbering(joined.mesh, other, by_joined), -1)[joined.index]
     if len(original.positions) != count or len(original.faces) != len(other.faces):
         raise MeshError(
-            f"the meshes differ: {len(original.positions)} and {count} vertices in faces, "
-            f"{len(original.faces)} and {len(other.faces)} faces"
+            f"the meshes have different faces: {len(original.positions)} and {count} vertices in faces, "
+            f"{len(original.faces)} and {len(other.faces)} faces; bsm compare --look --surface compares such meshes"
         )
     if order is not None and len(order) != count:
         raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {count}")

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import importlib
-import importlib.util
 import json
 import math
-import os
+import shutil
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -19,10 +17,10 @@ from bsm.bitstream.errors import ArgumentError
 from bsm.codec.progress import PARTS
 
 _PATIENCE, _SECOND = 0.5, 1.0
-_RUNNING = "{desc}: {elapsed}"  # of a line of which nobody knows how long it will be
-_KNOWN = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<LEFT"
-_LEAST_LEFT, _MOST_SHARE, _BACK = 1.0, 0.99, 0.1  # shown before the end; and how far a bar goes back at most
-_USUAL_SHAPE = (80, 24)
+_OFTEN, _BAR = 0.1, 24  # seconds between two drawings, at least; and letters of a bar
+_LEAST_LEFT, _MOST_SHARE = 1.0, 0.99  # shown before the end
+_writing = threading.Lock()
+_bar = ""  # on the terminal, below all other lines
 
 
 @dataclass(frozen=True)
@@ -76,12 +74,11 @@ class Progress:
             raise ArgumentError(f"progress must be a function, not {heard!r}")
         self._shown, self._lines, self._heard = shown, lines, heard
         self._begun = self._reported_at = time.monotonic()
-        self._share, self._when, self._seen = 0.0, 0.0, 0.0  # as reported, and after how many seconds; as shown
+        self._share, self._when = 0.0, 0.0  # as reported, and after how many seconds
         self._reported = 0
         self.stopped: BaseException | None = None
-        self._bar: Any = None
+        self._drawn_at = 0.0
         self._over = threading.Event()
-        self._opening = threading.Lock()
         self._clock: threading.Thread | None = None
 
     def __enter__(self) -> Progress:
@@ -94,9 +91,8 @@ class Progress:
         self._over.set()
         if self._clock is not None:
             self._clock.join()
-        if self._bar is not None:
-            self._bar.clear()  # which closing alone leaves out where nothing but refreshes have drawn it
-            self._bar.close()
+        if self._drawn_at:
+            _write("")
         if kind is None:
             self._tell_listener(1.0)
 
@@ -129,7 +125,7 @@ class Progress:
         self._tell_listener(share)
         if self._lines and time.monotonic() - self._reported_at >= _SECOND:
             self._report()
-        if self._shown and self._when >= _PATIENCE and self._opened() is not None:
+        if self._shown and self._when >= _PATIENCE and time.monotonic() - self._drawn_at >= _OFTEN:
             self._draw()
 
     def _tell_listener(self, share: float) -> None:
@@ -157,9 +153,7 @@ class Progress:
         rest = max(self._parts[-1][2] - self._share, 1e-3)
         share = min(self._share + rest * (1.0 - math.exp(-passed / rest)), 1.0)
         left = since / share * (1.0 - share)
-        shown = max(min(share, _MOST_SHARE), self._seen - _BACK)
-        self._seen = max(self._seen, shown)
-        return shown, since, max(left, _LEAST_LEFT)
+        return min(share, _MOST_SHARE), since, max(left, _LEAST_LEFT)
 
     def _report(self) -> None:
         self._reported_at = time.monotonic()
@@ -168,41 +162,19 @@ class Progress:
         _say_json(line)
 
     def _draw(self) -> None:
-        share, _, left = self._now()
-        self._bar.set_description_str(self._what, refresh=False)
-        if left is not None:
-            self._bar.total, self._bar.n = 100, int(100 * share)
-            self._bar.bar_format = _KNOWN.replace("LEFT", f"{int(left) // 60:02d}:{int(left) % 60:02d}")
-        self._bar.refresh()
-
-    def _opened(self) -> Any:
-        """Return the bar; None without a library that draws it."""
-        with self._opening:
-            if self._bar is None and self._shown:
-                # Not at the top: most runs are over before a bar would be seen.
-                try:
-                    widgets = in_notebook() and importlib.util.find_spec("ipywidgets") is not None
-                    bars = importlib.import_module("tqdm.notebook" if widgets else "tqdm")
-                except ImportError:  # A comfort that the core goes without.
-                    self._shown = False
-                    return None
-                bars.tqdm.monitor_interval = 0
-                more: dict[str, Any] = {"delay": _PATIENCE, "leave": False, "miniters": 0, "bar_format": _RUNNING}
-                if not widgets:
-                    # The usual columns and lines where the terminal knows none, and tqdm would draw nothing.
-                    size = (0, 0)
-                    with suppress(OSError, ValueError):
-                        size = os.get_terminal_size(sys.stderr.fileno())
-                    more["ncols"], more["nrows"] = size[0] or _USUAL_SHAPE[0], size[1] or _USUAL_SHAPE[1]
-                self._bar = bars.tqdm(desc=self._what, **more)
-            return self._bar
+        self._drawn_at = time.monotonic()
+        share, since, left = self._now()
+        done = "" if left is None else f"{100 * share:3.0f}%|{'█' * int(_BAR * share):{_BAR}}| "
+        rest = "" if left is None else f"<{int(left) // 60:02d}:{int(left) % 60:02d}"
+        line = f"{printable(self._what)}: {done}{int(since) // 60:02d}:{int(since) % 60:02d}{rest}"
+        _write("", line[: shutil.get_terminal_size().columns - 1])
 
     def _tick(self) -> None:
         """Draw again each second, so that silence does not look like the end."""
         while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
             if self._lines and time.monotonic() - self._reported_at >= _SECOND / 2:
                 self._report()
-            if self._shown and self._opened() is not None:
+            if self._shown:
                 self._draw()
 
 
@@ -216,12 +188,16 @@ def say(text: str, key: str | None = None) -> None:
     if key:
         _say_json({key: text})
         return
-    text = "\n".join(map(printable, text.split("\n")))
-    bars = sys.modules.get("tqdm")
-    if bars is None:
-        print(text, file=sys.stderr)
-    else:
-        bars.tqdm.write(text, file=sys.stderr)
+    _write("\n".join(map(printable, text.split("\n"))) + "\n", _bar)
+
+
+def _write(text: str, bar: str = "") -> None:
+    """Write a text in place of the bar on the terminal, and then another bar."""
+    global _bar
+    with _writing:
+        wiped = f"\r{' ' * len(_bar)}\r" if _bar else ""
+        print(f"{wiped}{text}{bar}", end="", file=sys.stderr, flush=True)
+        _bar = bar
 
 
 def _say_json(line: Mapping[str, Any]) -> None:

@@ -5,8 +5,6 @@ extern "C" int64_t walk_rows(
     ConstBytes raw, int64_t offset, ConstLongs2 widths, int64_t place, bool big_endian, Longs starts, Longs sizes);
 extern "C" int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadrics, Ints starts, Ints around,
     Ints ends, Ints marks, Ints owners, Singles costs, Ints buckets, int64_t target);
-extern "C" double farthest_near(ConstDoubles2 points, ConstInts owners, ConstDoubles2 positions, ConstInts2 faces,
-    Ints starts, Ints around);
 
 using namespace nb::literals;
 
@@ -16,6 +14,4 @@ NB_MODULE(_kernels, m) {
         "sizes"_a, Unlocked());
     m.def("simplify", checked<simplify>, "positions"_a, "faces"_a, "states"_a, "quadrics"_a, "starts"_a, "around"_a,
         "ends"_a, "marks"_a, "owners"_a, "costs"_a, "buckets"_a, "target"_a, Unlocked());
-    m.def("farthest_near", &farthest_near, "points"_a, "owners"_a, "positions"_a, "faces"_a, "starts"_a, "around"_a,
-        Unlocked());
 }

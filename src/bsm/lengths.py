@@ -53,8 +53,7 @@ def in_own_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> dict
         If a length has a unit and the mesh has none.
     """
     found = {}
-    own = metadata.get("unit")
-    own = own if isinstance(own, str) else ""
+    own = unit_of(metadata)
     size = metres(own)
     for name in LENGTHS:
         value = options.get(name)

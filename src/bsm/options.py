@@ -179,7 +179,7 @@ def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.static.options import EncodeOptions, Paper
 
-    of_meshes = {*(field.name for field in (*fields(EncodeOptions), *fields(Paper))), *TARGETS, *BOUNDS}
+    of_meshes = {*(field.name for field in (*fields(EncodeOptions), *fields(Paper))), *TARGETS, *BOUNDS, "simplify"}
     of_sequences = {*(field.name for field in fields(SequenceOptions)), *SEQUENCE_TARGETS}
     for others, names in (("single meshes", of_meshes), ("sequences", of_sequences)):
         if name in names and what in ("a mesh", "a sequence"):

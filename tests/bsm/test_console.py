@@ -39,7 +39,6 @@ def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
 def test_time_is_reported_where_nothing_else_is():
     """From the first second on, and with what is left from when a share was known."""
     pty = pytest.importorskip("pty")
-    pytest.importorskip("tqdm")
     work = "import time; from bsm.console import Console\nwith Console(json={}).progress('denoising') as progress:\n"
     work += " time.sleep(1.5); progress.stage('rehearsing', 0.1); time.sleep(2.2)"
     ours, theirs = pty.openpty()

@@ -16,7 +16,7 @@ from bsm.files.mesh import read_mesh, write_mesh
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.document import read_document
 from bsm.tiles.cutting import Lattice
-from bsm.tiles.making import farthest_near, simplified, welded
+from bsm.tiles.making import simplified, welded
 from tests.bsm.program import bsm as program
 from tests.shapes import curved, torus
 
@@ -265,7 +265,7 @@ def test_borders_stay_and_what_is_no_surface_is_left_alone():
     places = Lattice(CELL).places(mesh.positions)
     open_ones = mesh.faces[(mesh.faces < 1200).all(axis=1)]
     nothing = np.zeros(len(places), bool)
-    new, faces, _ = simplified(places, open_ones, nothing, 300)
+    new, faces = simplified(places, open_ones, nothing, 300)
     known, counts = edges(open_ones)
     border = places[np.unique(known[counts == 1])]
     left, number = edges(faces)
@@ -277,17 +277,6 @@ def test_borders_stay_and_what_is_no_surface_is_left_alone():
     corner = np.array([(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)], np.int32)
     solid = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)], np.int32)
     assert len(simplified(corner, solid, np.zeros(4, bool), 1)[1]) == 4
-
-
-def test_how_far_what_is_simplified_is_off():
-    mesh = torus(60, 40)
-    places = Lattice(CELL).places(mesh.positions)
-    new, faces, owners = simplified(places, mesh.faces, np.zeros(len(places), bool), 600)
-    points = places.astype(float)
-    exact = distances_to_surface(points, new.astype(float), faces).max()
-    assert exact <= farthest_near(points, owners, new.astype(float), faces) <= 1.5 * exact
-    lost = np.where(owners == 7, np.int32(-1), owners)
-    assert farthest_near(points, lost, new.astype(float), faces) == exact
 
 
 @pytest.mark.slow

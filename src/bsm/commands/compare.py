@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +17,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
+from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, limits_of
 from bsm.comparison import Pair, compare_meshes, numbering, order_of_used, pair, read_permutation
@@ -31,10 +32,6 @@ from bsm.files.stream import SequenceStream, decode_whole, is_stream, peek_heade
 from bsm.lengths import length, unit_of
 from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
-if TYPE_CHECKING:
-    from bsm.codec.look.measure import Look
-
-
 COLORED = ("ply", "obj", "glb")  # formats that hold colors of vertices
 ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "checker", "color": "colors"}
 SHOWN = 99.0  # percentile of the distances that has the last color: single vertices shall not make all others blue
@@ -45,7 +42,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("original", metavar="A", help="original: mesh file, stream or sequence")
     add("decoded", metavar="B", help="the mesh to compare: mesh file, stream or sequence")
     add("--permutation", metavar="FILE.npy", help="the file that encode wrote: vertex p[j] of A is vertex j of B")
-    surface = "for meshes, also print the mean normal difference, the rms error in mean edges, the Hausdorff distance"
+    surface = (
+        "for meshes, also print the mean normal difference, the rms error in mean edges, and the distance between "
+    )
+    surface += "the surfaces. The faces may differ"
     add("--surface", action="store_true", help=surface)
     alike = "also measure the look distance; at 1, both look the same in smooth shading. The faces may differ. "
     add("--look", action="store_true", help=f"{alike}A sequence is compared frame by frame")
@@ -98,8 +98,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
         more: dict[str, Any] = {}
         if args.look or args.picture:
             progress.stage("comparing pictures")
-            from bsm.codec.look.measure import AttributeLook, LookMetric, look_values
-
             if args.picture:
                 refuse_to_overwrite(args.picture, args.force)
             looker = LookMetric(original)
@@ -116,22 +114,25 @@ def run(args: argparse.Namespace, console: Console) -> None:
             order = order_of_used(read_permutation(args.permutation), *whole) if args.permutation else None
             compared = _compared(original, decoded, pair(original, decoded, order), args, console)
         except MeshError:
-            if seen is None:
+            if seen is None and not args.surface:
                 raise
-            console.note("the meshes have different faces: only their look distance is measured")
-            compared = {}
+            console.note("the meshes have different faces, so vertices are not compared")
+            compared = _apart(original, decoded) if args.surface else {}
     attributes = compared.pop("attributes", {})
     if args.json:
         shown = {"look": asdict(seen) | more} if seen else {}
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
-    lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
+    lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if "max_error" in compared else []
     looks = {"look": seen.distance, **{f"look_{name}": value for name, value in more.items()}} if seen else {}
     lines += [f"{line}\n" for line in explained(compared | looks)]
+    print("".join(lines + [f"{line}\n" for line in _of_attributes(attributes)]), end="")
+
+
+def _of_attributes(attributes: dict[str, dict[str, float] | None]) -> Iterator[str]:
     for name, errors in attributes.items():
         text = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
-        lines.append(f"{printable(name)}: {'missing' if text is None else text}\n")
-    print("".join(lines), end="")
+        yield f"{printable(name)}: {'missing' if text is None else text}"
 
 
 def explained(numbers: dict[str, Any]) -> list[str]:
@@ -156,11 +157,16 @@ def _compared(
     before, after, faces = paired.original.positions, paired.positions, paired.original.faces
     result |= {"folded_before": folded_edges(before, faces), "folded_after": folded_edges(after, faces)}
     if args.surface:  # what the literature on denoising measures
-        distance = surface_distance(before, faces, after, faces)
         result |= {"mnd": mnd(before, after, faces), "rms_over_edge": rms_over_edge(before, after, faces)}
-        result |= {"hausdorff": distance.hausdorff, "surface_distance": distance.mean}
-        result["hausdorff_relative"] = distance.hausdorff / (paired.original.diagonal or 1.0)
+        result |= _apart(paired.original, TriangleMesh(after, faces))
     return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
+
+
+def _apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, float]:
+    """The distances between two surfaces."""
+    found = surface_distance(original.positions, original.faces, decoded.positions, decoded.faces)
+    relative = found.hausdorff / (original.diagonal or 1.0)
+    return {"hausdorff": found.hausdorff, "surface_distance": found.mean, "hausdorff_relative": relative}
 
 
 def sentence(compared: dict[str, Any], unit: str) -> str:
@@ -214,9 +220,8 @@ def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
     for row in rows:
         said = f"not compared: {row['not_compared']}" if "not_compared" in row else sentence(row, "meters")
         print(f"mesh {row['mesh']}, primitive {row['primitive']}: {said}")
-        for name, errors in row.get("attributes", {}).items():
-            values = "missing" if errors is None else ", ".join(f"{k} {v:.4g}" for k, v in errors.items())
-            print(f"  {printable(name)}: {values}")
+        for line in _of_attributes(row.get("attributes", {})):
+            print(f"  {line}")
     return True
 
 
@@ -334,8 +339,6 @@ def _of_frames(original: Positions, decoded: Positions) -> list[dict[str, float]
 
 def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
     """Return the look distances of the worst frame and the mean of all visible frames; see `codec.look`."""
-    from bsm.codec.look.measure import LookMetric
-
     found = []
     pairs = [(shown, other, faces) for first, second, faces in runs for shown, other in zip(first, second, strict=True)]
     for number, (shown, other, faces) in enumerate(pairs):

@@ -1,14 +1,12 @@
 """bsm curve: measure rate against error for several codecs; write JSON, and draw pictures from it."""
 
-from __future__ import annotations
-
 import argparse
 import csv
 import importlib.util
 import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,12 +14,10 @@ from bsm.bitstream.errors import DependencyError, OptionError, how_to_install
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import within
 from bsm.console import Console, print_json
+from bsm.evaluation import curve as rates
 from bsm.files.mesh import read_mesh
 from bsm.files.output import write_output
 from bsm.files.sequence import open_sequence
-
-if TYPE_CHECKING:
-    from bsm.evaluation.curve import Curve, Picture
 
 GROUPS = ("ours", "paper", "draco")
 _NEEDS = {"ours": (), "draco": ("DracoPy",)}
@@ -49,8 +45,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    from bsm.evaluation.curve import compare_curves, draw_all, read_results, run_curve, write_result
-
     folder = Path(args.output)
     if folder.suffix.lower() in (".png", ".svg", ".json", ".pdf"):
         raise OptionError(f"{folder}: -o must be a folder; results and pictures are named after the meshes")
@@ -62,20 +56,20 @@ def run(args: argparse.Namespace, console: Console) -> None:
     for path, mesh in chosen:
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
-                result = run_curve(curve, mesh, Path(path).stem, args.repeat, progress)
-            console.note(f"{write_result(result, folder)}")
-    results = list(read_results(folder))
+                result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress)
+            console.note(f"{rates.write_result(result, folder)}")
+    results = list(rates.read_results(folder))
     if not results:
         raise OptionError(f"{folder} contains no results; name meshes to measure")
     draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
     tested = [result for result in results if result["codec"] != "draco" and result["mesh"]["name"] in draco]
-    comparisons = [compare_curves(draco[result["mesh"]["name"]], result) for result in tested]
+    comparisons = [rates.compare_curves(draco[result["mesh"]["name"]], result) for result in tested]
     tables = {"points": _measured(results)} | ({"draco": _compared(comparisons)} if comparisons else {})
     if args.json:
         print_json({"comparisons": comparisons})
     else:
         print(_words(tables))
-    _save(tables, draw_all(results), folder, args, console)
+    _save(tables, rates.draw_all(results), folder, args, console)
 
 
 def _refuse_missing(codecs: str) -> None:
@@ -87,20 +81,22 @@ def _refuse_missing(codecs: str) -> None:
 
 
 def _save(
-    tables: dict[str, Table], pictures: Iterable[Picture], folder: Path, args: argparse.Namespace, console: Console
+    tables: dict[str, Table],
+    pictures: Iterable[rates.Picture],
+    folder: Path,
+    args: argparse.Namespace,
+    console: Console,
 ) -> None:
-    from bsm.evaluation.curve import FORMATS, latex
-
     for name, (columns, rows) in tables.items():
         file = io.StringIO()
         csv.writer(file, lineterminator="\n").writerows([columns, *rows])
         texts = {"csv": file.getvalue()} if args.csv else {}
-        texts |= {"tex": latex(columns, rows) + "\n"} if args.latex else {}
+        texts |= {"tex": rates.latex(columns, rows) + "\n"} if args.latex else {}
         for suffix, text in texts.items():
             write_output(folder / f"{name}.{suffix}", text.encode(), overwrite=True, follow=False)
             console.note(str(folder / f"{name}.{suffix}"))
     for picture in pictures:
-        for path in picture.save(folder, (*FORMATS, *(("pdf",) if args.pdf else ()))):
+        for path in picture.save(folder, (*rates.FORMATS, *(("pdf",) if args.pdf else ()))):
             console.note(str(path))
 
 
@@ -110,23 +106,19 @@ def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Co
     if source is None:
         return False
     _refuse_missing("draco")
-    from bsm.evaluation.curve import draw_lines, measure_lines, table, table_of, write_result
-
     frames = np.array(list(source.frames))
     mesh, kept = TriangleMesh(frames[0], source.faces).without_isolated_vertices()
     with console.progress(Path(path).stem) as progress:
-        result = measure_lines(frames[:, kept], mesh.faces, Path(path).stem, progress)
-    console.note(f"{write_result(result, folder)}")
-    print(table(*table_of(result)))
-    _save({f"{Path(path).stem}-sequence": table_of(result)}, draw_lines(result), folder, args, console)
+        result = rates.measure_lines(frames[:, kept], mesh.faces, Path(path).stem, progress)
+    console.note(f"{rates.write_result(result, folder)}")
+    print(rates.table(*rates.table_of(result)))
+    _save({f"{Path(path).stem}-sequence": rates.table_of(result)}, rates.draw_lines(result), folder, args, console)
     return True
 
 
-def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
-    from bsm.evaluation.curve import draco_curve, our_curve, paper_curves
-
-    paper = paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {"ours": (our_curve(fine=True),), "paper": paper, "draco": (draco_curve(),)}
+def _chosen(names: str, vertices: int, blocks: int | None) -> list[rates.Curve]:
+    paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
+    groups = {"ours": (rates.our_curve(fine=True),), "paper": paper, "draco": (rates.draco_curve(),)}
     groups |= {line.name: (line,) for line in paper}
     unknown = [name for name in names.split(",") if name not in groups]
     if unknown:
@@ -135,29 +127,23 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
 
 
 def _measured(results: Sequence[dict[str, Any]]) -> Table:
-    from bsm.evaluation.curve import number
+    def setting(result: dict[str, Any], point: dict[str, Any]) -> str:
+        target = point["settings"].get("target")
+        return f"{result['codec']}, {target['value']:g}{_UNITS[target['kind']]}" if target else str(result["codec"])
 
     digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "theta_deg": 2, "encode_seconds": 3, "decode_seconds": 3}
     rows = [
-        (result["mesh"]["name"], _setting(result, point), *(number(point[name], n) for name, n in digits.items()))
+        (result["mesh"]["name"], setting(result, point), *(rates.number(point[name], n) for name, n in digits.items()))
         for result in results
         for point in result["points"]
     ]
     return ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "theta", "encode, s", "decode, s"), rows
 
 
-def _setting(result: dict[str, Any], point: dict[str, Any]) -> str:
-    """A codec and its target."""
-    target = point["settings"].get("target")
-    return f"{result['codec']}, {target['value']:g}{_UNITS[target['kind']]}" if target else str(result["codec"])
-
-
 def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:
-    from bsm.evaluation.curve import number
-
     rows = [
         (
-            *(row["mesh"], row["codec"], *(number(row["bytes_at_theta"][angle], 3) for angle in ("7", "10"))),
+            *(row["mesh"], row["codec"], *(rates.number(row["bytes_at_theta"][angle], 3) for angle in ("7", "10"))),
             *("-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %" for name in _UNITS),
         )
         for row in comparisons
@@ -166,12 +152,10 @@ def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:
 
 
 def _words(tables: dict[str, Table]) -> str:
-    from bsm.evaluation.curve import table
-
-    measured = table(*tables["points"])
+    measured = rates.table(*tables["points"])
     if "draco" not in tables:
         return measured
     read = "Bytes as a share of Draco's at the same mean angle; BD-rate: the mean difference of bytes at equal error."
     read += "\nIn the plots, points further left are smaller, and lower points are closer. Right of its knee, a line "
     read += "takes 3 bits per vertex to halve the error."
-    return f"{measured}\n\nAgainst Draco, whole files (smaller is better):\n\n{table(*tables['draco'])}\n\n{read}"
+    return f"{measured}\n\nAgainst Draco, whole files (smaller is better):\n\n{rates.table(*tables['draco'])}\n\n{read}"

@@ -1,6 +1,7 @@
 """bsm decode: streams to mesh files and sequences."""
 
 import argparse
+import re
 import sys
 import time
 from collections.abc import Iterator
@@ -198,11 +199,8 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
 
 def _range(text: str | None) -> tuple[int, int]:
     """First frame, and the one after the last."""
-    first, colon, last = (text or ":").partition(":")
-    try:
-        chosen = int(first or 0), int(last or sys.maxsize)
-    except ValueError:
-        chosen = -1, -1
-    if not colon or not 0 <= chosen[0] < chosen[1]:
+    found = re.fullmatch("([0-9]*):([0-9]*)", text or ":")
+    first, last = (int(found[1] or 0), int(found[2] or sys.maxsize)) if found else (0, 0)
+    if first >= last:
         raise OptionError(f"--frames {text}: give A:B with 0 <= A < B; either may be left out")
-    return chosen
+    return first, last

@@ -7,8 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError
+from bsm.codec.decoding import decode
+from bsm.codec.static.encoder import Encoder
 from bsm.commands.flags import add_preset_flags, options_of, within
 from bsm.console import Console, print_json
+from bsm.evaluation.sample import knot
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.options import encode_options
 from bsm.pictures import bounds_of, colors_of, png, render, with_titles
@@ -28,10 +31,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
     for path in (stream_path, picture_path):
         refuse_to_overwrite(path, args.force)
     Path(args.output).mkdir(parents=True, exist_ok=True)
-
-    from bsm.codec.decoding import decode
-    from bsm.codec.static.encoder import Encoder
-    from bsm.evaluation.sample import knot
 
     sample = knot(args.vertices)
     vertices, faces = len(sample.positions), len(sample.faces)

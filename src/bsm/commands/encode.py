@@ -31,6 +31,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     known = "format of the input, as a suffix without the dot (default: by its name or content)"
     add("--format", choices=formats, metavar="FORMAT", help=known)
     add("--dry-run", action="store_true", help="encode, check and report, but write no file")
+    fewer = "try a half, a quarter, ... of the triangles, and keep the smallest file that keeps the promise to the "
+    fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"
+    add("--simplify", action="store_true", help=fewer)
     add("--permutation", metavar="FILE.npy", help="write the input vertex of each decoded vertex")
     about_meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
     add("--meta", action="append", default=[], metavar="NAME=TEXT", help=about_meta)

@@ -32,14 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--attribute", action="append", default=[], metavar="NAME=QUALITY", help=kept)
     shared = "one grid for all meshes with equal scale and rotation, so that touching meshes still touch"
     add("--one-grid", action="store_true", help=shared)
-    add(
-        "-j",
-        "--jobs",
-        type=within(0),
-        default=1,
-        metavar="N",
-        help="threads, each for a primitive (0: one per core; default 1)",
-    )
+    threads = "threads, each for a primitive (0: one per core; default 1)"
+    add("-j", "--jobs", type=within(0), default=1, metavar="N", help=threads)
     plain = "also write OUT.fallback.bin with plain arrays, for viewers without the extension"
     add("--fallback", action="store_true", help=plain)
     images = (

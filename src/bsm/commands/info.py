@@ -46,10 +46,17 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
 
 
 def summarize(info: StreamInfo) -> dict[str, Any]:
-    header = info.header
+    header, sizes = info.header, info.sizes
+    extensions = {
+        "order": sizes["order"] > 0,
+        "light": header.light > 0,
+        "paper": bool(header.paper) or sizes["partition"] > 0,
+        "attributes": header.attributes > 0,
+        "sequence": bool(header.sequence),
+    }
     return {
         "version": f"{info.version >> 4}.{info.version & 15}",
-        "extensions": [name for name, needed in _needs(info).items() if needed],
+        "extensions": [name for name, used in extensions.items() if used],
         "vertices": header.vertices,
         "faces": header.faces,
         "blocks": header.blocks,
@@ -71,18 +78,6 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
             for name, value in info.metadata.items()
         },
         "metadata_bytes": {n: len(value) for n, value in info.metadata.items() if isinstance(value, bytes)},
-    }
-
-
-def _needs(info: StreamInfo) -> dict[str, bool]:
-    """Which of the specification's extensions a decoder of the stream must know, or skip."""
-    header, sizes = info.header, info.sizes
-    return {
-        "order": sizes["order"] > 0,
-        "light": header.light > 0,
-        "paper": bool(header.paper) or sizes["partition"] > 0,
-        "attributes": header.attributes > 0,
-        "sequence": bool(header.sequence),
     }
 
 

@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FOLDER", required=True, help="folder or URL for the shards and manifest.json")
     add("--format", choices=("ply", "stl", "npz", "obj"), help="format of the input (default: by its name or content)")
     largest = "largest number of triangles of a tile (default 2^19)"
-    add("--triangles", type=int, default=1 << 19, metavar="N", help=largest)
+    add("--triangles", type=within(64), default=1 << 19, metavar="N", help=largest)
     cell = "cell of the grid of all tiles (default: a power of two, by the look distance)"
     add("--grid-cell", type=float, metavar="H", help=cell)
     add("--grid-origin", type=numbers(3), metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
@@ -51,8 +51,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    if args.triangles < 64:
-        raise OptionError(f"--triangles {args.triangles}: must be 64 or more")
     if args.grid_cell is not None and not 0.0 < args.grid_cell < math.inf:
         raise OptionError(f"--grid-cell {args.grid_cell:g}: must be positive and finite")
     if not all(map(math.isfinite, args.grid_origin or ())):

@@ -1,4 +1,4 @@
-"""Speed: whole files against Draco, and dictionaries against exact eigensolvers, whose answers are checked.
+"""Speed: whole files against Draco, and dictionaries against exact eigensolvers.
 
 Solvers' times are CPU seconds of one thread, the least of several runs.
 """
@@ -16,7 +16,6 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import eigsh
 from threadpoolctl import threadpool_limits
 
-from bsm.bitstream.errors import NumericError
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, hash_columns, orthogonal_iteration
@@ -104,8 +103,6 @@ def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
     wholes: dict[str, float] = {}
 
     def exact_seconds(solver: Solver, width: int) -> float:
-        for laplacian in chosen:
-            check_lowest(solver, laplacian, min(width, len(laplacian) - 1))
         seconds = timed(lambda: [solver.solve(a, min(width, len(a) - 1)) for a in chosen], repeats, time.thread_time)[0]
         return seconds * len(ordered) / len(chosen)
 
@@ -141,17 +138,6 @@ def iterated(block: Block, width: int, power: int) -> Matrix:
     start = first_columns(block.size, min(width, block.size), False)
     basis = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
     return basis.astype(np.float64)
-
-
-def check_lowest(solver: Solver, laplacian: Matrix, width: int) -> None:
-    """Check that a solver's columns are orthonormal and span the lowest eigenspace (Ky Fan's minimum of the trace)."""
-    basis = solver.solve(laplacian, width)
-    if not np.allclose(basis.T @ basis, np.eye(width), atol=1e-6):
-        raise NumericError(f"{solver.name}: the columns are not orthonormal")
-    least = np.linalg.eigvalsh(laplacian)[:width].sum()
-    excess = np.einsum("ij,ij->", basis, laplacian @ basis) - least
-    if not abs(excess) <= 1e-8 * max(1.0, least):
-        raise NumericError(f"{solver.name}: the trace is {excess:g} above the sum of the lowest eigenvalues")
 
 
 def bench_tables(result: Result) -> str:

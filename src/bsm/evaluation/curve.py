@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from bsm.bitstream.errors import CorruptError, MeshError, imported
 from bsm.bitstream.limits import NAMED_LIMITS
@@ -295,7 +294,9 @@ class RateCurve:
     log_rates: Positions
 
     @property
-    def interpolated(self) -> PchipInterpolator:
+    def interpolated(self) -> Any:
+        from scipy.interpolate import PchipInterpolator
+
         return PchipInterpolator(self.distortions, self.log_rates)
 
     def rate(self, distortion: float) -> float | None:
@@ -427,13 +428,9 @@ def draco_point(frames: Positions, faces: Faces, bits: int, every: int) -> Point
     meshes = [TriangleMesh(frame, faces) for frame in frames[::every]]
     streams = [encode_draco(mesh, bits, 10) for mesh in meshes]
     decoded = [positions_in_order(mesh, decode_draco(data), bits) for mesh, data in zip(meshes, streams)]
-    return point_of(f"Draco qp {bits}", sum(map(len, streams)), frames[::every], np.array(decoded), faces)
-
-
-def point_of(name: str, size: int, original: Positions, decoded: Positions, faces: Faces) -> Point:
-    """A point of a line: bytes, and how far `decoded` is off, both of shape (T, n, 3)."""
-    comparison = compare_sequences(original, decoded, faces)
-    return {"codec": name, "bytes": size, "bpvf": 8 * size / original[..., 0].size, **asdict(comparison)}
+    size, original = sum(map(len, streams)), frames[::every]
+    errors = asdict(compare_sequences(original, np.array(decoded), faces))
+    return {"codec": f"Draco qp {bits}", "bytes": size, "bpvf": 8 * size / original[..., 0].size, **errors}
 
 
 def draw_lines(result: dict[str, Any]) -> Iterator["Picture"]:

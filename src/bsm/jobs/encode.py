@@ -1,7 +1,5 @@
 """Encode meshes and sequences for `bsm encode` and `bsm.encode_many`."""
 
-from __future__ import annotations
-
 import math
 import re
 import time
@@ -10,12 +8,15 @@ from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bsm import __version__
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.static.encoder import Attempt, Encoder
 from bsm.codec.static.targets import ANY_ANGLE
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
@@ -28,9 +29,7 @@ from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import in_own_unit
 from bsm.libraries import PROVENANCE, has_provenance, with_metadata
 from bsm.options import encode_options, sequence_options
-
-if TYPE_CHECKING:
-    from bsm.codec.sequence.options import SequenceOptions
+from bsm.simplification import Simplified, encode_simplified
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
@@ -52,6 +51,7 @@ class EncodeJob(Task):
     animation: str | None = None
     cache_mesh: str | None = None
     provenance: bool | None = None
+    simplify: bool = False
 
 
 def encode_one(job: EncodeJob, console: Console) -> Facts:
@@ -68,8 +68,6 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
 
 
 def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
-    from bsm.codec.static.encoder import Encoder
-
     for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
         if given is not None:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
@@ -80,12 +78,17 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     if lengths := in_own_unit(job.options, mesh.metadata):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
     begin = time.perf_counter()
-    known, generations = with_provenance(mesh.metadata, job.provenance, job.input, job.options, chosen)
+    options = {**job.options, "simplify": job.simplify}
+    known, generations = with_provenance(mesh.metadata, job.provenance, job.input, options, chosen)
     mesh = replace(mesh, metadata=known)
-    encoder = Encoder(mesh, chosen)
-    overwrite = job.may_replace(job.output)
+    if job.simplify and job.permutation:
+        raise OptionError("--permutation orders all vertices, and --simplify leaves some out")
+    overwrite, found = job.may_replace(job.output), None
     with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
-        result = encoder.result(progress)
+        if job.simplify:
+            found = encode_simplified(mesh, chosen, progress)
+        encoder = found.encoder if found else Encoder(mesh, chosen)
+        result = found.attempt if found else encoder.result(progress)
         for chunk in result.frames:
             file.write(chunk)
     seconds = time.perf_counter() - begin
@@ -94,12 +97,14 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     notes = [
         *source.notes,
         *generations,
+        *(found.notes if found else ()),
         *encoder.notes,
         *(["left out: materials, images"] if left_out else []),
         *([f"{images} bytes are unchanged images"] if images else []),
         *([f"no look is promised; measured: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
-    vertices, faces, size, error = result.header.vertices, len(encoder.mesh.faces), result.size, result.comparison
+    vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
+    errors, numbers = _errors(result, found, mesh.diagonal or 1.0)
     taken, bpv = size_of(job.input), 8 * (size - images) / vertices
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
@@ -109,21 +114,32 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         notes,
         encoder.vertex_order,
         f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, size)}, "
-        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}largest vertex error "
-        f"{100 * error.max_error_relative:.3g} % of the diagonal, mean normal error {error.angle_deg:.2f} degrees; "
+        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{errors}; "
         f"{seconds:.2f} s",
     )
     counts = {"vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
+    ends = {"look": encoder.look, "seconds": seconds, "notes": notes}
+    return {"input": job.input, "output": job.output, **counts, **sizes, **numbers, **ends}
+
+
+def _errors(result: Attempt, found: Simplified | None, diagonal: float) -> tuple[str, Facts]:
+    """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
+    if found is not None and found.apart:
+        farthest = found.apart / diagonal
+        words = f"{found.before} triangles before, surfaces at most {100 * farthest:.3g} % of the diagonal apart"
+        return words, {"faces_before": found.before, "max_error_relative": farthest}
+    error = result.comparison
+    words = f"largest vertex error {100 * error.max_error_relative:.3g} % of the diagonal, mean normal error "
+    words += f"{error.angle_deg:.2f} degrees{'; all triangles are kept' if found else ''}"
     angles = {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
-    ends = {"max_error_relative": error.max_error_relative, "look": encoder.look, "seconds": seconds, "notes": notes}
-    return {"input": job.input, "output": job.output, **counts, **sizes, **angles, **ends}
+    return words, {**angles, "max_error_relative": error.max_error_relative}
 
 
 def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     """Encode one sequence; write each GOP as soon as its frames have arrived."""
-    from bsm.codec.sequence.encoder import SequenceEncoder
-
+    if job.simplify:
+        raise OptionError("--simplify is for single meshes; this is a sequence")
     begin = time.perf_counter()
     chosen = sequence_options(**{"keep_order": source.rigged > 0, **job.options}, threads=job.threads)
     source = source.on_sorted_faces() if source.rigged and chosen.keep_order else source
@@ -212,6 +228,7 @@ def _words(path: str, given: Mapping[str, Any], options: Any, generation: int) -
     parts += [f"{name}={value}" for name, value in shown.items() if value not in (None, "inf", f"{ANY_ANGLE:g}")]
     parts += [f"{target.kind}={target.value:g}"] if target else []
     parts += [f"generation={generation}"] if generation > 1 else []
+    parts += ["simplify"] if given.get("simplify") else []
     if Path(path).is_file():
         digest = sha256()
         for chunk in read_chunks(path):

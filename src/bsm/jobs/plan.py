@@ -74,15 +74,12 @@ def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:
 
 def input_names(inputs: Sequence[str]) -> list[str]:
     """Return the names of the inputs; expand URLs with ``*``."""
-    return [name for given in inputs for name in _behind(given, own_name(given))]
-
-
-def _behind(given: str, name: str) -> list[str]:
-    if pipes.is_url(name):
-        return pipes.expanded(name)
-    if name == given or not glob.has_magic(name):
-        return [name]
-    found = sorted(glob.glob(name))  # of a file:// URL, which no shell expands
-    if not found:
-        raise FileNotFoundError(errno.ENOENT, "no such file", given)
-    return found
+    names: list[str] = []
+    for given in inputs:
+        name = own_name(given)
+        local = name != given and glob.has_magic(name)  # of a file:// URL, which no shell expands
+        found = pipes.expanded(name) if pipes.is_url(name) else sorted(glob.glob(name)) if local else [name]
+        if not found:
+            raise FileNotFoundError(errno.ENOENT, "no such file", given)
+        names += found
+    return names

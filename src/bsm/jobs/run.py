@@ -9,6 +9,7 @@ from functools import partial
 from heapq import heappop, heappush
 
 from bsm.bitstream.errors import OptionError, counted
+from bsm.codec.threads import available_threads
 from bsm.console import Console, print_json
 from bsm.exits import exit_of, report_error, worded
 from bsm.files import pipes
@@ -165,8 +166,6 @@ def sizes_of(jobs: Sequence[Job]) -> list[int]:
 
 
 def _processes(run: Run, count: int) -> int:
-    from bsm.codec.threads import available_threads
-
     return min(run.jobs or available_threads(), count) or 1
 
 

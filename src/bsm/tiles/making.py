@@ -7,7 +7,6 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm import _kernels
 from bsm.bitstream.errors import TargetError
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.attributes import Attribute
@@ -19,12 +18,12 @@ from bsm.console import Console
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output, write_output
 from bsm.jobs.task import Facts, Task
+from bsm.simplification import collapsed, compact
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
 from bsm.tiles.reading import mapped
 
 Faces: TypeAlias = npt.NDArray[np.int32]
 _KEPT = 4  # one of this many triangles stays from level to level
-_TERMS, _BUCKETS = 10, 1 << 15  # of what simplifying takes for scratch
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,8 +128,8 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     low = places.min(axis=0).astype(np.int64)
     inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
     locked |= np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
-    new, smaller, owners = simplified(places, faces, locked, max(len(faces) // _KEPT, min(COARSEST, most) // 4))
-    apart = farthest_near(places.astype(np.float64), owners, new.astype(np.float64), smaller)
+    new, smaller = simplified(places, faces, locked, max(len(faces) // _KEPT, min(COARSEST, most) // 4))
+    apart = farthest_from_surface(places.astype(np.float64), new.astype(np.float64), smaller)
     near = np.zeros(0, np.int64)
     if tables:
         from scipy.spatial import KDTree  # a third of what a process loads
@@ -145,36 +144,10 @@ def solid(faces: Faces) -> Faces:
     return np.asarray(faces[(a != b) & (b != c) & (c != a)])
 
 
-def simplified(
-    places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int
-) -> tuple[Places, Faces, npt.NDArray[np.int32]]:
-    """Simplify to about `target` triangles; locked and border vertices stay. Also return new indices of vertices."""
-    count, low = len(places), places.min(axis=0).astype(np.float64)
-    positions, left, sides = places - low, faces.copy(), 3 * len(faces)
-    starts, ends, marks, owners = (np.empty(count + more, np.int32) for more in (1, 0, 0, 0))
-    scratch = np.empty((count, _TERMS)), starts, np.empty(sides, np.int32), ends, marks
-    buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
-    size = _kernels.simplify(positions, left, locked.astype(np.uint8), *scratch, owners, *buckets, target)
-    kept, corners, first = compact(positions, left[:size])
+def simplified(places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int) -> tuple[Places, Faces]:
+    """Simplify to about `target` triangles; locked and border vertices stay."""
+    low = places.min(axis=0).astype(np.float64)
+    kept, corners, _ = collapsed(places - low, faces, locked, target)
     new, numbers, _ = welded(np.rint(kept + low).astype(np.int32))
-    new, smaller, second = compact(new, solid(numbers[corners]))
-    if not len(smaller):
-        return places, faces, np.arange(count, dtype=np.int32)
-    return new, smaller, np.append(second[numbers], np.int32(-1))[first[owners]]
-
-
-def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Faces, npt.NDArray[np.int32]]:
-    """Vertices that faces have, those faces, and the new number of each vertex, or -1."""
-    used = np.zeros(len(rows), bool)
-    used[faces] = True
-    numbers = np.where(used, np.cumsum(used, dtype=np.int32) - 1, -1).astype(np.int32)
-    return rows[used], numbers[faces], numbers
-
-
-def farthest_near(
-    points: npt.NDArray[np.float64], owners: npt.NDArray[np.int32], new: npt.NDArray[np.float64], faces: Faces
-) -> float:
-    """How far points are from a surface at most: looked for near their owners, or everywhere where one has none."""
-    scratch = np.empty(len(new) + 1, np.int32), np.empty(3 * len(faces), np.int32)
-    found = float(_kernels.farthest_near(points, owners, new, faces, *scratch))
-    return found if np.isfinite(found) else farthest_from_surface(points, new, faces)
+    new, smaller, _ = compact(new, solid(numbers[corners]))
+    return (new, smaller) if len(smaller) else (places, faces)

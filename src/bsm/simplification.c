@@ -244,36 +244,3 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadric
     }
     return count;
 }
-
-/* How far points are from a surface at most: each from where the triangles around the vertex that owns it lead to. */
-double farthest_near(ConstDoubles2 points, ConstInts owners, ConstDoubles2 positions, ConstInts2 faces, Ints starts,
-                     Ints around) {
-    if (owners.size != points.rows || starts.size != positions.rows + 1 || around.size < 3 * faces.rows)
-        return __builtin_inf();
-    arrange(faces.data, faces.rows, starts, around.data);
-    double farthest = 0.0;
-    for (int64_t v = 0; v < points.rows; v++) {
-        double nearest = __builtin_inf(), before = nearest;
-        int32_t ways[3] = {owners.data[v], owners.data[v], owners.data[v]};
-        if (ways[0] < 0 || ways[0] >= positions.rows) return nearest;
-        do {
-            before = nearest;
-            const int32_t *face = ways;
-            for (int way = 0; way < 3; way++) {
-                for (int64_t k = starts.data[ways[way]]; k < starts.data[ways[way] + 1] && nearest > farthest; k++) {
-                    const int32_t *other = faces.data + 3 * (int64_t)around.data[k];
-                    double corners[9];
-                    for (int i = 0; i < 9; i++) corners[i] = positions.data[3 * (int64_t)other[i / 3] + i % 3];
-                    double apart = to_triangle(points.data + 3 * v, corners);
-                    if (apart < nearest) {
-                        nearest = apart;
-                        face = other;
-                    }
-                }
-            }
-            for (int i = 0; i < 3; i++) ways[i] = face[i];
-        } while (nearest > farthest && nearest < before);
-        if (nearest > farthest) farthest = nearest;
-    }
-    return __builtin_sqrt(farthest);
-}

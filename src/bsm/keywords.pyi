@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from bsm.codec.static.options import Paper
     from bsm.codec.static.targets import Contract, Target
 
-
 class _Shared(TypedDict, total=False):
     preset: str | None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...]
@@ -26,7 +25,6 @@ class _Shared(TypedDict, total=False):
     quick: bool
     theta: float | None
     threads: int | None
-
 
 class OptionKeywords(_Shared, total=False):
     """Keywords of meshes, as `EncodeOptions` and `Paper` have them, and targets."""
@@ -56,12 +54,11 @@ class OptionKeywords(_Shared, total=False):
     step: float | None
     target: Target | None
 
-
 class EncodeKeywords(OptionKeywords, total=False):
     """Keywords of `bsm.save`."""
 
+    simplify: bool
     progress: Callable[[int, int], None] | None
-
 
 class SequenceKeywords(_Shared, total=False):
     """Keywords of sequences, as `SequenceOptions` has them, and targets."""
@@ -77,7 +74,6 @@ class SequenceKeywords(_Shared, total=False):
     runs: bool
     step: float
     target: SequenceTarget | None
-
 
 class DenoiseKeywords(TypedDict, total=False):
     """Keywords of `bsm.denoise`, as `DenoiseOptions` has them."""
