@@ -160,7 +160,10 @@ def _roughened(given: Input, look: float) -> list[tuple[int, AttributeLook]]:
 
 def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> AttributeLook:
     """Make an attribute as coarse as takes at most some of the look."""
-    steps = [Quality("bits", bits) for bits in range(1, MOST_BITS + 1)]
+    # Of a texture that repeats, pictures show a mean, however wrong: no place moves by more than 1/128 of its side.
+    extent = float(np.ptp(attribute.values, axis=0).max(initial=0.0))
+    least = min(math.ceil(math.log2(max(64.0 * extent, 2.0))), MOST_BITS)
+    steps = [Quality("bits", bits) for bits in range(least, MOST_BITS + 1)]
     if attribute.semantic == "color":
         rough = range(0 if kept_whole(attribute) else 15)
         steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]

@@ -95,3 +95,10 @@ def test_a_draft_is_judged_by_what_is_decoded(tmp_path: Path) -> None:
     assert "vertex" in made._input.measured(draft, replace(promise, farthest=1e-7))[0]
     assert Bounds(made._input.measures, promise).keeps(made._input.prepared.units.into(draft.decoded))
     assert len(encode(MESH, EncodeOptions(threads=1))) > 0
+
+
+def test_places_in_a_texture_that_repeats_are_kept_although_pictures_do_not_show_them() -> None:
+    places = 10.0 * MESH.positions[:, :2] / np.ptp(MESH.positions[:, :2]) * 12
+    mesh = replace(MESH, attributes=(Attribute("uv", places.astype(np.float32), "vertex", "texcoord"),))
+    found = bsm.decode(bsm.encode(mesh, keep_order=True, threads=1)).attributes[0].values
+    assert np.abs(found - places).max() < 1.0 / 128.0
