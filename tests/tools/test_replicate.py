@@ -152,6 +152,8 @@ class TestTables:
             assert {f"{stem}.pdf", f"{stem}.png"} <= names
         assert "0.60 (0.55-0.65)" in (tmp_path / "rates-unseen.md").read_text()
 
+        spread = (tmp_path / "outside-spread.md").read_text()
+        assert "| default  |   100 - SSIMULACRA2 |      1 |   1.00 |   1.00 |               0.00 |   1.00 |" in spread
         assert "| 0.750 |" in (tmp_path / "denoising.md").read_text()
         assert "| estimates |     11 | 1.500 |" in (tmp_path / "denoising.md").read_text()
         assert "| 1.5 to 2.0 |" in (tmp_path / "denoising-pairs.md").read_text()

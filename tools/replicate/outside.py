@@ -25,7 +25,7 @@ SEEN = (500, 25_000)
 PHOTOGRAPHED = (
     "Three views of 1,080 pixels that our look does not use, with three lights, gloss, and normals of vertices."
 )
-SPREAD = ("what", "by", "meshes", "mean", "standard deviation", "worst", "its mesh")
+SPREAD = ("what", "by", "meshes", "mean", "median", "standard deviation", "worst", "its mesh")
 
 
 def measure_outside(source: Source) -> Row:
@@ -123,6 +123,8 @@ def steadiness_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
             pairs = [(row["points"][name][score], row["mesh"]) for row in rows if score in row["points"].get(name, {})]
             if pairs:
                 values, digits = np.array([value for value, _ in pairs]), 4 if score == "FLIP" else 2
-                cells = (f"{value:.{digits}f}" for value in (values.mean(), values.std(), values.max()))
+                cells = (
+                    f"{value:.{digits}f}" for value in (values.mean(), np.median(values), values.std(), values.max())
+                )
                 found.append((name, label, str(len(pairs)), *cells, max(pairs)[1]))
     return found
