@@ -137,7 +137,7 @@ bool fits(bsmdec *decoder, const void *array, size_t count, int64_t expected) {
 EXACTLY(bsmdec_status, bsmdec_push, (bsmdec *decoder, const void *bytes, size_t size), (decoder, bytes, size)) {
     if (decoder == NULL) return BSMDEC_MISUSED;
     if (bytes == NULL && size > 0) return REFUSE(decoder, "bytes is NULL");
-    if ((uint64_t)size > INT64_MAX / 4) return REFUSE(decoder, "size is more than memory can hold");
+    if ((uint64_t)size > INT64_MAX / 4) return REFUSE(decoder, "size exceeds the address space");
     if (decoder->reader.finished) return REFUSE(decoder, "bytes are pushed after bsmdec_finish");
     if (failed(&decoder->context) || size == 0) return decoder->context.error.status;
     return receive(&decoder->reader, (Span){bytes, (int64_t)size}) ? BSMDEC_OK : decoder->context.error.status;

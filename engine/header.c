@@ -143,6 +143,9 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
     if (payload.size > MOST_HEADER) return FAIL(context, CORRUPT, "a header of # bytes is too long", payload.size);
     if (!parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record)) return false;
     set_header(&record, header);
+#ifdef BSMDEC_LACKS /* by a smaller build for pages */
+    if (BSMDEC_LACKS) return FAIL(context, UNSUPPORTED, "");
+#endif
     return set_paper(context, &record, &header->paper) && check_header(context, &record, header)
         && WITHIN(context, vertices, header->vertices) && WITHIN(context, faces, header->faces)
         && WITHIN(context, blocks, header->blocks) && WITHIN(context, block_size, header->block_size)

@@ -203,8 +203,8 @@ static inline int64_t code_valence(RangeCoder *coder, const ValenceModel *model,
     return LAST_UNARY + 1 + code_rare(coder, model, RARE_VALENCE, valence - LAST_UNARY - 1);
 }
 
-/* Known to an encoder only: its surface, whose half-edges 3 i .. 3 i + 2 are those of face i, and what was coded of it;
- * `fans` and `faces` are in the order of coding. */
+/* Known to the encoder only: its surface (half-edges 3 i .. 3 i + 2 belong to face i) and the part that is already
+ * coded. `fans` and `faces` are in the order of coding. */
 typedef struct {
     const int32_t *twin, *corner, *valence;
     int64_t real; /* fans; the numbers after them are those of dummies */

@@ -114,7 +114,7 @@ class Header:
 
     vertices: int = wire(1, int, 1, COUNT)
     faces: int = wire(2, int, 1, COUNT)
-    blocks: int = wire(3, int, 0, COUNT, default=0)  # 0: positions on a grid, there are no blocks
+    blocks: int = wire(3, int, 0, COUNT, default=0)  # 0: positions on a grid
     block_size: int = wire(4, int, 0, COUNT, default=0)  # vertices of the largest block, n_d
     coefficients: int = wire(5, int, 0, COUNT, default=0)  # columns of the largest dictionary: the largest c_i
     key_interval: int = wire(6, int, 0, COUNT, default=0)

@@ -16,7 +16,7 @@ static double numbers[HEADER_NUMBERS];
 static Arena room; /* for a block of a helper, until the next event */
 
 /* `limits`: those of bsmdec.h in their order. Chains are shared by `among`, of whom this is `number`. */
-bool page_open(const double *limits, int tolerant, int number_of_share, int among) {
+bsmdec *page_open(const double *limits, int tolerant, int number_of_share, int among) {
     static bool made;
     if (!made) {
         make_tables();
@@ -29,10 +29,10 @@ bool page_open(const double *limits, int tolerant, int number_of_share, int amon
     memcpy(&bounds.vertices, limits, sizeof bounds - offsetof(bsmdec_limits, vertices));
     decoder = bsmdec_open(&(bsmdec_options){.size = sizeof(bsmdec_options), .limits = &bounds, .allocator = &host,
         .tolerant = tolerant});
-    if (decoder == NULL) return false;
+    if (decoder == NULL) return NULL;
     decoder->share = (Share){.number = number_of_share, .among = among, .helps = number_of_share > 0};
     room = arena_of(&decoder->context);
-    return true;
+    return decoder;
 }
 
 void page_close(void) {
@@ -41,10 +41,6 @@ void page_close(void) {
 }
 
 void page_share(int among) { decoder->share.among = among; }
-
-int page_push(const void *bytes, size_t size) { return bsmdec_push(decoder, bytes, size); }
-
-void page_finish(void) { bsmdec_finish(decoder); }
 
 const bsmdec_event *page_next(void) {
     release_all(&room);
@@ -74,18 +70,7 @@ static const Rows *row_of(int64_t count, const void *vertices, const void *posit
     return &rows;
 }
 
-int page_faces(uint32_t *corners, size_t count) { return bsmdec_faces(decoder, corners, count); }
-int page_positions(double *coordinates, size_t count) { return bsmdec_positions(decoder, coordinates, count); }
 int page_metadata(int index, bsmdec_metadata *entry) { return bsmdec_metadata_at(decoder, index, entry); }
-int page_attribute(int index, bsmdec_attribute *attribute) {
-    return bsmdec_attribute_at(decoder, index, attribute);
-}
-int page_values(int index, void *values, size_t size) {
-    return bsmdec_attribute_values(decoder, index, values, size);
-}
-int page_indices(int index, uint32_t *indices, size_t count) {
-    return bsmdec_attribute_indices(decoder, index, indices, count);
-}
 
 /* The block that a helper decoded last. */
 const Rows *page_handed(void) {

@@ -34,12 +34,12 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_024,
+    "product in all languages, lines": 61_900,
     "product Python, lines": 33_417,
-    "product C and C++, lines": 21_561,
+    "product C and C++, lines": 21_420,
     "product Rust, lines": 908,
-    "product TypeScript, lines": 6_137,
-    "product lines over 120 columns": 220,
+    "product TypeScript, lines": 6_132,
+    "product lines over 120 columns": 219,
     "all Python, lines": 74_386,
     "product modules": 201,
     "product C files and headers": 73,

@@ -22,11 +22,11 @@ const FOUND = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) 
 const SOURCES = [...FOUND.filter((path) => !isTable(path)), ...sourcesIn("web/src")];
 const TABLES = FOUND.filter(isTable);
 
-/** Functions for the page (engine/wasm/page.c). */
+/** Functions for the page (engine/wasm/page.c, engine/bsmdec.h). */
 const PAGE = [
-    "take", "give", "open", "close", "share", "push", "finish", "next", "error", "state", "header", "loose", "faces", "positions", "metadata", "attribute",
-    "values", "indices", "handed", "room", "add", "lose", "changes", "losses",
-].map((name) => `page_${name}`);
+    ...["take", "give", "open", "close", "share", "next", "error", "state", "header", "loose", "metadata", "handed", "room", "add", "lose", "changes", "losses"].map((name) => `page_${name}`),
+    ...["push", "finish", "faces", "positions", "attribute_at", "attribute_values", "attribute_indices"].map((name) => `bsmdec_${name}`),
+];
 /** Functions for a page that decodes light grids alone (engine/wasm/light.c). */
 const LIGHT = ["page_take", "page_give", ...["open", "close", "charge", "error", "begin", "faces", "positions"].map((name) => `light_${name}`)];
 
@@ -145,12 +145,12 @@ function optionsOf(source, fast, light) {
     return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
 }
 
-/** Every build: whether with vector instructions, what of the decoder it is without, and which sources are compiled for speed; `light`: for light grids alone. */
+/** Every build: whether with vector instructions, what of the decoder it is without, which headers ask for that, and which sources are compiled for speed; `light`: for light grids alone. */
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": { vectors: true },
     "built/kernels-scalar.wasm": { vectors: false },
-    "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
-    "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
+    "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
+    "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
     "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec/, fast: /conquest/, light: true },
 };
 
@@ -158,7 +158,7 @@ export const KERNEL_BUILDS = {
 const compiled = new Map();
 
 /** One of them. */
-export function compileKernels({ vectors, exported = PAGE, without, fast = FAST, light = false }) {
+export function compileKernels({ vectors, exported = PAGE, without, lacks, fast = FAST, light = false }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -168,7 +168,7 @@ export function compileKernels({ vectors, exported = PAGE, without, fast = FAST,
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            const options = [...FLAGS, ...optionsOf(source, fast, light), ...(without && source.startsWith("engine") ? ["-DBSMDEC_TERSE"] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
+            const options = [...FLAGS, ...optionsOf(source, fast, light), ...(without && source.startsWith("engine") ? ["-DBSMDEC_TERSE", ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : [])] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
             const key = options.join(" ");
             if (source === data || !compiled.has(key)) {
                 clang(...options, "-o", object);
@@ -177,7 +177,7 @@ export function compileKernels({ vectors, exported = PAGE, without, fast = FAST,
             return object;
         });
         checkTables(clang, [objects[SOURCES.indexOf("web/src/tables.c")], objects.at(-1)], priors, target);
-        clang(TARGET, "-nostdlib", ...objects.filter((_, i) => !without?.test(SOURCES[i])), ...LINK, ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
+        clang(TARGET, "-nostdlib", ...objects.filter((_, i) => !without?.test(SOURCES[i])), ...LINK, ...(without ? ["-Wl,--unresolved-symbols=ignore-all"] : []), ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
         const passes = ["-Oz", "--converge", "--low-memory-unused", "--flatten", "--rereloop", "-Oz", "-Oz", "--one-caller-inline-max-function-size=100"];

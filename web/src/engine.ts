@@ -41,12 +41,12 @@ export class Engine extends Memory {
         if (data.length === 0) return;
         this.lent(data.length, (at) => {
             new Uint8Array(this.buffer, at).set(data);
-            this.call("page_push", at, data.length);
+            this.call("bsmdec_push", this.decoder, at, data.length);
         });
     }
 
     finish(): void {
-        this.call("page_finish");
+        this.call("bsmdec_finish", this.decoder);
     }
 
     /** Let helpers have the chains that are not the decoder's own. */
@@ -106,7 +106,7 @@ export class Engine extends Memory {
     }
 
     faces(raw: RawEvent): Int32Array {
-        return this.filled(Int32Array, 3 * raw.faces, (at, count) => this.call("page_faces", at, count));
+        return this.filled(Int32Array, 3 * raw.faces, "bsmdec_faces");
     }
 
     loose(): Loose {
@@ -115,7 +115,7 @@ export class Engine extends Memory {
     }
 
     positions(vertices: number): Float64Array {
-        return this.filled(Float64Array, 3 * vertices, (at, count) => this.call("page_positions", at, count));
+        return this.filled(Float64Array, 3 * vertices, "bsmdec_positions");
     }
 
     changes(): Changes {
@@ -140,14 +140,15 @@ export class Engine extends Memory {
     /** An attribute, if it is whole, and moves where that is asked for. */
     attribute(index: number, moving = false): Attribute | undefined {
         return this.lent(ATTRIBUTE_BYTES, (at) => {
-            if (this.call("page_attribute", index, at) !== 0) return undefined;
+            if (this.call("bsmdec_attribute_at", this.decoder, index, at) !== 0) return undefined;
             const view = new DataView(this.buffer, at);
             const [domain, semantic, kind, components] = [4, 8, 12, 16].map((place) => view.getInt32(place, true));
             const [rows, corners] = [24, 32].map((place) => Number(view.getBigInt64(place, true)));
             if (moving && view.getInt32(40, true) === 0) return undefined;
             const name = this.text(view.getUint32(0, true));
-            const values = this.filled(VIEWS[kind], rows * components, (to, count) => this.call("page_values", index, to, count * VIEWS[kind].BYTES_PER_ELEMENT));
-            const indices = corners > 0 ? this.filled(Int32Array, corners, (to, count) => this.call("page_indices", index, to, count)) : undefined;
+            const bytes = this.filled(Uint8Array, rows * components * VIEWS[kind].BYTES_PER_ELEMENT, "bsmdec_attribute_values", index);
+            const indices = corners > 0 ? this.filled(Int32Array, corners, "bsmdec_attribute_indices", index) : undefined;
+            const values = new VIEWS[kind](bytes.buffer, 0, rows * components);
             return { name, semantic: SEMANTICS[semantic], domain: DOMAINS[domain], kind: KINDS[kind], components, values: Float64Array.from(values), indices };
         });
     }
@@ -196,9 +197,10 @@ export class Engine extends Memory {
         return TEXTS.decode(bytes.slice(0, bytes.indexOf(0)));
     }
 
-    private filled<View>(kind: Kind<{ slice(): View }>, count: number, fill: (at: number, count: number) => number): View {
+    /** An array that a function fills, which takes the decoder, `given`, the place and the size. */
+    private filled<View>(kind: Kind<{ slice(): View }>, count: number, name: string, ...given: number[]): View {
         return this.lent(Math.max(1, count) * kind.BYTES_PER_ELEMENT, (at) => {
-            if (fill(at, count) !== 0) throw this.error();
+            if (this.call(name, this.decoder, ...given, at, count) !== 0) throw this.error();
             return new kind(this.buffer, at, count).slice();
         });
     }

@@ -42,10 +42,6 @@ class Light extends Memory {
         return this.given("light_positions", payload, first, count);
     }
 
-    positions(at: number, count: number): Float64Array {
-        return this.doubles(at, 3 * count);
-    }
-
     /** Leave the memory to the next decoder. */
     release(): void {
         this.end("light_close");
@@ -126,7 +122,7 @@ export class Decoder {
     }
 
     private get positions(): Float64Array {
-        return this.light.positions(this.places, required(this.header).vertices);
+        return this.light.doubles(this.places, 3 * required(this.header).vertices);
     }
 
     private accept(packet: Packet): void {
@@ -159,7 +155,7 @@ export class Decoder {
         }
         this.places = this.light.decode(data, first, count);
         const vertices = Int32Array.from({ length: count }, (_, i) => first + i);
-        const positions = this.light.positions(this.places + 24 * first, count);
+        const positions = this.light.doubles(this.places + 24 * first, 3 * count);
         this.queue.push({ type: "block", index: this.chunks++, vertices, positions, final: new Uint8Array(count).fill(1) });
     }
 }

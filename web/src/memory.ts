@@ -13,6 +13,7 @@ export function errorName(status: number): string {
 export class Memory {
     /** Undefined once it is given back, or has failed by itself: nothing is called then. */
     private exports?: Exports;
+    protected readonly decoder: number;
 
     /** Call the first function, `begin`, with the limits and more. */
     constructor(private readonly kernels: Kernels, limits: Partial<Limits>, begin: string, ...more: number[]) {
@@ -23,11 +24,11 @@ export class Memory {
             l.attributeValues, l.sequenceBytes, l.memory, l.work, l.workPerVertex, l.workPerByte, Infinity, l.blockMemory,
             l.blockMemoryPerVertex, l.memoryPerByte, Infinity, l.memory,
         ];
-        const opened = this.lent(8 * bounds.length, (at) => {
+        this.decoder = this.lent(8 * bounds.length, (at) => {
             new Float64Array(this.buffer, at).set(bounds);
             return this.call(begin, at, ...more);
         });
-        if (!opened) throw new LimitError("this machine has no memory for a decoder");
+        if (!this.decoder) throw new LimitError("this machine has no memory for a decoder");
     }
 
     protected get buffer(): ArrayBuffer {
@@ -44,7 +45,7 @@ export class Memory {
         }
     }
 
-    protected doubles(at: number, count: number): Float64Array {
+    doubles(at: number, count: number): Float64Array {
         return new Float64Array(this.buffer, count > 0 ? at : 0, count).slice();
     }
 
