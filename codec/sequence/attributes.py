@@ -20,6 +20,7 @@ from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.attributes.levels import Values, restored
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.targets import secant
+from bsm.codec.static.units import single
 
 SLACK = 0.2  # part of a bound that may be left, in logarithms
 LEAST = 1e-6  # of a bound, an error that counts as none; and of the first step, the finest one
@@ -200,7 +201,7 @@ class MovingAttributeEncoder:
         def excess(step: float) -> float:
             nonlocal kept
             twin = encoder.copy()
-            twin.step = step
+            twin.step = single(step)
             field, changes = self._attempt(twin, body, values)
             off = max(self.bound.off(own, self.first, change) for own, change in zip(values, changes, strict=True))
             if off <= reach and (kept is None or twin.step > kept[0].step):

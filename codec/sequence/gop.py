@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,9 +19,11 @@ from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.codec.arrays import Levels, Matrix, Order, sum_in_order
 from bsm.codec.progress import Progress
 from bsm.codec.sequence import temporal
+from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import WEIGHT, LevelWriter, Loop
 from bsm.codec.sequence.temporal import time_cosines
 from bsm.codec.sequence.tracks import INHERITED, Setting, Track, lags
+from bsm.codec.static.units import single
 
 
 class Inherited:
@@ -108,9 +109,6 @@ def held_cosines(width: int, frames: int) -> Matrix:
     return np.ascontiguousarray(rows.reshape(frames, width, -1).transpose(1, 0, 2))
 
 
-if TYPE_CHECKING:
-    from bsm.codec.sequence.options import SequenceOptions
-
 OVERHEAD = 14  # bytes of a GOP besides its levels, about
 PLACES, SENT, CLEARLY = 8, 0.4, 0.95
 """Places where a cut is looked for at first; bytes of one more component over those of all on average, about; and the
@@ -168,7 +166,7 @@ class GopEncoder:
         self._track = setting.tracks[0]
         self._parts = setting.parts
         self._options = options
-        self.step = options.step
+        self.step = single(options.step)
         self.latest: Matrix | None = None
         self._begin()
 
@@ -176,15 +174,6 @@ class GopEncoder:
         self.inherited: Inherited | None = None
         self._history = FrameHistory(self._track)
         self._kept: list[Matrix] = []
-
-    @property
-    def step(self) -> float:
-        """The step of the next GOP; it is rounded to single precision."""
-        return self._step
-
-    @step.setter
-    def step(self, step: float) -> None:
-        self._step = float(np.float32(step))
 
     def copy(self) -> GopEncoder:
         """One that goes on from the same state."""
@@ -247,8 +236,8 @@ class GopEncoder:
         writer, coded = LevelWriter(history.bank, columns), []
         for k, part in enumerate(self._parts):
             ends = field[part.around]
-            loop, known, base = history.begin(k, ends, self._step)
-            change = writer.write(loop, known, part.difference(wanted, field) - base, self._step, history.levels[k])
+            loop, known, base = history.begin(k, ends, self.step)
+            change = writer.write(loop, known, part.difference(wanted, field) - base, self.step, history.levels[k])
             coded.append(np.vstack((ends, base + change)))
             part.place(field, base + change)
             progress(k + 1, len(self._parts))
@@ -256,7 +245,7 @@ class GopEncoder:
         history.commit(writer.levels, coded)
         self.latest = np.array(list(temporal.frames_of(field, 0, basis)))
         self._kept = [*self.latest[::-1], *self._kept][: self._track.kept]
-        return GopField(width, self._step, columns, np.empty(0, np.int32), b"", payload, back)
+        return GopField(width, self.step, columns, np.empty(0, np.int32), b"", payload, back)
 
     def encode_learnt(self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress) -> LearntGop:
         """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them."""
@@ -265,7 +254,7 @@ class GopEncoder:
         motion *= weights
         body, columns = self._basis(motion, weights)
         basis = columns * weights[:, None]
-        wanted = motion @ temporal.projection(basis)
+        wanted = motion @ np.ascontiguousarray(np.linalg.pinv(basis).T)
         energy = np.vdot(motion, motion)
         del motion  # as large as the frames
         field = np.zeros_like(wanted)
@@ -274,14 +263,14 @@ class GopEncoder:
         self.inherited = Inherited(before)
         for k, part in enumerate(self._parts):
             target, ends = part.difference(wanted, field), field[part.around]
-            loop, known = begin_part(self._track, before, k, ends, self._step)
-            differences = writer.write(loop, known, target, self._step)
+            loop, known = begin_part(self._track, before, k, ends, self.step)
+            differences = writer.write(loop, known, target, self.step)
             part.place(field, differences)
             self.inherited.keep(ends, differences)
             progress(k + 1, len(self._parts))
         coded = replace(body, levels=writer.finish())
         left = energy - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
-        error = float(left + _energy(wanted - field, basis)) / self._step**2
+        error = float(left + _energy(wanted - field, basis)) / self.step**2
         cost = error + WEIGHT * 8.0 * (coded.size + OVERHEAD)
         return LearntGop(coded, cost, field, columns.reshape(self._track.width, len(frames), body.components))
 
@@ -299,14 +288,14 @@ class GopEncoder:
     def _basis(self, motion: Matrix, weights: Matrix) -> tuple[GopField, Matrix]:
         """A field without the levels of parts, and its temporal basis, of weighted trajectories, shapes (n, dT)."""
         width = self._track.width
-        basis = temporal.learn_basis(motion, self._step, MAX_EXPONENT)
-        spectrum = temporal.spectrum_of(basis.columns / weights[:, None], basis.exponents, width)
+        learnt, exponents = temporal.learn_basis(motion, self.step, MAX_EXPONENT)
+        spectrum = temporal.spectrum_of(learnt / weights[:, None], exponents, width)
         _, frames, columns = spectrum.shape
         writer = LevelWriter(make_level_bank(), columns)
-        for matrix, lead in zip(spectrum, temporal.basis_leads(width), strict=True):
-            writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0, lead=lead)
-        field = GopField(width, self._step, columns, basis.exponents, writer.finish(), b"")
-        return field, temporal.basis_of(np.array(writer.levels), basis.exponents)
+        for lead, matrix in enumerate(spectrum, 1):  # column i has i levels that are not free
+            writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0, lead=(lead, width))
+        field = GopField(width, self.step, columns, exponents, writer.finish(), b"")
+        return field, temporal.basis_of(np.array(writer.levels), exponents)
 
 
 def _apart(first: Matrix, second: Matrix) -> float:

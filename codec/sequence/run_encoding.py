@@ -214,7 +214,7 @@ def _encoded(
 ) -> EncodedGops:
     """Encode frames, of which the first has this number, as GOPs of these lengths, or of those that cost least."""
     encoder, frames = before.encoder, group.positions
-    encoder.step = step
+    encoder.step = single(step)
     if encoder.low_delay:
         key = encoder.is_key(number, frames.shape[1])
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME

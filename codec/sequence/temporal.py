@@ -8,13 +8,11 @@ A. S. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.coefficients.adaptive import points_of_levels
-from bsm.bitstream.coefficients.matrices import Lead
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
@@ -32,16 +30,8 @@ BATCH = 8  # frames that are reconstructed at a time, as many as a vector of the
 FINEST_EXPONENT = OCTAVE * 23 - 1  # with a finer step the levels of a column of length one could not be coded
 
 
-@dataclass(frozen=True, eq=False)
-class LearntBasis:
-    """Principal components of trajectories."""
-
-    columns: Matrix
-    exponents: npt.NDArray[np.int32]
-
-
-def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
-    """Eigenvectors of the covariance of trajectories, all coordinates coupled."""
+def learn_basis(motion: Matrix, step: float, limit: int) -> tuple[Matrix, npt.NDArray[np.int32]]:
+    """Return eigenvectors of the covariance of trajectories, all coordinates coupled, and the exponents of steps."""
     few = len(motion) < motion.shape[1]  # then vertices have the smaller matrix, of the same energies
     energies, vectors = np.linalg.eigh(motion @ motion.T if few else motion.T @ motion)
     count = int(np.count_nonzero(energies > WORTH * motion.shape[1] * step**2))
@@ -50,17 +40,7 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
     if few:
         columns = motion.T @ columns / np.sqrt(kept)
-    return LearntBasis(columns, np.clip(exponents, 0, min(limit, FINEST_EXPONENT)).astype(np.int32))
-
-
-def projection(basis: Matrix) -> Matrix:
-    """Pseudo-inverse of a decoded basis, transposed, shape (dT, r), as the basis has it."""
-    return np.ascontiguousarray(np.linalg.pinv(basis).T)
-
-
-def basis_leads(width: int) -> list[Lead]:
-    """Return the number of fixed levels of each column of a basis: column i has i levels that are not free."""
-    return [(coordinate + 1, width) for coordinate in range(width)]
+    return columns, np.clip(exponents, 0, min(limit, FINEST_EXPONENT)).astype(np.int32)
 
 
 def trajectories(frames: Matrix) -> Matrix:
