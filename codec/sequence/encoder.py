@@ -301,7 +301,7 @@ class SequenceEncoder:
     ) -> tuple[tuple[PreparedAttribute, ...], tuple[MovingAttributeEncoder, ...]]:
         """The attributes of a run with a mesh of its own, and what encodes those that move, or may if `more` comes."""
         given, asked = run.given, dict(options.attributes)
-        move = {a.name for a in given.attributes if a.name in group.moving and group.moves(a.name)}
+        move = {name for name, values in group.moving.items() if (values != values[:1]).any()}
         may = move | (set(group.moving) if more else set())
         bounds = {
             a.name: Bound(quality, a) for a, quality in qualities(given.attributes, asked, "balanced", moving=may)

@@ -27,15 +27,6 @@ class Group:
     def __len__(self) -> int:
         return len(self.positions)
 
-    def moves(self, name: str) -> bool:
-        """Whether the frames differ in an attribute."""
-        values = self.moving[name]
-        return bool((values != values[:1]).any())
-
-    def same(self, step: float) -> Order:
-        """Which frame each is the same as, shape (T,); see `same_frames`."""
-        return same_frames(self.positions, list(self.moving.values()), step)
-
 
 def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:
     """Return the next frames, shapes (n, 3 + ...), as many as a GOP may have; none after the last."""

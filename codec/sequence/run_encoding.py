@@ -13,7 +13,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.progress import Nearing, Progress, silent
-from bsm.codec.sequence.frames import Group, distinct_frames
+from bsm.codec.sequence.frames import Group, distinct_frames, same_frames
 from bsm.codec.sequence.gop import GopEncoder, LearntGop
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
@@ -116,18 +116,8 @@ class EncodedGops:
     def cost(self) -> float:
         return sum(gop.cost for gop in self.learnt)
 
-    @property
-    def decoded(self) -> Positions:
-        """The decoded frames, shape (T, n, 3), in BSM units; not kept, because they are large."""
-        if self.encoder.latest is not None:
-            return self.encoder.latest
-        frames = np.empty((sum(body.frames for body in self.bodies), self.first_frame.setting.vertices, 3))
-        for number, frame in enumerate(self.decoded_frames()):
-            frames[number] = frame
-        return frames
-
     def decoded_frames(self) -> Iterator[Matrix]:
-        """Yield each decoded frame, shape (n, 3)."""
+        """Yield each decoded frame, shape (n, 3), in BSM units; they are not kept, because they are large."""
         if self.encoder.latest is not None:
             yield from self.encoder.latest
         for body, gop in zip(self.bodies, self.learnt):
@@ -220,7 +210,7 @@ def _encoded(
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         field = encoder.encode_next(frames, progress, key=key)
         return replace(before, bodies=(GopBody(method, len(frames), (field,)),))
-    same = group.same(encoder.step)
+    same = same_frames(frames, list(group.moving.values()), encoder.step)
     gops = _in_parts(before, frames, weights, same, lengths or (len(frames),), progress)
     if not lengths and len(gops.bodies) == 1:
         lengths = gops.learnt[0].lengths(gops.bodies[0].places)

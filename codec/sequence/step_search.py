@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
@@ -43,9 +43,8 @@ class Candidate(Protocol):
     def size(self) -> int:
         """Bytes."""
 
-    @property
-    def decoded(self) -> Positions:
-        """The decoded frames, shape (T, n, 3)."""
+    def decoded_frames(self) -> Iterator[Matrix]:
+        """Yield each decoded frame, shape (n, 3)."""
 
 
 Found = TypeVar("Found", bound=Candidate)
@@ -76,7 +75,7 @@ class StepSearch:
         for attempt in range(1, TRIES + 1):
             step = min(max(step, finest), most)
             found = encode(step, np.exp(evened))
-            measured = self._measure(found.decoded)
+            measured = self._measure(list(found.decoded_frames()))
             excess, relief = measured.excess, 0.0
             if excess <= 0.0 and (kept is None or found.size <= kept.size):
                 kept = found
@@ -93,7 +92,7 @@ class StepSearch:
             raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {step:.2g}")
         return kept
 
-    def _measure(self, decoded: Positions) -> Measured:
+    def _measure(self, decoded: Sequence[Matrix]) -> Measured:
         """Measure all frames, and draw those that may exceed the bound until one does."""
         pairs = list(zip(self._frames, decoded, strict=True))
         farthest = max(_kernels.farthest_apart(*map(np.ascontiguousarray, pair)) for pair in pairs) / self._reach
@@ -110,7 +109,7 @@ class StepSearch:
         self._knots.add(int(measured.looks().argmax()))
         return measured
 
-    def _look(self, index: int, decoded: Positions) -> float:
+    def _look(self, index: int, decoded: Sequence[Matrix]) -> float:
         """Return the look of a frame as a share of the bound; 0 if nothing of it is seen."""
         twin = int(self._twins[index])
         if twin != index and np.array_equal(decoded[twin], decoded[index]):
