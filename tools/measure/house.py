@@ -40,7 +40,7 @@ LIMITS = {
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_132,
     "product lines over 120 columns": 219,
-    "all Python, lines": 74_386,
+    "all Python, lines": 73_900,
     "product modules": 201,
     "product C files and headers": 73,
     "docstring lines of the product, percent": 12,
