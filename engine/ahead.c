@@ -103,7 +103,7 @@ static void give_up_levels(LevelsAhead *levels) {
     levels->progress = GIVEN_UP;
 }
 
-/* Find the refinements that follow directly behind all blocks, if they may be read. */
+/* Find the refinements that directly follow all blocks, if they may be read. */
 static void find_levels(Ahead *ahead, int64_t next_block) {
     bsmdec *decoder = ahead->decoder;
     Reader *reader = &decoder->reader;

@@ -9,7 +9,7 @@
 
 /* Build blocks from the graph; meanwhile another thread reads levels of refinements, which need faces alone. */
 bool build_beside(bsmdec *decoder);
-/* Decode the chain that begins with this block and those behind it, as far as all of their bytes have come. */
+/* Decode the chain that begins with this block and the next ones, as far as all of their bytes have come. */
 void look_ahead(bsmdec *decoder, const Packet *packet);
 /* A block that was decoded ahead; NULL if it was not. */
 const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet);

@@ -18,7 +18,7 @@ void filter_polynomial(double amount, double *powers);
 bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena);
 void add_block(Assembly *assembly, const DecodedBlock *block);
 void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index);
-/* All positions in BSM units, smoothed; those that nobody knows are 0. */
+/* All positions in BSM units, smoothed; unknown ones are 0. */
 bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
     Doubles2 *positions);
 /* Marks of the vertices that are as the encoder had them, they and those at most `beyond` edges away; no array if all

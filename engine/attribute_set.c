@@ -337,7 +337,7 @@ static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Pac
     if (packet->first != attribute->coded)
         return FAIL(context, CORRUPT, "the values before number # are missing", packet->first);
     Cursor cursor = {context, packet->data};
-    attribute->coded = INT64_MAX; /* until all of it is there: nothing goes on behind a part */
+    attribute->coded = INT64_MAX; /* until all of it is there: nothing continues after a part */
     for (int g = 0; g < attribute->groups; g++) {
         Span part = attribute->groups > 1 ? take_span(&cursor, take_varint(&cursor)) : take_rest(&cursor);
         if (failed(context)

@@ -22,7 +22,7 @@ static char *write_number(char *to, char *end, int64_t number) {
     return to;
 }
 
-/* Names may be long: the reason behind them has to fit. */
+/* Names may be long: the reason after them has to fit. */
 static char *write_name(char *to, const char *end, const char *name) {
     enum { MOST_SHOWN = 60 };
     for (int i = 0; i < MOST_SHOWN && name[i] != 0 && to < end; i++) *to++ = name[i];
@@ -107,7 +107,7 @@ void host_give(Context *context, void *memory, size_t size) {
     context->host.release(context->host.host, memory, size);
 }
 
-/* Where memory begins behind a slab's own numbers. */
+/* Where memory begins after a slab's own numbers. */
 static size_t first_of(const Slab *slab) {
     uintptr_t start = (uintptr_t)(slab + 1);
     return sizeof *slab + (size_t)(-start & (LINE - 1));
@@ -201,7 +201,7 @@ double memory_left(const Context *context) {
     return granted_memory(&context->limits, spent->vertices - spent->gone, spent->received) - spent->reserved;
 }
 
-/* Memory for a while, beside what is kept (M 14.8). */
+/* Temporary memory, in addition to the reserved memory (M 14.8). */
 bool fits_memory(Context *context, double memory) {
     const Spent *spent = &context->spent;
     return note(context, memory, -1)

@@ -28,7 +28,7 @@ typedef struct {
     bsmdec_allocator host;
     bsmdec_error error;
     double heap;  /* bytes that are held of the host */
-    bool starved; /* the error is that memory ended, by the host or by the limit `heap`: nothing goes on behind that */
+    bool starved; /* the error is that memory ended, by the host or by the limit `heap`: nothing continues after that */
     bool prepaid; /* work that comes has been paid for */
     Spent spent;
     Ledger *ledger; /* where charges are noted as well, or NULL */
@@ -58,10 +58,10 @@ bool name_attribute(Context *context, const char *name);
 INLINE bool fine(const Context *context) { return context->error.status == BSMDEC_OK; }
 /* Fill in the places that are not known yet. */
 void locate(bsmdec_error *error, int64_t offset, int64_t frame, int64_t block);
-/* Take the error away, to go on behind it; a context without memory stays failed. */
+/* Take the error away, to continue after it; a context without memory stays failed. */
 bsmdec_error take_error(Context *context);
 
-/* Memory in the order of a stack: `release_to` gives back all that came behind a mark. */
+/* Memory in the order of a stack: `release_to` gives back all that came after a mark. */
 typedef struct Slab Slab;
 typedef struct {
     Context *context;

@@ -178,7 +178,7 @@ static bool accept_end(bsmdec *decoder) {
     return decoder->sequence.active ? end_sequence(decoder) : finish_mesh(decoder);
 }
 
-/* Take in what has come, until there is an event, an error, or nothing more. */
+/* Read received bytes until there is an event, an error, or nothing more. */
 static bsmdec_event_type advance(bsmdec *decoder) {
     Context *context = &decoder->context;
     while (decoder->waiting == 0) {

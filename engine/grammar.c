@@ -25,7 +25,7 @@ static uint32_t followers(FrameType type) {
     }
 }
 
-/* Everything that may come at any distance behind a frame. */
+/* All types that may come at any distance after a frame. */
 static uint32_t reachable(FrameType type) {
     uint32_t found = followers(type), before = 0;
     while (found != before) {

@@ -8,7 +8,7 @@ typedef struct {
     const Header *header; /* of the present run, NULL before the first */
     FrameType last;       /* NO_FRAME before the first */
     uint32_t allowed;     /* bit k: type k */
-    bool lossy, resuming, joining, joined; /* resuming: behind damage, before anything else has come */
+    bool lossy, resuming, joining, joined; /* resuming: after damage, before anything else has come */
     int64_t next_block, next_frame, next_vertex, valued, next_value;
     Declaration *declared[MOST_ATTRIBUTES];
     int declared_count;

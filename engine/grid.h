@@ -5,7 +5,7 @@
 #include "bitstream/fields/fields.h"
 #include "engine/header.h"
 
-/* Positions on a grid, and what is learned of them. */
+/* Positions on a grid, and their models. */
 typedef struct {
     Context *context;
     const Header *header;

@@ -16,7 +16,7 @@ typedef struct {
     Context *context;
     const Header *header;
     ConstInts2 faces;
-    Arena own, models; /* levels; what only levels to come need, given back behind the last */
+    Arena own, models; /* levels; models of later levels, given back after the last */
     Corners corners;
     Bank bank;
     Levels levels;

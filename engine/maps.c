@@ -124,7 +124,7 @@ static Value take_value(Cursor *cursor, Map *map) {
     return list;
 }
 
-/* Whether key b comes behind key a. */
+/* Whether key b comes after key a. */
 static bool ascends(const Value *a, const Value *b) {
     if (a->kind != b->kind) return false;
     if (a->kind == INTEGER) return a->bits < b->bits;

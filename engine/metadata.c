@@ -2,7 +2,7 @@
 #include "engine/metadata.h"
 
 struct Branch {
-    int64_t bit;       /* the first in which the names on both sides differ; behind its end a name is a 0, then a 1 */
+    int64_t bit;       /* the first in which the names on both sides differ; after its end a name is a 0, then a 1 */
     void *side[2];     /* branches, or entries with their lowest bit set */
 };
 

@@ -60,7 +60,7 @@ static Arrival incomplete(Reader *reader) {
     return NOTHING_BUT_AN_ERROR;
 }
 
-/* Spend; what there is no more work or memory for is no damage. */
+/* Spend; a lack of work or memory is not damage. */
 static bool pay(Reader *reader, double work, double received) {
     if (charge(reader->context, work, received)) return true;
     reader->refused = true;
@@ -104,7 +104,7 @@ typedef struct {
     Span payload;
 } Frame;
 
-/* What the tag at the start of some bytes says; 0 if it is incomplete, -1 if it is none. */
+/* What the tag at the start of some bytes says; 0 if it is incomplete, -1 if it is invalid. */
 static int read_tag(Span bytes, Frame *frame) {
     int64_t tag;
     int head = parse_varint(bytes, &tag);
@@ -235,7 +235,7 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
     return packet->sum == reader->sum || FAIL(context, CORRUPT, "the CRC-32 of the whole stream is wrong");
 }
 
-/* Leave a frame behind. */
+/* Skip a frame. */
 static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
     Span bytes = {waiting(reader).data, frame.size};
     if (!is_skippable(frame.type)) {

@@ -13,7 +13,7 @@ typedef struct {
     FrameType type;
     int64_t place, by_length; /* where the frame ends by its tag, -1 if that is not there, or was tried */
     int64_t paid;             /* the last place where a stretch of them was paid for; a place may be looked at again */
-    bool from_next;           /* the place behind the first byte was not tried */
+    bool from_next;           /* the place after the first byte was not tried */
 } Damage;
 
 typedef struct {
@@ -25,7 +25,7 @@ typedef struct {
     uint8_t *buffer;
     int64_t room, begin, end, moves; /* moves: how often bytes went elsewhere */
     int64_t last_offset, last_frame; /* where the last packet began, and its number */
-    int64_t offset, frames, metadata_bytes; /* bytes and frames behind; bytes of metadata */
+    int64_t offset, frames, metadata_bytes; /* bytes and frames read; bytes of metadata */
     uint32_t sum;
     uint8_t version;
     bool started, finished;
@@ -46,7 +46,7 @@ void end_reader(Reader *reader);
 bool receive(Reader *reader, Span bytes);
 /* What comes next; an error is the context's. */
 Arrival next_packet(Reader *reader, Packet *packet);
-/* Look at the frame that starts `*place` bytes behind the last packet and move `*place` to its end: true if all of it
+/* Look at the frame that starts `*place` bytes after the last packet and move `*place` to its end: true if all of it
  * has come and it is a sound frame of blocks or refinements. Nothing else changes, and nothing is charged. */
 bool peek_packet(Reader *reader, int64_t *place, Packet *packet);
 

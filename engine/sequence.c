@@ -1,4 +1,4 @@
-/* Sequences: runs, one behind the other, each a mesh and its GOPs (specification, S 1, S 9). */
+/* Sequences: consecutive runs, each a mesh and its GOPs (specification, S 1, S 9). */
 #include "engine/sequence.h"
 
 #include "engine/ahead.h"
@@ -179,7 +179,7 @@ static bool lose_run(bsmdec *decoder) {
     return decoder->sequence.lost = true;
 }
 
-/* Blocks and attributes, when the first thing behind the faces comes. */
+/* Blocks and attributes, when the first section after the faces comes. */
 static bool begin_first_frame(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (!mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
@@ -251,7 +251,7 @@ static bool parse_next(bsmdec *decoder, const Packet *packet, Gop *gop) {
         || FAIL(context, CORRUPT, "frames # to # of #", packet->index, last, header->frames);
 }
 
-/* Frames and bytes of a GOP pay for what is made when the first is there. */
+/* Frames and bytes of a GOP pay for the work done at its first frame. */
 static bool pay_for(bsmdec *decoder, const Gop *gop, double received) {
     Mesh *mesh = &decoder->mesh;
     Context *context = &decoder->context;

@@ -1,4 +1,4 @@
-/* Sequences: runs, one behind the other, each a mesh and its GOPs (specification, S 1, S 9). */
+/* Sequences: consecutive runs, each a mesh and its GOPs (specification, S 1, S 9). */
 #ifndef BSMDEC_SEQUENCE_H
 #define BSMDEC_SEQUENCE_H
 

@@ -5,7 +5,7 @@
 #include "engine/costs.h"
 #include "engine/topology.h"
 
-/* Whether a frame's place is before what has begun: behind a loss the grammar does not know what came before it. */
+/* Whether a frame belongs before stages that have begun: after a loss the grammar does not know what came before. */
 static bool is_too_late(const Mesh *mesh, FrameType type) {
     const uint32_t early = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
     const uint32_t positions = mesh->values_begun ? 1u << GRID_FRAME | 1u << REFINEMENT_FRAME : 0;
@@ -55,7 +55,7 @@ static bool skip_to(bsmdec *decoder, int64_t index) {
     return true;
 }
 
-/* Keep a block for whoever asked for it. */
+/* Keep a block for the decoder that asked for it. */
 static bool hand_over(bsmdec *decoder, const DecodedBlock *block) {
     release_all(&decoder->shown);
     return copy_block(block, &decoder->shown, &decoder->share.handed);
@@ -71,7 +71,7 @@ static bool find_block(bsmdec *decoder, const Packet *packet, DecodedBlock *bloc
     return settle_block(chains, packet->index, &ready->ledger);
 }
 
-/* Whether no packet behind the blocks is wanted. */
+/* Whether the caller wants no packets after the blocks. */
 static bool ends_with_blocks(const bsmdec *decoder) {
     return decoder->base_alone && decoder->mesh.header.refined && decoder->mesh.header.gop_frames == 0;
 }

@@ -49,7 +49,7 @@ typedef struct {
     Mesh mesh;
 } CachedMesh;
 
-/* A GOP before what is wanted, that others may need. */
+/* A GOP before the wanted frames, which later ones may need. */
 typedef struct Skipped {
     struct Skipped *next;
     Span data;
@@ -94,7 +94,7 @@ typedef struct {
 /* Reported for a block that a helper decodes: it has to be added before anything else is asked for. */
 enum { BLOCK_OF_HELPER = BSMDEC_VALUES + 1 };
 
-/* What is remembered of the present mesh to answer what has changed, and the last answer. */
+/* The state of the present mesh at the last call for changes, and the last answer. */
 typedef struct {
     Arena memory, answer;
     bool begun, late;        /* `late`: vertices that may be final wait for the last block */

@@ -10,7 +10,7 @@ typedef struct {
     int64_t size;
 } Span;
 
-/* `long_sums[k]`: of a byte and k zeros behind it. */
+/* `long_sums[k]`: of a byte followed by k zeros. */
 typedef struct {
     uint32_t long_sums[8][256];
     uint16_t short_sums[256];
@@ -18,14 +18,14 @@ typedef struct {
 
 void make_sums(Sums *sums);
 uint32_t crc32_of(const Sums *sums, Span bytes, uint32_t before);
-/* Of positions behind those with the checksum `before` (F 5.10). */
+/* Of positions that follow those with the checksum `before` (F 5.10). */
 uint32_t crc32_of_positions(const Sums *sums, ConstDoubles2 positions, uint32_t before);
 uint16_t crc16_of(const Sums *sums, Span bytes);
 /* `size` bytes, at most eight, as a number. */
 uint64_t little_endian(const uint8_t *bytes, int size);
 uint64_t big_endian(const uint8_t *bytes, int size);
 
-/* Bytes that the varint at the start takes; 0 if `bytes` ends inside it, -1 if it is none (F 1.2). */
+/* Bytes that the varint at the start takes; 0 if `bytes` ends inside it, -1 if it is invalid (F 1.2). */
 int parse_varint(Span bytes, int64_t *value);
 
 /* What a payload lacks or has too much is corrupt; a cursor that has failed gives zeros. */

@@ -8,12 +8,12 @@ enum { RAW, RLE, PACKED, REPEAT };
 typedef struct {
     uint8_t symbol[1 << MOST_LOG], bits[1 << MOST_LOG];
     uint16_t base[1 << MOST_LOG];
-    int log; /* -1: there is none */
+    int log; /* -1: no table */
 } StateTable;
 
 typedef struct {
     uint8_t symbol[1 << MOST_BITS], bits[1 << MOST_BITS];
-    int log; /* 0: there is none */
+    int log; /* 0: no table */
 } PrefixTable;
 
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
     uint64_t latest[3];
 } Unpacker;
 
-/* Bits from the last one to the first, behind a 1 that ends them; below the first they are 0. */
+/* Bits from the last one to the first, after a 1 that ends them; below the first they are 0. */
 typedef struct {
     const uint8_t *data;
     int64_t left;
@@ -225,7 +225,7 @@ static const int16_t OFFSET_COUNTS[] = {
     1, 1, 1, 1, 1, 1, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, -1, -1, -1, -1, -1};
 static const int16_t MATCH_COUNTS[] = {1, 4, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
     1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1};
-/* Bits behind a code, from the first on that has some. */
+/* Extra bits of a code, from the first code that has some. */
 static const uint8_t LENGTH_BITS[] = {1, 1, 1, 1, 2, 2, 3, 3, 4, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
 static const uint8_t MATCH_BITS[] = {1, 1, 1, 1, 2, 2, 3, 3, 4, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
 
@@ -278,7 +278,7 @@ static uint64_t offset_of(Unpacker *own, uint64_t value, bool no_literals) {
     return latest[0] = offset;
 }
 
-/* Literals, then a match with what was before; false if there is no room, or too little behind. */
+/* Literals, then a match with earlier bytes; false if there is no room, or too few earlier bytes. */
 static bool append(Unpacker *own, int64_t *used, uint64_t literals, uint64_t length, uint64_t offset, int64_t end) {
     if (literals > (uint64_t)(own->literal_count - *used) || literals + length > (uint64_t)(end - own->done))
         return false;

@@ -26,7 +26,7 @@ typedef struct {
 } Values;
 
 typedef struct Work Work;
-/* Code vertex v; `last` is the one before it, or -1. False if a value is none. */
+/* Code vertex v; `last` is the one before it, or -1. False if a value is invalid. */
 typedef bool CodeVertex(Work *work, int32_t v, int32_t last);
 
 struct Work { /* what codes a vertex needs to know */
@@ -63,7 +63,7 @@ enum { MOST_BASES = 8, MOST_TWINS = 8 };
 
 /* An edge of the vertex's triangles of which both ends are known. */
 typedef struct {
-    int32_t a, b, c, tip; /* c: the known vertex behind it, or -1; tip: its corner */
+    int32_t a, b, c, tip; /* c: the known vertex beyond it, or -1; tip: its corner */
     int32_t error;
 } Base;
 

@@ -57,7 +57,7 @@ static bool locate(const Values *g, int32_t a, int32_t b, int32_t x, Spot *spot)
     return true;
 }
 
-/* By the shape of the vertex's triangle, by that of the triangle behind the edge, and by its parallelogram (A 5.2). */
+/* By the shape of the vertex's triangle, by that of the triangle beyond the edge, and by its parallelogram (A 5.2). */
 static Claim claim_of(const Values *g, int32_t v, const Base *base) {
     const int32_t *a = at(g, base->a), *b = at(g, base->b), *c = base->c >= 0 ? at(g, base->c) : b;
     int turn = base->c >= 0 ? turn_of(g, base->b, base->a, base->c) : 0;

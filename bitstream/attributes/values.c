@@ -58,7 +58,7 @@ void survey_values(const Work *w, int32_t v, Place *p) {
     p->error = near > 0 ? divided(errors, (int32_t)g->gaps.columns * near) : -1;
 }
 
-/* How the parallelograms over the other two edges of the triangle behind a base fail. */
+/* How the parallelograms over the other two edges of the triangle beyond a base fail. */
 int32_t fold_at(const Work *w, int32_t v, const Base *base, int j) {
     const Corners *c = &w->corners;
     const Values *g = &w->values;

@@ -14,7 +14,7 @@ enum {
     BINS = 48,
     CEILING = 1 << 15,
     ABOVE = 8,  /* rows of zeros in front of the first frequency, as far as any neighbor reaches */
-    BEYOND = 3, /* and behind the last */
+    BEYOND = 3, /* and after the last */
     MEMORY = 8, /* blocks over which the usual magnitudes are averaged */
 };
 

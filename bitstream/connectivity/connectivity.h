@@ -10,7 +10,7 @@ typedef struct {
     int32_t vertex, free;    /* free degree */
     int32_t next, previous;  /* in the polygon */
     int32_t gate;            /* half-edge on the far side of the edge to the next node (encoder only) */
-    int32_t apex;            /* vertex behind that edge */
+    int32_t apex;            /* vertex beyond that edge */
     int32_t up, down;        /* within the bucket */
 } Node;
 

@@ -35,7 +35,7 @@ INLINE int64_t add_vertex(Conquest *walk, int32_t fan, bool dummy) {
     return valence;
 }
 
-/* Add triangle (a, b, c) to what is conquered, and to the faces unless it has a dummy (C 5.5). */
+/* Mark triangle (a, b, c) as conquered, and add it to the faces unless it has a dummy (C 5.5). */
 INLINE bool emit(Conquest *walk, int32_t a, int32_t b, int32_t c, int32_t face) {
     if (!is_reading(&walk->coder)) walk->map.conquered[face] = 1;
     if (a == b || b == c || c == a) return false;

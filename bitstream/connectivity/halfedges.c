@@ -12,7 +12,7 @@ INLINE int32_t high_end(const int32_t *origin, int32_t h) {
     return (int32_t)largest(origin[h], origin[next_halfedge(h)]);
 }
 
-/* Turn counts, each in the entry behind its own, into where their items begin. */
+/* Turn counts, each in the entry after its own, into the places where their items begin. */
 static void sum_up(Longs starts) {
     for (int64_t v = 0; v + 1 < starts.size; v++) starts.data[v + 1] += starts.data[v];
 }

@@ -267,7 +267,7 @@ SHARED int64_t code_signed(RangeCoder *coder, const Mixer *mixer, int inputs, co
     return negative ? -magnitude : magnitude;
 }
 
-/* Single symbols, for the few that are coded one by one. Each returns what was coded, or MISUSED. */
+/* Single symbols, for the few that are coded one by one. Each returns the coded number, or MISUSED. */
 int64_t code_one_uniform(Coder coder, int64_t value, int64_t count);
 int64_t code_one_unsigned(
     Coder coder, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value, int64_t node);

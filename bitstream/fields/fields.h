@@ -16,7 +16,7 @@ typedef struct {
     Ints rank;        /* n: when each vertex is coded */
 } Corners;
 
-/* Two coded ends of an edge, and the coded vertex behind it as seen from the vertex to be coded. */
+/* Two coded ends of an edge, and the coded vertex beyond it as seen from the vertex to be coded. */
 typedef struct {
     int32_t a, b, c, corner; /* the corner at c */
 } Flap;
@@ -223,10 +223,10 @@ INLINE void settle(Expectation *e, int32_t low, int32_t high, int32_t *off) {
     for (int i = 0; i < PREDICTIONS; i++) off[i] = e->prediction[i] - e->prediction[PREDICTIONS - 1];
 }
 
-/* What the kinds of fields share: rows of `values` that are coded one behind the other. */
+/* Shared by the kinds of fields: rows of `values` that are coded in order. */
 enum { MOST_SPAN = 1 << 20 };
 
-/* Code row number i; false if a value is none. */
+/* Code row number i; false if a value is invalid. */
 typedef bool CodeRow(void *work, int64_t i);
 
 /* Code `count` rows from `first` on, as far as there is room for `bytes` (writing) or sense (reading); returns how

@@ -162,7 +162,7 @@ OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, int32
     span_planes(g, p);
 }
 
-/* Code a value; false if it is none (V 9, V 10). */
+/* Code a value; false if it is invalid (V 9, V 10). */
 OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, Place *p,
     int32_t *hits, int32_t *first_gap) {
     const Around *r = &p->around;
