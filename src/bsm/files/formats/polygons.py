@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from typing import Any
@@ -69,11 +69,9 @@ def attributes_of(
     return tuple(found.values()), refused
 
 
-def joined_columns(
-    parts: Iterable[Iterable[Column]], rows: Sequence[Mapping[Domain, int]]
-) -> tuple[list[Column], list[str]]:
-    """Return the concatenated columns of parts, and notes; `rows` is how many values of each domain a part has."""
-    of_parts = [{(column.name, column.domain): column for column in columns} for columns in parts]
+def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
+    """Return the concatenated columns of parts, and notes."""
+    of_parts = [{(column.name, column.domain): column for column in part.columns} for part in parts]
     found, notes = [], []
     for key in dict.fromkeys(key for columns in of_parts for key in columns):
         model = next(columns[key] for columns in of_parts if key in columns)
@@ -82,8 +80,9 @@ def joined_columns(
         model = replace(model, values=_shares(model.values)) if shares else model
         blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
         tables, places, begin, lacking = [], [], 0, 0
-        for columns, sizes in zip(of_parts, rows, strict=True):
-            column, count = columns.get(key), sizes[model.domain]
+        for part, columns in zip(parts, of_parts, strict=True):
+            rows = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}
+            column, count = columns.get(key), rows[model.domain]
             if column is None or column.values.shape[1:] != model.values.shape[1:]:
                 lacking += 1
                 size = min(count, 1) if model.domain == "corner" else count
@@ -304,10 +303,7 @@ def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limit
     limits.check_memory(memory + PER_JOINED * len(kinds) * triangles, vertices, received)
     begin = np.cumsum([0, *(len(part.positions) for part in parts)])
     nothing = np.empty(0, np.int64)
-    rows: list[dict[Domain, int]] = [
-        {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)} for part in parts
-    ]
-    columns, notes = joined_columns((part.columns for part in parts), rows)
+    columns, notes = joined_columns(parts)
     corners = np.concatenate([nothing, *(part.corners + first for part, first in zip(parts, begin))])
     sizes = np.concatenate([nothing, *(part.sizes for part in parts)])
     materials = np.concatenate([nothing, *(part.materials for part in parts)])
