@@ -15,7 +15,7 @@ from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
-from bsm.codec.static.preamble_encoding import Draft
+from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
@@ -117,7 +117,7 @@ class Search:
 
     @property
     def _tries(self) -> int:
-        return {"quick": TRIES - 2, "best": 3 * TRIES}.get(self._options.effort, TRIES)
+        return {"quick": TRIES - 1, "best": 3 * TRIES}.get(self._options.effort, TRIES)
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
@@ -129,7 +129,8 @@ class Search:
     def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
         """Ways that may be smallest, first those that are smaller at their first step."""
         prepared, options = self._prepared, self._options
-        grids: list[Way] = [Gridded(prepared, bounds, 1.0), grid]
+        few = prepared.graph.size < FEW_VERTICES
+        grids: list[Way] = [grid] if few else [Gridded(prepared, bounds, 1.0), grid]
         if not prepared.has_low_frequencies or options.quick:
             return grids
         blocks: list[Way] = [Refined(prepared, options, bounds)]
