@@ -52,7 +52,7 @@ def _earlier(name: str, now: str) -> property:
     """A number of earlier versions of `Look`, as the closest one of this version."""
 
     def read(look: Look) -> float:
-        message = f"Look.{name} is no longer measured; Look.{now} is returned, on another scale"
+        message = f"Look.{name} is deprecated; use Look.{now}, which has another scale"
         warnings.warn(message, DeprecationWarning, stacklevel=2)
         return float(getattr(look, now))
 

@@ -4,7 +4,7 @@ attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
 speed       what decoding by bsmdec takes, over Draco's
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
-targets     what a target beside the look takes, over the larger of what both take alone
+targets     what a target beside the look takes, over the larger of what both take alone; series of promises
 same        whether another checkout writes the same bytes
 denoising   how denoising does on noise of known cause, beside Taubin's filter
 house       how large the repository is, beside its limits

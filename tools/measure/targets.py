@@ -1,12 +1,14 @@
 """What a target beside the look takes, over the larger of both alone: `python -m tools.measure targets MESH...`
 
-The look is that of the default; each target by itself is reached with the preset "none".
+The look is that of the default; each target by itself is reached with the preset "none". With `--stricter`, the bytes
+of series of promises, and how often a stricter promise takes fewer bytes.
 """
 
 from __future__ import annotations
 
 import argparse
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from statistics import fmean
 
@@ -24,6 +26,14 @@ TARGETS = {
     "--theta 4": Target("theta_deg", 4.0),
     f"--max-error {FARTHEST:.1%}": None,
 }
+STRICTER = {
+    "presets": [PRESETS[name] for name in ("small", "balanced", "fine", "near-lossless")],
+    "look": [EncodeOptions(contract=Contract(0.02, look=look)) for look in (3.0, 1.5, 1.0, 0.5)],
+    "max error": [EncodeOptions(contract=Contract(far)) for far in (0.01, 0.004, 0.002, 0.001)],
+    "theta": [replace(PRESETS["none"], target=Target("theta_deg", angle)) for angle in (8.0, 4.0, 3.0, 2.0)],
+    "nmsve": [replace(PRESETS["none"], target=Target("nmsve_db", error)) for error in (-45.0, -48.0, -52.0, -55.0)],
+}
+BACK = 1.01  # bytes of a promise over those of a stricter one, above which it counts
 
 
 def options(preset: str, target: Target | None) -> EncodeOptions:
@@ -44,11 +54,28 @@ def measured(name: str, mesh: TriangleMesh) -> list[float]:
     return ratios
 
 
+def stricter(name: str, mesh: TriangleMesh) -> list[float]:
+    """Print a row for each series; return the bytes of each promise over those of the next."""
+    ratios = []
+    for text, series in STRICTER.items():
+        sizes = [len(encode(mesh, options)) for options in series]
+        ratios += [size / next_size for size, next_size in pairwise(sizes)]
+        print(f"{name:24} {text:12}", *(f"{size:9,}" for size in sizes), flush=True)
+    return ratios
+
+
 def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", metavar="MESH", nargs="+", type=Path)
+    parser.add_argument("--stricter", action="store_true", help="series of promises, instead of two at once")
+    args = parser.parse_args()
     ratios: list[float] = []
-    for path in parser.parse_args().meshes:
-        ratios += measured(path.stem, read_mesh(str(path)).mesh.bare.without_isolated_vertices()[0])
-    print(f"mean {fmean(ratios):.3f}, worst {max(ratios):.3f}")
+    for path in args.meshes:
+        mesh = read_mesh(str(path)).mesh.bare.without_isolated_vertices()[0]
+        ratios += (stricter if args.stricter else measured)(path.stem, mesh)
+    if args.stricter:
+        back = sum(ratio > BACK for ratio in ratios)
+        print(f"{len(ratios)} steps, {back} back by more than {BACK - 1.0:.0%}, worst {max(ratios):.3f}")
+    else:
+        print(f"mean {fmean(ratios):.3f}, worst {max(ratios):.3f}")
