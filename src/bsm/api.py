@@ -183,13 +183,13 @@ def encode_many(
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
-    if isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 0:
-        raise ArgumentError(f"jobs must be a whole number from 0 on, not {jobs!r}")
+    if type(jobs) is not int or jobs < 0:
+        wrong = OptionError if type(jobs) is int else ArgumentError
+        raise wrong(f"jobs must be a whole number from 0 on, not {jobs!r}")
     check_mapping("metadata", {} if metadata is None else metadata)
-    names = [named(source) for source in sources]
     run = Run(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
     folder = None if target is None else named(target).rstrip("/") + "/"
-    planned = plan(names, folder, lambda _: ".bsm")
+    planned = plan([named(source) for source in sources], folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
     more: dict[str, Any] = {"metadata": metadata or {}, "options": options, "simplify": simplify}

@@ -127,7 +127,9 @@ def _errors(result: Attempt, found: Simplified | None, diagonal: float) -> tuple
     """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
     if found is not None and found.apart:
         farthest = found.apart / diagonal
-        words = f"{found.before} triangles before, surfaces at most {100 * farthest:.3g} % of the diagonal apart"
+        words = (
+            f"{found.before} faces before simplifying, surfaces at most {100 * farthest:.3g} % of the diagonal apart"
+        )
         return words, {"faces_before": found.before, "max_error_relative": farthest}
     error = result.comparison
     words = f"largest vertex error {100 * error.max_error_relative:.3g} % of the diagonal, mean normal error "
