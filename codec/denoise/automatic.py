@@ -89,7 +89,9 @@ SLIDING = 0.6  # noise across the normals, over noise along them, from which on 
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
 alone is up to an eighth better, for normals and vertices."""
-LARGE, MOST_LARGE_MEMBERS = 100_000, 2  # from LARGE vertices on a blend has fewer members, to save time
+MOST_TAUGHT, LARGE, MOST_LARGE_MEMBERS = 40_000, 100_000, 2
+"""To save time: most vertices of a mesh with white noise that has a part in learnt normals, which leave 3 % less of the
+angle of large meshes; and from `LARGE` vertices on a blend has fewer members."""
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 HARMFUL = 0.95
 """If the expected error of the result exceeds this multiple of the change, the mesh is not changed: normals turned by
@@ -170,13 +172,14 @@ def choose(
         return _persist(positions, finding, patient)
     if finding.kind in ("cells", "steps"):
         return _bounded(finding)
+    taught = patient.topology.n <= MOST_TAUGHT or finding.kind != "white"
     members, part = sample(patient.topology.faces, finding.levels)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     if len(members) < patient.topology.n:
         positions, patient = positions[members], Patient(part, len(members))
     patient.view, patient.bound = finding.view, finding.bound
     candidates = SEEN if finding.view is not None else GROUPS.get(finding.kind, CANDIDATES)
-    share = LEARNT if candidates is CANDIDATES else 0.0
+    share = LEARNT if candidates is CANDIDATES and taught else 0.0
     if finding.view is None:
         patient.expect(LARGEST_KEEP)
     goals = named("goal", GOALS, goal)
@@ -186,8 +189,7 @@ def choose(
     # The result of a few recipes is a better guess. A third round would repeat its own mistakes.
     rehearsal.rehearse(rehearsal.perform(winner.steps, share))
     winner = rehearsal.compete(candidates, most, REHEARSED)
-    taught, untreated = rehearsal.taught(winner, share), rehearsal.untreated
-    steps, expected = taught.steps, taught.error
+    steps, expected, untreated = winner.steps, winner.error, rehearsal.untreated
     reason = finding.reason
     if expected > WORTH * untreated:
         steps, expected = (), untreated
@@ -198,7 +200,7 @@ def choose(
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     choice = AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, share)
-    return replace(choice, forecast=rehearsal.forecast(taught)) if goal == "shading" else choice
+    return replace(choice, forecast=rehearsal.forecast(winner)) if goal == "shading" else choice
 
 
 def _persist(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:

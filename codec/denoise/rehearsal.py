@@ -15,7 +15,6 @@ from itertools import islice
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
@@ -141,13 +140,6 @@ class Rehearsal:
     def changed(self, steps: tuple[Step, ...], share: float) -> float:
         """How far the mesh that is rehearsed for is from the result, in the unit of the errors."""
         return self._goal(Reference(self.perform(steps, share), self._topology.faces), self._given)
-
-    def taught(self, winner: Outcome, share: float) -> Outcome:
-        """The winner with `share` of the learnt normals."""
-        if share == 0.0:
-            return winner
-        result = self._within(joined(winner.result, self._treatments.learnt, share, self._topology), self.noisy)
-        return Outcome(winner.steps, self._goal(self.truth, result), result)
 
     def forecast(self, winner: Outcome) -> Forecast:
         """Return the angles to expect on the rehearsed mesh. Detail that the filter removes from the guess was already

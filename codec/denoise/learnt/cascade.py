@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored, surroundings
 from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
+from bsm.codec.geometry.graph import Rows
 
 FARTHEST = np.float32(6.0)  # bound of standardised numbers
 MOST_NEGATIVE = np.float32(80.0)
@@ -61,11 +62,11 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
 VERTEX_ITERATIONS = 15
 
 
-def regressed_normals(positions: Positions, topology: Topology, network: Network) -> Floats:
+def regressed_normals(positions: Positions, topology: Topology, near: Rows, network: Network) -> Floats:
     """Normals by one network, shape (m, 3), whichever way the mesh is turned."""
     found = []
     order, signs = mirrored(True, True)
-    for numbers, frames in descriptions(positions, topology):
+    for numbers, frames in descriptions(positions, topology, near):
         # Nothing tells the two ends of an axis apart but the normal that the network starts from.
         back = numbers[:, BASE.start] < 0.0
         numbers[back] = numbers[back][:, order] * signs
@@ -84,9 +85,9 @@ class Learnt:
 
 def learnt(positions: Positions, topology: Topology) -> Learnt:
     """Denoise `positions`, shape (n, 3), by all networks in turn."""
-    normals = np.zeros((len(topology.faces), 3))
+    normals, near = np.zeros((len(topology.faces), 3)), surroundings(positions, topology)
     for network in read_networks():
-        normals = regressed_normals(positions, topology, network)
+        normals = regressed_normals(positions, topology, near, network)
         positions = follow_normals(positions, topology, normals, VERTEX_ITERATIONS)
     return Learnt(positions, normals)
 

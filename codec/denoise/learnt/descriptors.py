@@ -24,18 +24,23 @@ BASE = slice(45, 48)  # the filtered normal to which a network adds: guided by p
 BATCH = 1024  # faces whose numbers pass the layers together: the output of a layer for a batch stays in the cache
 
 
-def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -> Iterator[tuple[Singles, Floats]]:
+def surroundings(positions: Positions, topology: Topology) -> Rows:
+    """The faces about each face that a network sees."""
+    centroids = face_geometry(positions, topology.faces).centroids
+    return reach(centroids, topology.patches, RADIUS * mean_centroid_distance(centroids, topology.pairs))
+
+
+def descriptions(positions: Positions, topology: Topology, near: Rows) -> Iterator[tuple[Singles, Floats]]:
     if len(topology.faces) == 0:
         return
     geometry = face_geometry(positions, topology.faces)
     distance = mean_centroid_distance(geometry.centroids, topology.pairs)
-    near = reach(geometry.centroids, topology.patches, RADIUS * distance)
     guide = patch_guidance(geometry, topology)
     smooth, axes = (filter_normals(geometry, geometry.normals, near, scale * distance, np.inf) for scale in (1.0, 2.0))
-    repeated = [_repeated(geometry, topology.patches, distance, *setting) for setting in REPEATED]
+    repeated = list(_repeated(geometry, topology.patches, distance))
     rough = float(np.linalg.norm(geometry.normals - smooth, axis=1).mean())
-    for begin in range(0, len(geometry.areas), batch):
-        count = min(batch, len(geometry.areas) - begin)
+    for begin in range(0, len(geometry.areas), BATCH):
+        count = min(BATCH, len(geometry.areas) - begin)
         described, frames = np.empty((count, OWN)), np.empty((count, 9))
         _kernels.describe_faces(
             *geometry, guide, smooth, axes, near.starts, near.members, distance, begin, described, frames
@@ -46,12 +51,16 @@ def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -
         yield row.astype(np.float32), axis
 
 
-def _repeated(geometry: FaceGeometry, near: Rows, distance: float, sigma_r: float, iterations: int) -> Floats:
-    normals: Floats = geometry.normals
-    for _ in range(iterations):
-        geometry = geometry._replace(normals=normals)
-        normals = filter_normals(geometry, normals, near, distance, sigma_r)
-    return normals
+def _repeated(geometry: FaceGeometry, near: Rows, distance: float) -> Iterator[Floats]:
+    """Filter the normals, shape (m, 3), by each setting of `REPEATED`; equal widths go on where the last one ended."""
+    normals, width, done = geometry.normals, 0.0, 0
+    for sigma_r, iterations in REPEATED:
+        if sigma_r != width:
+            normals, width, done = geometry.normals, sigma_r, 0
+        for _ in range(iterations - done):
+            normals = filter_normals(geometry._replace(normals=normals), normals, near, distance, sigma_r)
+        done = iterations
+        yield normals
 
 
 def mirrored(x: bool, y: bool) -> tuple[npt.NDArray[np.int64], Singles]:

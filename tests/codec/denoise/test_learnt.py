@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise.learnt.cascade import WEIGHTS, Network, joined, learnt, read_networks, regressed_normals
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored, surroundings
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
@@ -21,6 +21,10 @@ def zeros(size: int) -> Network:
     """A network for this many inputs that adds nothing."""
     layer = (np.zeros((size, 3), np.float32), np.zeros(3, np.float32))
     return Network(np.zeros(size, np.float32), np.ones(size, np.float32), (layer,))
+
+
+def described(positions: np.ndarray, topology: Topology) -> tuple[np.ndarray, np.ndarray]:
+    return next(descriptions(positions, topology, surroundings(positions, topology)))
 
 
 def noisy_sphere(size: int = 16):  # type: ignore[no-untyped-def]
@@ -43,9 +47,9 @@ def test_a_mirrored_mesh_is_described_by_mirrored_numbers(flipped: int) -> None:
     flat, faces = grid(12)
     bumpy = flat + np.random.default_rng(1).normal(size=flat.shape) * [0.0, 0.0, 0.2]
     mirror = np.where(np.arange(3) == flipped, -1.0, 1.0)
-    numbers, frames = next(descriptions(bumpy, Topology(faces, len(bumpy))))
+    numbers, frames = described(bumpy, Topology(faces, len(bumpy)))
     # Turned about, faces look to the same side as before.
-    other, turned = next(descriptions(bumpy * mirror, Topology(np.ascontiguousarray(faces[:, [0, 2, 1]]), len(bumpy))))
+    other, turned = described(bumpy * mirror, Topology(np.ascontiguousarray(faces[:, [0, 2, 1]]), len(bumpy)))
     signs = np.sign(np.einsum("kij,kij->ki", turned, frames * mirror))
     assert (signs[:, 2] == 1.0).all()
     for x in (False, True):
@@ -94,6 +98,7 @@ def test_weights_for_other_numbers_are_refused(tmp_path: Path) -> None:
 def test_a_network_of_zeros_says_the_filtered_normal() -> None:
     _, noisy, faces = noisy_sphere(8)
     topology = Topology(faces, len(noisy))
-    numbers, frames = next(descriptions(noisy, topology))
+    numbers, frames = described(noisy, topology)
     filtered = np.einsum("kij,ki->kj", frames, numbers[:, BASE])
-    assert regressed_normals(noisy, topology, zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
+    near = surroundings(noisy, topology)
+    assert regressed_normals(noisy, topology, near, zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
