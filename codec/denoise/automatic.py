@@ -18,7 +18,7 @@ from bsm.codec.denoise.noise.ripples import NO_RIPPLES, Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.recipe import RAYS, Patient, Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Forecast, Progress, Rehearsal, discrepant, silent
+from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal, discrepant, silent
 from bsm.codec.denoise.safety import judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
@@ -89,9 +89,7 @@ SLIDING = 0.6  # noise across the normals, over noise along them, from which on 
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
 alone is up to an eighth better, for normals and vertices."""
-MOST_TAUGHT, LARGE, MOST_LARGE_MEMBERS = 40_000, 100_000, 2
-"""To save time: most vertices of a mesh with white noise that has a part in learnt normals, which leave 3 % less of the
-angle of large meshes; and from `LARGE` vertices on a blend has fewer members."""
+MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 HARMFUL = 0.95
 """If the expected error of the result exceeds this multiple of the change, the mesh is not changed: normals turned by
@@ -172,23 +170,23 @@ def choose(
         return _persist(positions, finding, patient)
     if finding.kind in ("cells", "steps"):
         return _bounded(finding)
-    taught = patient.topology.n <= MOST_TAUGHT or finding.kind != "white"
-    members, part = sample(patient.topology.faces, finding.levels)
-    most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
-    if len(members) < patient.topology.n:
+    full = patient.topology
+    members, part = sample(full.faces, finding.levels)
+    if len(members) < full.n:
         positions, patient = positions[members], Patient(part, len(members))
     patient.view, patient.bound = finding.view, finding.bound
     candidates = SEEN if finding.view is not None else GROUPS.get(finding.kind, CANDIDATES)
-    share = LEARNT if candidates is CANDIDATES and taught else 0.0
+    large = full.n > MOST_TAUGHT and finding.kind == "white"
+    share = LEARNT if candidates is CANDIDATES and not large else 0.0
     if finding.view is None:
         patient.expect(LARGEST_KEEP)
     goals = named("goal", GOALS, goal)
     rehearsal = Rehearsal(positions, finding.on(members), patient, candidates[0], goals, progress)
     candidates = _suited(candidates, rehearsal.level, finding.edge)
-    winner = rehearsal.compete(candidates[:HERALDS], most, HERALDED)
+    winner = rehearsal.compete(candidates[:HERALDS], HERALDED)
     # The result of a few recipes is a better guess. A third round would repeat its own mistakes.
     rehearsal.rehearse(rehearsal.perform(winner.steps, share))
-    winner = rehearsal.compete(candidates, most, REHEARSED)
+    winner = rehearsal.compete(candidates, REHEARSED)
     steps, expected, untreated = winner.steps, winner.error, rehearsal.untreated
     reason = finding.reason
     if expected > WORTH * untreated:

@@ -196,7 +196,7 @@ class Rehearsal:
                 break
         return best
 
-    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS, begun: float = 0.0) -> Outcome:
+    def compete(self, recipes: tuple[Recipe, ...], begun: float = 0.0) -> Outcome:
         """The steps whose mean is best, found greedily; `begun` of all work is done before."""
         alone = []
         for number, outcome in enumerate(ordered_map(self.attempt, recipes, None), start=1):
@@ -204,7 +204,7 @@ class Rehearsal:
             alone.append(outcome)
         alone.sort(key=lambda outcome: outcome.error)
         chosen, error = [alone[0]], alone[0].error
-        while len(chosen) < members:
+        while len(chosen) < MOST_MEMBERS:
             errors = [self._goal(self.truth, blend([member.result for member in (*chosen, steps)])) for steps in alone]
             best = int(np.argmin(errors))
             if errors[best] > GAIN * error:

@@ -35,10 +35,7 @@ class Windows:
         self._sizes = np.bincount(self._windows, minlength=self.count)
         self._starts = np.concatenate([[0], np.cumsum(self._sizes)])
         self.valid: Mask = self._sizes >= FEWEST_IN_WINDOW
-
-    @property
-    def usual_size(self) -> float:
-        return float(self._sizes[self.valid].mean())
+        self.usual_size = float(self._sizes[self.valid].mean()) if self.valid.any() else 0.0
 
     def beside(self, chosen: Mask) -> Mask:
         """Windows that have an edge to one of the chosen windows, shape (count,)."""
