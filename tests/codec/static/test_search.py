@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import EncodeOptions, Encoder, TriangleMesh
+from bsm import Contract, EncodeOptions, Encoder, TriangleMesh
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.search import Search, Way
@@ -88,3 +88,17 @@ def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, mo
 def test_a_further_way_makes_no_real_file_larger(name: str, meshes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     whole, less = sizes(read_mesh(str(meshes / name)).mesh.bare, monkeypatch)
     assert whole <= BY_CHANCE * min(less)
+
+
+def test_looks_that_do_not_decide_end_at_one_grid() -> None:
+    mesh = torus(14, 10)
+    found = {Encoder(mesh, EncodeOptions(contract=Contract(1e-3, look=look))).encode() for look in (20.0, 30.0)}
+    assert len(found) == 1
+
+
+def test_the_bytes_of_a_grid_are_about_what_is_expected() -> None:
+    mesh = torus(100, 60)
+    _, _, grid = _asked(mesh, EncodeOptions())
+    made = grid.at(grid.first)
+    assert made.size == pytest.approx(made.draft.size, rel=0.1)
+    assert made.size != made.draft.size, "it is an estimate"
