@@ -1,4 +1,4 @@
-"""The Laplacian of a block, L = D - W, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
+"""The Laplacian of a block, L = D - W, and the solver for R = (L + delta I)^-1 (paper, sections 3 and 4).
 
 Equation 2 of the paper weighs edges by geometry; the decoder of a mesh has only connectivity, so all weights are one
 there, while the frames of a sequence have a first one to weigh them by (`cotangent_weights`): decoders know that to

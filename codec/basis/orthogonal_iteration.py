@@ -26,7 +26,7 @@ FIRST_CARE = 16
 LEAST_PIVOT = 2.0**-20  # from which columns are completed with the accuracy that is asked for
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
-"""What makes a basis exact: the sum of the Rayleigh quotients of any first columns is within a thousandth of the sum
+"""Settings of an exact basis: the sum of the Rayleigh quotients of any first columns is within a thousandth of the sum
 of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues need not be told apart."""
 START_NOISE = 0.25
 FOLLOWING_NOISE = 2.0**-8

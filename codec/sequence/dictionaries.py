@@ -12,8 +12,8 @@ from bsm.codec.static.coding import Scheme
 from bsm.codec.static.work import block_memory
 from bsm.codec.threads import ordered_map
 
-PART_MEMORY, ROW_MEMORY = 6000.0, 352.0  # bytes of what decoders know of a part, whatever its size and for each row
-TETHER = 2.0**-16  # stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches
+PART_MEMORY, ROW_MEMORY = 6000.0, 352.0  # bytes that decoders keep for a part, and for each row
+TETHER = 2.0**-16  # stiffness of each row's spring to the mean of the pulls; it places rows without other springs
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,7 @@ class Part:
         return block_memory(self.held.laplacian, self.width)
 
     def coefficients(self, values: Matrix, ends: Matrix) -> Matrix:
-        """Coefficients, shape (c_i, m), of values here, shape (n_i, m), less what those around, (k_i, m), tell."""
+        """Return coefficients, (c_i, m), of values here, (n_i, m), minus their extension from `ends`, (k_i, m)."""
         return project(self.basis, values - self._extended(ends), self.width)
 
     def difference(self, wanted: Matrix, field: Matrix) -> Matrix:

@@ -299,7 +299,7 @@ class SequenceEncoder:
     def _carried(
         self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
     ) -> tuple[tuple[PreparedAttribute, ...], tuple[MovingAttributeEncoder, ...]]:
-        """The attributes of a run with a mesh of its own, and what encodes those that move, or may if `more` comes."""
+        """Return the attributes of a run with its own mesh, and encoders of those that move, or may if `more` comes."""
         given, asked = run.given, dict(options.attributes)
         move = {name for name, values in group.moving.items() if (values != values[:1]).any()}
         may = move | (set(group.moving) if more else set())
@@ -388,7 +388,7 @@ class Meshes:
 
 
 def _digest(run: JoinedRun) -> bytes:
-    """What runs of the same faces, joins and attributes have in common, whatever the values of those that can move."""
+    """Return a digest that runs of the same faces, joins and resting attributes share."""
     mesh, moving = run.given, {attribute.name for attribute in run.moving}
     found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
     for attribute in mesh.attributes:
@@ -416,7 +416,7 @@ def _positions(frame: Frame) -> Matrix:
 
 
 class _Rounds:
-    """Tells of rounds of blocks or passes, of the first frame and of each GOP, as of one large piece of work."""
+    """Reports the rounds of the first frame and of all GOPs as the progress of one task."""
 
     def __init__(self, progress: Progress | None, rounds: int) -> None:
         self._progress, self._rounds, self._done = progress, rounds, 0

@@ -50,7 +50,7 @@ def begin_part(track: Track, before: Inherited | None, block: int, ends: Matrix,
 
 
 class FrameHistory:
-    """What low-delay frames refer to, block after block; starts anew with every key frame."""
+    """The state that low-delay frames refer to, block after block; every key frame resets it."""
 
     def __init__(self, track: Track) -> None:
         self.bank: Bank = make_level_bank()
@@ -80,7 +80,7 @@ class FrameHistory:
         return loop, columns[count:], base[count:]
 
     def base(self, block: int) -> Matrix:
-        """What frames start from, around a block and its coefficients, shape (k_i + c_i, dT)."""
+        """Return the values that frames start from, around a block and its coefficients, shape (k_i + c_i, dT)."""
         base = np.zeros((len(self._kept[0][block]), len(self._cosines), self._track.width))
         for frame, cosines in enumerate(self._cosines):
             begun = self._kept[self._back - 1 - frame if self._back else 0][block]

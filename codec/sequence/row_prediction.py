@@ -11,7 +11,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 
-LEADING = 24  # columns of a row that help to predict the columns behind them
+LEADING = 24  # columns of a row that help to predict the following ones
 FORGETTING = 0.985  # how much the past counts, per row, in the weights of the prediction
 RIDGE = 0.004  # regularization of the weights
 NOISE = 30.0

@@ -37,7 +37,7 @@ TOGETHER = 4
 
 FINEST_STEP = 2e-5  # below, a search does not look
 
-PASS = 0.4  # of what is left of the progress of a search, the share of its next attempt
+PASS = 0.4  # share of the next attempt in the remaining progress of a search
 LEVELS = 0.6  # of the time of an attempt, the share before frames are looked at
 
 NEAR = 0.8, 1.15  # a first frame is reused for steps within these factors of its own

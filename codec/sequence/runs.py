@@ -120,7 +120,7 @@ def can_move(attribute: Attribute) -> bool:
 
 
 def moved_to(attribute: Attribute, others: Iterable[Attribute]) -> Attribute | None:
-    """What an attribute is in another frame; None: there it is none, or another kind of one."""
+    """Return an attribute as it is in another frame; None if it is absent or differs in kind."""
     same = (other for other in others if _kind(other) == _kind(attribute))
     return next(same, None)
 

@@ -71,7 +71,7 @@ class Bending:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """What every GOP knows of one field before its first frame."""
+    """The known state of one field before the first frame of any GOP."""
 
     width: int
     kept: int
@@ -83,7 +83,7 @@ class Track:
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """What every GOP of a sequence is coded with."""
+    """The dictionaries and tracks that all GOPs of a sequence share."""
 
     vertices: int
     parts: tuple[Part, ...]

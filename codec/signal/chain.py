@@ -61,7 +61,7 @@ class Suspended:
 
 @dataclass(frozen=True, eq=False)
 class Surroundings(Suspended):
-    """What holds a block."""
+    """The known values around a block, as springs and their pulls."""
 
     pulls: Matrix
 
@@ -98,7 +98,7 @@ class Known:
         self._blend.add(block.vertices, positions, degree_weights(block.degrees))
 
     def around(self, laplacian: Laplacian, shift: float) -> Surroundings:
-        """What holds a block."""
+        """Return the known values around a block."""
         graph, blend, block = self._graph, self._blend, laplacian.block
         found = Surroundings(laplacian, np.empty(block.size), shift, np.empty((block.size, 3)))
         given = graph.offsets, graph.neighbors, block.vertices, self._inside, blend.sums, blend.weights

@@ -1,4 +1,4 @@
-"""What decoded positions are filtered by, and the local frames that they are refined in; the same for both sides.
+"""The filter of decoded positions, and the local frames of their refinement; the same for both sides.
 
 Smoothing, by an amount that the stream carries, is not in the paper. Coefficients that were quantized or left out show
 as roughness; a low-pass filter on the whole mesh takes most of it away. The filter is a polynomial of degree 5 in the
@@ -48,7 +48,7 @@ def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """What positions V filtered by any amount are a sum of."""
+    """The terms whose weighted sum is positions V filtered by any amount."""
 
     positions: Matrix
     terms: Matrix

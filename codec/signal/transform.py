@@ -92,11 +92,11 @@ def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> npt.N
 
 SAMPLES = 2  # blocks that are measured; one, or four, come to 1 % more bytes, which is chance
 WORTHWHILE = 0.75  # root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 %
-FIRST_LOOK = 160  # frequencies that are measured before anybody asks for more: this is about time alone
+FIRST_LOOK = 160  # frequencies that are measured at first; this only saves time
 
 
 class MeasuredSpectrum:
-    """Root mean square coefficient at each frequency, measured from the low ones on as far as somebody asks."""
+    """Root mean square coefficient at each frequency, measured from the lowest one as far as it is needed."""
 
     def __init__(self, blocks: Blocks, positions: Matrix, *, shift: float) -> None:
         numbers = np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])

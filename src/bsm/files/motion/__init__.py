@@ -1,1 +1,1 @@
-"""Sequences in files: one module for each form, with what reads and what writes it."""
+"""Sequence files: one module for each format, with its reader and writer."""

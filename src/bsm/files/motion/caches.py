@@ -38,7 +38,7 @@ class Cache:
     start: int
     kind: str
     rate: float = 0.0
-    timing: dict[str, float | str] | None = None  # as metadata; None: what the file says makes no sense
+    timing: dict[str, float | str] | None = None  # as metadata; None: the times in the file are invalid
 
 
 def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
@@ -131,7 +131,7 @@ def _beside(path: str) -> str:
 def write_cache(
     file: BinaryIO, kind: str, codes: Sequence[float], rate: float = 0.0
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write a cache of frames that are shown at some codes, in frames at a rate; yields what takes them one by one."""
+    """Write a cache of frames with these time codes, at a frame rate; yields a function that takes one frame."""
     single, count = "<f4" if kind == "pc2" else ">f4", len(codes)
     taken = 0
 

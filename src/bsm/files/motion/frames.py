@@ -1,4 +1,4 @@
-"""What readers of sequences give and writers are given, what may be asked of them, and which frames repeat others."""
+"""The interface between readers and writers of sequences: frames, requests and shared metadata."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Frames:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What may be asked of a reader of sequences."""
+    """A request to a reader of sequences."""
 
     rate: float = 0.0
     animation: str = ""

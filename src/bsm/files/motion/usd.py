@@ -205,7 +205,7 @@ class _Surface:
         material.CreateSurfaceOutput().ConnectToSource(self._surface.ConnectableAPI(), "surface")
 
     def write(self, words: Mapping[str, Any]) -> set[str]:
-        """Say what USD has an input for; returns which of the words of glTF these were."""
+        """Write the words of glTF for which USD has an input, and return these."""
         types, written = self._types, {"name"}
         factor = words.get("baseColorFactor")
         for name, painted in _PAINTED.items():
@@ -357,7 +357,7 @@ class _Instancer:
         return [time for attr in (*every, self._instancer.GetScalesAttr()) for time in attr.GetTimeSamples()]
 
     def place(self, number: int, time: Any, cache: Any) -> Doubles:
-        """What places an instance, with its prototype's transform, in the world."""
+        """Return the matrix that places an instance, with its prototype's transform, in the world."""
         if self._placed[0] != time.GetValue():
             every = self._pxr.UsdGeom.PointInstancer.IgnoreMask
             found = self._instancer.ComputeInstanceTransformsAtTime(
@@ -391,7 +391,7 @@ class _Part:
         return found
 
     def matrix(self, time: Any, cache: Any) -> Doubles:
-        """What places the points in the world, from the right."""
+        """Return the matrix that places the points in the world, from the right."""
         found: Doubles = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
         if self._instance is None:
             return found
@@ -645,7 +645,7 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile
 
 @contextmanager
 def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterator[Callable[..., None]]:
-    """Write a stage of one mesh whose points have a time sample for each frame; yields what takes frame after frame."""
+    """Write a stage of one mesh with a time sample for each frame; yields a function that takes one frame."""
     pxr = import_usd()
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder, "mesh.usdc" if kind == "usdz" else f"mesh.{kind}"))
@@ -681,7 +681,7 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterat
             mesh.GetExtentAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(extent), code)
             taken, before = taken + 1, code
             if taken % 64 == 0:
-                stage.Save()  # what is saved need not be kept
+                stage.Save()  # saved frames need not stay in memory
 
         yield write
         stage.SetEndTimeCode(before)
