@@ -220,7 +220,7 @@ def test_failures_have_codes_and_say_what_is_wrong(name, folder, tmp_path, capsy
 
 
 def test_a_missing_package_has_its_code(folder, tmp_path, monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, "trimesh", None)
+    monkeypatch.setitem(sys.modules, "collada", None)
     (tmp_path / "a.dae").write_bytes(b"<COLLADA/>")
     assert main(["compare", str(tmp_path / "a.dae"), str(folder / "sample.bsm")]) == 8
     assert "pip install" in capsys.readouterr().err
