@@ -49,7 +49,7 @@ class Measures:
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
         self._threads = threads
-        self._normals = normals
+        self.normals = normals
         self.near = near or Nearing(None)
 
     @cached_property
@@ -64,7 +64,7 @@ class Measures:
     @cached_property
     def look(self) -> LookMetric | None:
         """None: nothing of the mesh can be seen."""
-        own = () if self._normals is None else (Attribute("normal", self._normals.reshape(-1, 3), "corner", "normal"),)
+        own = () if self.normals is None else (Attribute("normal", self.normals.reshape(-1, 3), "corner", "normal"),)
         mesh = TriangleMesh(self.prepared.positions, self.prepared.mesh.faces, own)
         try:
             return LookMetric(mesh, threads=self._threads)

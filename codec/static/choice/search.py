@@ -129,7 +129,7 @@ class Search:
     def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
         """Ways that may be smallest, first those that are smaller at their first step."""
         prepared, options = self._prepared, self._options
-        few = prepared.graph.size < FEW_VERTICES
+        few = prepared.graph.size < FEW_VERTICES and self._measures.normals is None
         grids: list[Way] = [grid] if few else [Gridded(prepared, bounds, 1.0), grid]
         if not prepared.has_low_frequencies or options.quick:
             return grids
