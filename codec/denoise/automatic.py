@@ -19,7 +19,7 @@ from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.recipe import RAYS, Patient, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal, discrepant, silent
-from bsm.codec.denoise.safety import judge, keep_good, restraint
+from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
@@ -84,7 +84,8 @@ STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flatteni
 LEFT_UNEVEN = 0.55  # share of the angle that stays then
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
-LEARNT = 0.4  # share of the learnt normals in the mean with those of the recipes
+LEARNT, LEARNT_MORE = 0.4, 0.025
+"""Share of learnt normals in the mean; and movement over noise, above that without them, at which they are left out."""
 SLIDING = 0.6  # noise across the normals, over noise along them, from which on vertices slide along the surface
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
@@ -144,7 +145,9 @@ class AutomaticChoice:
         if self.steps or not (count or lengths):
             return choice
         if lengths:
-            return replace(choice, kind="ripples", reason=ripples.description)
+            waves = ", ".join(f"{length:.1f}" for length in lengths)
+            reason = f"waves of {waves} mean edges across the whole mesh, {ripples.level:.2f} edges high"
+            return replace(choice, kind="ripples", reason=reason)
         return replace(choice, kind="outliers", reason=f"{counted(vertices=count)} that stood out")
 
 
@@ -176,8 +179,7 @@ def choose(
         positions, patient = positions[members], Patient(part, len(members))
     patient.view, patient.bound = finding.view, finding.bound
     candidates = SEEN if finding.view is not None else GROUPS.get(finding.kind, CANDIDATES)
-    large = full.n > MOST_TAUGHT and finding.kind == "white"
-    share = LEARNT if candidates is CANDIDATES and not large else 0.0
+    share = LEARNT if candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white") else 0.0
     if finding.view is None:
         patient.expect(LARGEST_KEEP)
     goals = named("goal", GOALS, goal)
@@ -243,10 +245,16 @@ def treat(
     patient.view, patient.bound = finding.view, finding.bound
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
-    full = keep_good(noisy, treatments.mean(choice.steps, choice.learnt), finding.levels > 0.0)
-    if finding.bound is not None:
-        full = finding.bound.within(noisy, full)
-    verdict = judge(noisy, full, finding, patient.probe)
+
+    def judged(share: float) -> tuple[Positions, Verdict]:
+        result = keep_good(noisy, treatments.mean(choice.steps, share), finding.levels > 0.0)
+        result = result if finding.bound is None else finding.bound.within(noisy, result)
+        return result, judge(noisy, result, finding, patient.probe)
+
+    full, verdict = judged(choice.learnt)
+    if choice.learnt and verdict.movement > (plain := judged(0.0))[1].movement + LEARNT_MORE:
+        # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
+        (full, verdict), choice = plain, replace(choice, learnt=0.0)
     if not verdict.holds:
         return noisy, replace(choice, steps=(), reason=verdict.reason)
     share = restraint(verdict.movement, finding)

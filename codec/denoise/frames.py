@@ -89,8 +89,8 @@ class FrameDenoiser:
             given, welded = pair
             assert choice is not None and found is not None
             if choice.outliers:
-                probe = self._patient.probe
-                welded = find_outliers(welded, probe, find_noise(welded, probe)).put_back(welded)
+                noise = find_noise(welded, self._patient.probe)
+                welded = find_outliers(welded, self._patient.probe, noise).put_back(welded)
             if choice.ripples:
                 welded = find_ripples(welded, self._patient.probe).put_back(welded)
             result, done = treat(choice, welded, found, self._patient, self._strength)

@@ -45,11 +45,6 @@ class Ripples:
     level: float
     displacements: Floats
 
-    @property
-    def description(self) -> str:
-        lengths = ", ".join(f"{length:.1f}" for length in self.lengths)
-        return f"waves of {lengths} mean edges across the whole mesh, {self.level:.2f} edges high"
-
     def put_back(self, positions: Positions) -> Positions:
         """The positions, shape (n, 3), without the waves; bit for bit where there are none."""
         return positions - self.displacements if len(self.lengths) else positions

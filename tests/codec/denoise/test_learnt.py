@@ -5,9 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.learnt.cascade import WEIGHTS, Network, joined, learnt, read_networks, regressed_normals
+from bsm.codec.denoise import denoise_automatically, recipe
+from bsm.codec.denoise.automatic import LEARNT
+from bsm.codec.denoise.learnt.cascade import WEIGHTS, Learnt, Network, joined, learnt, read_networks, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored, surroundings
-from bsm.codec.denoise.surface import Topology
+from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tools.noise import gaussian_along_normals
@@ -102,3 +104,11 @@ def test_a_network_of_zeros_says_the_filtered_normal() -> None:
     filtered = np.einsum("kij,ki->kj", frames, numbers[:, BASE])
     near = surroundings(noisy, topology)
     assert regressed_normals(noisy, topology, near, zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_learnt_normals_are_left_out_where_they_move_more(kept: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    clean, noisy, faces = noisy_sphere(14)
+    known = clean if kept else 0.9 * clean
+    monkeypatch.setattr(recipe, "learnt", lambda *_: Learnt(known, face_geometry(known, faces).normals))
+    assert denoise_automatically(noisy, faces)[1].learnt == (LEARNT if kept else 0.0)
