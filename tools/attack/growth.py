@@ -1,6 +1,6 @@
 """`python -m tools.attack growth`: files that are large in one place, read at four times the size.
 
-Of the files of `readers` and `uses`; they must not take longer by more than `MOST_GROWTH`.
+Of the files of `readers` that grow; they must not take longer by more than `MOST_GROWTH`.
 """
 
 from __future__ import annotations
@@ -15,16 +15,11 @@ from pathlib import Path
 from bsm.bitstream.limits import Limits
 from tools.attack.readers import Sample, _grown, reading, warm_up
 from tools.attack.taken import taken_by_each
-from tools.attack.uses import of_size, uses
 
 SIZE = 1 << 16
 """Bytes of files before they grow."""
 MOST_GROWTH, LEAST_SECONDS = 4.5, 0.1
 """How much longer four times the bytes may take, and how long that is before it is asked."""
-
-
-def _of_size(name: str, size: int) -> Sample:
-    return _grown(size)[name]()
 
 
 def growth(make: Callable[[int], Sample], most: float = MOST_GROWTH, times: int = 4) -> str | None:
@@ -46,10 +41,7 @@ def main() -> int:
     parser.add_argument("--most", type=float, default=MOST_GROWTH, help="growth at four times (default: %(default)s)")
     most = parser.parse_args().most
     warm_up()
-    kinds = {name: partial(_of_size, name) for name in _grown(1)} | {
-        f"uses of {name}": partial(of_size, make) for name, make in uses()
-    }
-    found = {name: growth(make, most) for name, make in kinds.items()}
+    found = {name: growth(lambda size, name=name: _grown(size)[name](), most) for name in _grown(1)}  # type: ignore[misc]
     problems = [f"{name}: {problem}" for name, problem in found.items() if problem]
     print("\n".join([*problems, f"{len(found)} files, {len(problems)} findings"]))
     return 1 if problems else 0
