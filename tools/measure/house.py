@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_900,
-    "product Python, lines": 33_417,
+    "product in all languages, lines": 61_828,
+    "product Python, lines": 33_368,
     "product C and C++, lines": 21_420,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_132,
     "product lines over 120 columns": 219,
-    "all Python, lines": 73_900,
+    "all Python, lines": 73_629,
     "product modules": 201,
     "product C files and headers": 73,
     "docstring lines of the product, percent": 12,
@@ -49,7 +49,7 @@ LIMITS = {
     "settings of --set": 12,
     "words of prose in spec/*.md": 22_674,
     "words of prose in the core": 10_215,
-    "tuned constants of the search": 45,
+    "tuned constants of the search": 44,
     "files that encoding a mesh walks through": 57,
 }
 

@@ -8,11 +8,11 @@ import { VIEWER, WEB } from "./shared";
 
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
-    "light grids": [18500, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
-    "static meshes": [78000, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [77500, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "light grids": [18200, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
+    "static meshes": [76500, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "sequences": [75800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     "everything": [113400, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
-    "the page": [8900, ["three.js", "pool.js"]],
+    "the page": [8800, ["three.js", "pool.js"]],
 };
 
 for (const [what, [most, files]] of Object.entries(LOADS)) {
