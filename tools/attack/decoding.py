@@ -101,7 +101,7 @@ def _by_events(
 
 
 def _of_runs(frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], arrays: Arrays) -> Decoded:
-    """Frames of several meshes, one behind the other, as the vectors hold them."""
+    """Frames of several meshes, one after the other, as the vectors hold them."""
     table = np.array([(first, vertices, len(faces)) for first, vertices, faces in runs], np.int32)
     positions = np.concatenate([np.zeros((0, 3)), *frames])
     return positions, np.concatenate([faces for _, _, faces in runs]), arrays | {"runs": table}

@@ -126,8 +126,8 @@ def _medians(rows: Sequence[Row], words: str) -> Table:
     note = (
         f"{len(rows)} meshes of {min(faces):,} to {max(faces):,} vertices. Bytes over Draco's (level 10, 7 to 14 bits) "
         f"at equal quality by each measure: median, and the quartiles. BD-rate compares our line of {', '.join(CURVE)} "
-        "with Draco's over the range of both. meshoptimizer: index and vertex buffers (level 3, version 1), and gzip "
-        "behind. A mesh counts where its quality lies within Draco's; at a dash none does."
+        "with Draco's over the range of both. meshoptimizer: index and vertex buffers (level 3, version 1), then gzip. "
+        "A mesh counts where its quality lies within Draco's; at a dash none does."
     )
     return Table(f"Bytes over Draco's at equal quality, {words}", ("", *MEASURES.values()), lines, note)
 

@@ -1,4 +1,4 @@
-// Decode streams that come one behind the other, each with its length in four bytes before it: `node mutants.mjs LIMITS < STREAMS`.
+// Decode streams that come one after the other, each with its length in four bytes before it: `node mutants.mjs LIMITS < STREAMS`.
 // Prints a line of JSON: what became of how many, and of each that shows a fault of the decoder its number and what it is. Every third is
 // decoded in pieces, every third tolerantly.
 import { readFileSync } from "node:fs";

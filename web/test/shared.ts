@@ -48,7 +48,7 @@ export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limi
     decoder.release(); // so that the next test finds what this one leaves in memory
 }
 
-/** The mesh that block events add up to; of a sequence all its frames, one behind the other. */
+/** The mesh that block events add up to; of a sequence all its frames, one after the other. */
 export function meshOfEvents(events: Iterable<Event>): Mesh {
     let positions: Float64Array = new Float64Array(0);
     let faces = new Int32Array(0);
@@ -70,7 +70,7 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
         }
         if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }
-    // Of an attribute that moves, the values in all frames of the last run, one behind the other.
+    // Of an attribute that moves, the values in all frames of the last run, one after the other.
     attributes = attributes.map((one) => {
         const own = moved.filter(({ name }) => name === one.name);
         return own.length ? { ...one, values: Float64Array.from(own.flatMap(({ values }) => [...values])) } : one;
