@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, public
-from bsm.codec.arrays import Faces, Mask, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic, at_corners
 from bsm.codec.geometry.mesh import LARGEST, TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
@@ -122,7 +122,7 @@ class LookMetric:
         most_pixels: int = MOST_PIXELS,
     ) -> None:
         self._mesh, self._threads = mesh, threads
-        used = mesh.positions[_used(mesh.faces, len(mesh.positions))]
+        used = mesh.positions[np.bincount(mesh.faces.ravel(), minlength=len(mesh.positions)) > 0]
         low, high = box_around(used)
         with np.errstate(over="ignore"):
             self._diagonal = math.hypot(*(high - low))
@@ -367,12 +367,6 @@ def summed(sums: Matrix) -> Look:
 def judged(unlike: float, gone: float) -> Look:
     """The distance of these differences."""
     return Look(max((unlike / UNLIKE) ** POWER, (gone / GONE) ** GONE_POWER), unlike, gone)
-
-
-def _used(faces: Faces, count: int) -> Mask:
-    used = np.zeros(count, np.bool_)
-    used[faces] = True
-    return used
 
 
 def own_normals(mesh: TriangleMesh) -> Normals | None:

@@ -287,4 +287,5 @@ def test_stages_are_named_while_a_mesh_is_denoised(tmp_path):
     noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
     write_mesh(tmp_path / "a.npz", TriangleMesh(noisy, mesh.faces))
     shown = on_a_terminal("denoise", tmp_path / "a.npz", "-o", tmp_path / "b.npz")
-    assert re.search(r"rehearsing \d+ of \d+: +\d+%", shown), shown
+    # A fast machine may not show every stage.
+    assert re.search(r"(rehearsing \d+ of \d+|filtering): +\d+%", shown), shown
