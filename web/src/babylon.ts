@@ -11,13 +11,23 @@ const MOST_NORMAL = 32767;
 /** What Babylon.js calls what vertices have. */
 const KINDS: Record<string, string> = { uv: "uv", uv1: "uv2", color: "color" };
 
-class Played {
+/** The frames of a stream, played on meshes of a scene: `mesh.metadata.sequence` of each. */
+export interface BabylonSequence {
     /** Whether all frames are there. */
-    complete = false;
+    complete: boolean;
     /** The frame that is shown. */
+    shown: number;
+    readonly frames: { picture: FramePicture; shape: Shape }[];
+    /** What it says of time: `playing`, `loop`, `frame`. */
+    readonly playback: Playback;
+    /** Show a frame, or the last of those that are there. */
+    seek(frame: number): this;
+}
+
+class Played implements BabylonSequence {
+    complete = false;
     shown = 0;
     readonly frames: { picture: FramePicture; shape: Shape }[] = [];
-    /** What it says of time: `playing`, `loop`, `frame`. */
     readonly playback: Playback;
     private readonly worn = new Map<AbstractMesh, Shape>();
 
@@ -39,7 +49,6 @@ class Played {
         });
     }
 
-    /** Show a frame, or the last of those that are there. */
     seek(frame: number): this {
         this.playback.seek(Math.min(Math.max(0, Math.floor(frame)), this.frames.length - 1));
         this.show(this.playback.frame);
@@ -67,9 +76,6 @@ class Played {
     }
 }
 
-/** The frames of a stream, played on meshes of a scene: `mesh.metadata.sequence` of each. */
-export type BabylonSequence = Pick<Played, "complete" | "shown" | "frames" | "playback" | "seek">;
-
 /** Streams are decoded in threads, each once; meshes that say so play the frames of theirs. */
 class BabylonBSMExtension implements IGLTFLoaderExtension {
     readonly name = EXTENSION;
@@ -87,13 +93,8 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     /** A mesh, which plays if it says so; null: it does not. */
     _loadMeshPrimitiveAsync(context: string, name: string, node: INode, mesh: IMesh, primitive: IMeshPrimitive, assign: (mesh: AbstractMesh) => void): Promise<AbstractMesh> | null {
         const moving = mesh.extensions?.[EXTENSION] as { stream: number } | undefined;
-        return moving ? this.played(moving.stream, this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign)) : null;
-    }
-
-    private async played(stream: number, loading: Promise<AbstractMesh>): Promise<AbstractMesh> {
-        const mesh = await loading;
-        this.sequences.get(stream)?.playOn(mesh);
-        return mesh;
+        const loading = moving && this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign);
+        return loading?.then((made) => (this.sequences.get(moving!.stream)?.playOn(made), made)) ?? null;
     }
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
@@ -114,15 +115,14 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
         if (!view) throw new Error(`${context}: there is no bufferView ${stream}`);
         const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${stream}`, view);
         return new Promise((resolve, fail) => {
-            let [shape, rate]: [Shape | undefined, unknown] = [undefined, 0];
-            let sequence: Played | undefined;
+            let [shape, sequence, rate]: [Shape?, Played?, unknown?] = [];
             const decoding = this.pool.open(
                 {
                     onPicture: (picture) => {
                         if (picture.type === "whole") ({ shape } = picture);
                         if (picture.type === "metadata") rate = picture.entries.get("frame_rate") ?? rate;
                         if (picture.type !== "frame" || !shape) return;
-                        if (!sequence) this.sequences.set(stream, (sequence = new Played(Number(rate), decoding)));
+                        if (!sequence) this.sequences.set(stream, (sequence = new Played(Number(rate ?? 0), decoding)));
                         sequence.frames.push({ picture, shape });
                         resolve(sequence.frames[0].shape);
                     },
