@@ -262,7 +262,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     shown = on_a_terminal(*words, "--theta", "4")
     assert re.search(r"encoding: +\d+%", shown) and "<00:" in shown
     *frames, result = shown.replace("\r\n", "\n").rstrip("\n").split("\r")
-    shares = [int(frame.partition("%")[0].rpartition(":")[2]) for frame in frames if "%|" in frame]
+    shares = [int(share) for share in re.findall(r"encoding: +(\d+)%\|", shown)]
     assert len(shares) > 3 and max(shares) <= 100
     assert result.strip() == "", "the bar is gone"
     assert any(frame.strip().startswith(str(tmp_path)) for frame in frames)
