@@ -19,7 +19,7 @@ from tools.replicate.rates import DRACO_BITS, Row, codecs, ratios, spread
 
 SCORES = {"SSIMULACRA2": "100 - SSIMULACRA2", "Butteraugli": "Butteraugli, 3-norm", "FLIP": "FLIP"}
 BESIDE, MARGIN, DEGREE = 11, 16, 33.5
-"""Draco's bits that the spread of the default is set beside; pixels around what is shown; pixels a degree for FLIP."""
+"""Draco's bits, beside which the default's spread stands; margin of a cut in pixels; pixels per degree for FLIP."""
 SEEN = (500, 25_000)
 """Meshes of which photographs are taken, by how many vertices they have: fetched ones."""
 PHOTOGRAPHED = (
@@ -72,7 +72,7 @@ class Viewer:
 
 
 def frame(picture: Photograph) -> tuple[slice, slice]:
-    """Rows and columns of what is shown, with a margin."""
+    """Return the rows and columns that the mesh covers, with a margin."""
     shown = np.abs(picture.astype(int) - picture[0, 0]).sum(axis=2) > 6
     ends = [np.flatnonzero(shown.any(axis=axis))[[0, -1]] for axis in (1, 0)]
     rows, columns = (slice(max(0, low - MARGIN), high + MARGIN + 1) for low, high in ends)

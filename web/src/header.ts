@@ -21,7 +21,7 @@ export interface Header extends Numbers, Lists {
     paper: Paper;
 }
 
-/** A field of the header of a light grid: its key, and what is legal; `lengths` are those of a list. */
+/** A field in the header of a light grid: its key and its legal values; a list also has legal `lengths`. */
 export interface Field {
     key: number;
     type: "int" | "float";
@@ -80,7 +80,7 @@ function check({ vertices, faces, center, corner, grid, lattice }: Header): void
     refuse("a corner and a center", corner.length > 0 && center.some((place) => place !== 0));
 }
 
-/** Throw what is wrong with a header, if it is so. */
+/** Throw an error with this message if the condition holds. */
 function refuse(what: string, isSo: boolean): void {
     if (isSo) throw new CorruptError(`the header contradicts itself: ${what}`);
 }
