@@ -24,7 +24,6 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.attributes.quality import MOVING
-from bsm.files.formats.npz import read_arrays
 
 LAMPS = (((0.5, 0.7, 0.5), (255.0, 230.0, 190.0)), ((-0.8, 0.1, -0.6), (60.0, 90.0, 140.0)))
 """Where light comes from, and its color."""
@@ -130,5 +129,5 @@ def main() -> None:
     print("| field | ours | zstd | Draco | of theirs | bits per vertex and frame |\n|---|---|---|---|---|---|")
     for path in sorted(args.folder.glob("*.npz")):
         if not args.names or path.stem in args.names:
-            positions, faces = read_arrays(path, "positions", "faces")
-            measure(path.stem, positions.astype(np.float64), faces)
+            arrays = np.load(path)
+            measure(path.stem, arrays["positions"].astype(np.float64), arrays["faces"])

@@ -20,7 +20,6 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order, rate_curve
-from bsm.files.formats.npz import read_arrays
 from bsm.options import sequence_options
 from tools.replicate.ablation import ablate_motion
 from tools.replicate.fetch import Source
@@ -63,7 +62,8 @@ class Moving:
             mesh = self.origin.mesh()
             return bent(mesh), mesh.faces
         if isinstance(self.origin, Path):
-            positions, faces = read_arrays(self.origin, "positions", "faces")
+            arrays = np.load(self.origin)
+            positions, faces = arrays["positions"], arrays["faces"]
         else:
             positions, faces = MADE[self.origin]()
         return positions[:FRAMES].astype(np.float64), TriangleMesh(positions[0], faces).faces

@@ -239,11 +239,11 @@ def _read_npz(given: Input, left_out: LeftOut) -> Pieces:
                 taken[name] = meaning
         left_out |= dict.fromkeys(name for name in names if name not in taken)
         for name, what in taken.items():
-            with NpzArray(archive, name) as array:
-                if len(array.shape) != 2 or array.shape[1] not in ((3, 4) if what == "color" else (3,)):
-                    raise MeshError(f"{name} must have shape (n, 3), not {array.shape}")
-                for piece in array.pieces(ROWS):
-                    yield what, piece
+            array = NpzArray(archive, name)
+            if len(array.shape) != 2 or array.shape[1] not in ((3, 4) if what == "color" else (3,)):
+                raise MeshError(f"{name} must have shape (n, 3), not {array.shape}")
+            for piece in array.pieces(ROWS):
+                yield what, piece
 
 
 def _read_obj(given: Input, left_out: LeftOut) -> Pieces:

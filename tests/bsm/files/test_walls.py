@@ -80,6 +80,17 @@ def test_a_side_that_is_true():
         open_sequence(npy(np.zeros((1, 3), np.int64)).replace(b"(1, 3), }   ", b"(True, 3), }"), "npy")
 
 
+def test_a_header_of_an_array_is_bounded():
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("positions.npy", b"\x93NUMPY\2\0" + (1 << 25).to_bytes(4, "little") + bytes(1 << 25))
+    tracemalloc.start()
+    with pytest.raises(bsm.TruncatedError, match="the header of an npy array"):
+        read_mesh(packed.getvalue(), "npz")
+    assert tracemalloc.get_traced_memory()[1] < 10e6
+    tracemalloc.stop()
+
+
 def test_a_gltf_whose_buffer_is_no_file(tmp_path):
     """A pipe would be waited for, a link to itself be followed for ever."""
     pytest.importorskip("trimesh")

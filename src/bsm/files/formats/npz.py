@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from tokenize import TokenError
-from typing import IO, Any, BinaryIO, TypeAlias, cast, get_args
+from typing import IO, Any, BinaryIO, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -40,17 +40,26 @@ from bsm.files.room import AS_NUMBERS, TREE, require_count, require_inflated
 
 # What numpy raises of a header, which it parses as Python.
 _NO_HEADER = (ValueError, TypeError, KeyError, SyntaxError, RecursionError, MemoryError, OverflowError, TokenError)
+_MOST_HEADER = 1 << 16
 NPY = b"\x93NUMPY"
 Array = npt.NDArray[Any]
 Kind = np.dtype[Any]
 
 
-def read_header(file: IO[bytes]) -> tuple[tuple[int, ...], bool, Kind]:
+def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     """Shape, whether the order is Fortran's, and type of an array of numbers; nothing is unpickled."""
+    # The header declares its own length, in two bytes in version 1 and in four in those after it.
+    begin = file.read(len(NPY) + 2)
+    length = file.read(2 if begin[len(NPY) :][:1] == b"\1" else 4)
+    declared = int.from_bytes(length, "little")
+    text = file.read(min(declared, _MOST_HEADER))
+    if begin.startswith(NPY) and (not length or len(text) < declared):
+        raise TruncatedError(f"the header of an npy array has {len(text)} bytes of {declared}")
+    known = io.BytesIO(begin + length + text)
     try:
-        version = np.lib.format.read_magic(file)
+        version = np.lib.format.read_magic(known)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        shape, fortran, kind = read(file)
+        shape, fortran, kind = read(known)
     except _NO_HEADER as error:
         raise CorruptError(f"not a valid npy header: {error}") from error
     if kind.hasobject or kind.kind not in "iuf":
@@ -61,24 +70,16 @@ def read_header(file: IO[bytes]) -> tuple[tuple[int, ...], bool, Kind]:
 
 
 def size_of(shape: tuple[int, ...], kind: Kind) -> int:
-    return int(np.prod([int(side) for side in shape], dtype=object)) * kind.itemsize
+    return math.prod(shape) * kind.itemsize
 
 
 def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
     """The next table of three columns of a pipe, or None at its end; the limit called `bound` is that of its rows."""
-    magic = file.read(len(NPY))
-    if not magic:
+    if not (begin := file.peek(len(NPY))):
         return None
-    if magic != NPY:
+    if begin != NPY:
         raise FormatError("this is not a sequence of npy arrays")
-    # The header declares its own length, in two bytes in version 1 and in four in those after it.
-    version = file.read(2)
-    length = file.read(2 if version[:1] == b"\1" else 4)
-    declared = int.from_bytes(length, "little")
-    text = file.read(min(declared, 1 << 16))
-    if not length or len(text) < declared:
-        raise TruncatedError("an npy array ends in its header")
-    shape, fortran, kind = read_header(io.BytesIO(magic + version + length + text))
+    shape, fortran, kind = read_header(file)
     if len(shape) != 2 or shape[1] != 3:
         raise FormatError(f"an array of {kind} and shape {shape} is neither faces nor a frame: (n, 3) numbers are")
     require_count(bound, shape[0], limits)
@@ -96,9 +97,6 @@ def write_npy(file: BinaryIO, array: Array) -> None:
     file.flush()
 
 
-Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO | zipfile.ZipFile"
-"""A path, a seekable binary file, or an archive that is open and stays so."""
-
 _MAX_BYTES = 1 << 32
 MOST_NAMED = 16  # arrays that a note names, of those that are left out
 # A damaged archive may send zipfile to places before the beginning of the file: ValueError.
@@ -113,106 +111,87 @@ def opened_archive(archive: str | os.PathLike[str] | BinaryIO) -> zipfile.ZipFil
         raise FormatError(f"this is not an npz file: {error}") from error
 
 
+@contextmanager
+def _reading(name: str) -> Iterator[None]:
+    """Name the array that is absent, damaged, or packed in an unknown way."""
+    try:
+        yield
+    except BsmError:
+        raise
+    except KeyError:
+        raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
+    except _DAMAGE as error:
+        raise CorruptError(f"the array {name} cannot be read: {error}") from error
+    except RuntimeError as error:  # a password, or an unknown compression
+        raise FormatError(f"this is not an npz file that can be read: {error}") from error
+
+
 class NpzArray:
-    """An array of an npz, read from its beginning on; the archive is open until the end of the `with` block."""
+    """An array of an npz, read from its beginning on."""
 
-    def __init__(self, archive: Archive, name: str) -> None:
+    def __init__(self, archive: zipfile.ZipFile, name: str) -> None:
         self._name = name
-        with ExitStack() as opened:
-            if not isinstance(archive, zipfile.ZipFile):
-                archive = opened.enter_context(opened_archive(archive))
-            try:
-                self._entry = opened.enter_context(archive.open(f"{name}.npy"))
-                self.shape, self._fortran, self._kind = read_header(self._entry)
-            except BsmError:
-                raise
-            except KeyError:
-                raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
-            except _DAMAGE as error:
-                raise CorruptError(f"the array {name} cannot be read: {error}") from error
-            except _NO_ARCHIVE as error:
-                raise FormatError(f"this is not an npz file that can be read: {error}") from error
-            self._opened = opened.pop_all()
-
-    def __enter__(self) -> NpzArray:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._opened.close()
+        with _reading(name):
+            self._entry = archive.open(f"{name}.npy")
+            self.shape, self._fortran, self._kind = read_header(self._entry)
 
     @property
     def size(self) -> int:
         return size_of(self.shape, self._kind)
 
     def whole(self) -> Array:
-        """All numbers; `LimitError` beyond 4 GiB. Memory is allocated only for bytes that are present."""
-        size = self.size
-        if size > _MAX_BYTES:
-            raise LimitError(f"the array {self._name} takes {size} bytes; the limit is {_MAX_BYTES}")
-        data = self._read(size + 1)
-        if len(data) != size:
-            raise CorruptError(f"the array {self._name} should take {size} bytes, not {len(data)}")
-        try:
-            return np.frombuffer(data, self._kind).reshape(self.shape, order="F" if self._fortran else "C")
-        except ValueError as error:  # of the shape (0, 2**62)
-            raise CorruptError(f"the array {self._name} has no legal shape: {error}") from error
-
-    def frames(self) -> Iterator[Array]:
-        """The first index' parts one after the other, without ever holding all of them."""
-        for piece in self.pieces(1):
-            yield piece[0]
+        """All numbers; `LimitError` beyond 4 GiB."""
+        if self.size > _MAX_BYTES:
+            raise LimitError(f"the array {self._name} takes {self.size} bytes; the limit is {_MAX_BYTES}")
+        return self._taken(self.shape)
 
     def pieces(self, rows: int) -> Iterator[Array]:
         """Yield pieces of the array of up to `rows` entries of the first index."""
         if self._fortran:
             raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
-        size = size_of(self.shape[1:], self._kind)
         for first in range(0, self.shape[0], rows):
-            count = min(rows, self.shape[0] - first)
-            data = self._read(count * size)
-            if len(data) < count * size:
-                raise CorruptError(
-                    f"the array {self._name} ends early, in part {first + len(data) // max(1, size)} of {self.shape[0]}"
-                )
-            yield np.frombuffer(data, self._kind).reshape(count, *self.shape[1:])
+            yield self._taken((min(rows, self.shape[0] - first), *self.shape[1:]))
 
-    def _read(self, size: int) -> bytes:
-        try:
-            return self._entry.read(size)
-        except _DAMAGE as error:
-            raise CorruptError(f"the array {self._name} cannot be read: {error}") from error
+    def _taken(self, shape: tuple[int, ...]) -> Array:
+        """The next numbers; memory is allocated only for bytes that are present."""
+        size = size_of(shape, self._kind)
+        with _reading(self._name):
+            if len(data := self._entry.read(size)) < size:
+                raise CorruptError(f"the array {self._name} of {self.size} bytes ends early")
+            return np.frombuffer(data, self._kind).reshape(shape, order="F" if self._fortran else "C")
 
 
-def npz_frames(archive: Archive) -> Iterator[Positions]:
-    """The frames of a sequence, shape (n, 3), read as they are asked for; errors as those of `NpzArray`."""
-    with NpzArray(archive, "positions") as positions:
-        for frame in positions.frames():
-            yield frame.astype(np.float64)
+def _frames(archive: str | BinaryIO, *names: str) -> Iterator[tuple[Array, ...]]:
+    """The frames of arrays of a sequence, read as they are asked for."""
+    with opened_archive(archive) as opened:
+        for pieces in zip(*(NpzArray(opened, name).pieces(1) for name in names), strict=True):
+            yield tuple(piece[0] for piece in pieces)
 
 
-def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
-    """The arrays called `names`; errors as those of `NpzArray`, and `LimitError` beyond 4 GiB."""
-    found = []
-    for name in names:
-        with NpzArray(archive, name) as array:
-            found.append(array.whole())
-    return tuple(found)
+def _require_shapes(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> tuple[int, int]:
+    """Check positions and faces before they are read; the number of frames, 0 for one mesh, and bytes of memory."""
+    positions, faces = NpzArray(archive, "positions"), NpzArray(archive, "faces")
+    shape = positions.shape
+    frames, one = (shape[0], shape[1:]) if len(shape) == 3 else (0, shape)
+    if len(shape) == 3 and (0 in shape or shape[2] != 3):
+        raise MeshError(f"this npz file holds {frames} frames of shape {one}; (n, 3) numbers are a frame")
+    counts = {"frames": frames, "vertices": math.prod(one) // 3, "faces": math.prod(faces.shape) // 3}
+    for name, count in counts.items():
+        require_count(name, count, limits)
+    size = max(positions.size // max(frames, 1), AS_NUMBERS * math.prod(one))
+    size += max(faces.size, AS_NUMBERS * math.prod(faces.shape))
+    require_inflated(size, compressed, limits)
+    return frames, size
 
 
 def read_npz(data: bytes, limits: Limits) -> Polygons:
     """Read the npz of a mesh; check shapes before reading numbers, and skip arrays that are not needed."""
     with opened_archive(io.BytesIO(data)) as archive:
-        inflated = 0
-        for name, bound in (("positions", "vertices"), ("faces", "faces")):
-            shape, size = shape_of(archive, name)
-            if len(shape) == 3 and name == "positions":
-                raise MeshError(f"this npz file holds a sequence of {shape[0]} frames, not one mesh")
-            require_count(bound, math.prod(shape) // 3, limits)
-            inflated += max(size, AS_NUMBERS * math.prod(shape))
-            require_inflated(inflated, len(data), limits)
-        positions, faces = read_arrays(archive, "positions", "faces")
-        mesh = TriangleMesh(positions, faces)
-        found = _Beside.of(archive, mesh, len(data), limits, inflated)
+        frames, inflated = _require_shapes(archive, len(data), limits)
+        if frames:
+            raise MeshError(f"this npz file holds a sequence of {frames} frames, not one mesh")
+        mesh = TriangleMesh(NpzArray(archive, "positions").whole(), NpzArray(archive, "faces").whole())
+        found = _beside(archive, mesh, len(data), limits, inflated)
     sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
     return Polygons(mesh.positions, sizes, corners, (), found.dropped, tuple(found.columns), found.metadata)
 
@@ -230,41 +209,6 @@ class _Beside:
     metadata: dict[str, str | int | float | bytes] = field(default_factory=dict)
     left: list[str] = field(default_factory=list)
 
-    @staticmethod
-    def of(
-        archive: zipfile.ZipFile, mesh: TriangleMesh, compressed: int, limits: Limits, inflated: int, frames: int = 0
-    ) -> _Beside:
-        """Check shapes before numbers are read; for a sequence, with its number of frames."""
-        found, frame, vertices = _Beside(), 0, len(mesh.positions)
-        names = dict.fromkeys(name.removesuffix(".npy") for name in archive.namelist())
-        others = [name for name in names if name not in ("positions", "faces")]
-        for number, name in enumerate(others):
-            if name.endswith("/indices") and name.removesuffix("/indices") in names:
-                continue
-            column, indexed = None, f"{name}/indices" in names
-            with suppress(MeshError, FormatError):  # no numbers
-                shape, size = shape_of(archive, name)
-                if frames and shape[:2] == (frames, vertices) and math.prod(shape[2:]) <= MOST_COMPONENTS:
-                    frame += _PER_MOVING_BYTE * size // frames
-                    require_inflated(frame, compressed, limits, vertices)
-                    if len(found.moving) < limits.attributes:
-                        found.moving[name.removeprefix("vertex/")] = name
-                        continue
-                elif number <= 2 * limits.attributes and (
-                    name == "metadata" or max(shape, default=0) <= max(vertices, 3 * len(mesh.faces))
-                ):
-                    size += AS_NUMBERS * math.prod(shape_of(archive, f"{name}/indices")[0]) if indexed else 0
-                    inflated += TREE * size if name == "metadata" else size
-                    require_inflated(inflated, compressed, limits)
-                    (values,) = read_arrays(archive, name)
-                    if name == "metadata" and values.dtype == np.uint8:
-                        found.metadata.update(_parse_metadata(values.tobytes()))
-                        continue
-                    column = column_of(archive, name, values, mesh, indexed)
-            found.columns.extend([column] if column else [])
-            found.left.extend([] if column else [name])
-        return found
-
     @property
     def dropped(self) -> tuple[str, ...]:
         """The names of those that are none of these, or how many there are."""
@@ -272,13 +216,40 @@ class _Beside:
         return (*self.left[:MOST_NAMED], *([f"{rest} other arrays"] if rest > 0 else []))
 
 
-def shape_of(archive: Archive, name: str) -> tuple[tuple[int, ...], int]:
-    """What an array says of itself: its shape, and its bytes."""
-    with NpzArray(archive, name) as array:
-        return array.shape, array.size
+def _beside(
+    archive: zipfile.ZipFile, mesh: TriangleMesh, compressed: int, limits: Limits, inflated: int, frames: int = 0
+) -> _Beside:
+    """Check shapes before numbers are read; for a sequence, with its number of frames."""
+    found, frame, vertices = _Beside(), 0, len(mesh.positions)
+    names = dict.fromkeys(name.removesuffix(".npy") for name in archive.namelist())
+    indices = {name for name in names if name.endswith("/indices") and name.removesuffix("/indices") in names}
+    for number, name in enumerate(name for name in names if name not in ("positions", "faces", *indices)):
+        found.left.append(name)  # until it is taken
+        with suppress(MeshError, FormatError):  # no numbers
+            array = NpzArray(archive, name)
+            if frames and array.shape[:2] == (frames, vertices) and math.prod(array.shape[2:]) <= MOST_COMPONENTS:
+                frame += _PER_MOVING_BYTE * array.size // frames
+                require_inflated(frame, compressed, limits, vertices)
+                if len(found.moving) < limits.attributes:
+                    found.moving[name.removeprefix("vertex/")] = found.left.pop()
+            elif number <= 2 * limits.attributes and (
+                name == "metadata" or max(array.shape, default=0) <= max(vertices, 3 * len(mesh.faces))
+            ):
+                of_corners = NpzArray(archive, f"{name}/indices") if f"{name}/indices" in indices else None
+                inflated += array.size * (TREE if name == "metadata" else 1)
+                inflated += AS_NUMBERS * math.prod(of_corners.shape) if of_corners else 0
+                require_inflated(inflated, compressed, limits)
+                values = array.whole()
+                if name == "metadata" and values.dtype == np.uint8:
+                    found.metadata.update(_parse_metadata(values.tobytes()))
+                    found.left.pop()
+                elif column := column_of(name, values, mesh, of_corners):
+                    found.columns.append(column)
+                    found.left.pop()
+    return found
 
 
-def column_of(archive: Archive, name: str, values: Array, mesh: TriangleMesh, indexed: bool) -> Column | None:
+def column_of(name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray | None) -> Column | None:
     """An array as the column that its name or its shape tells; None: it is of nothing here."""
     domain, _, rest = name.partition("/")
     vertices, faces = len(mesh.positions), len(mesh.faces)
@@ -286,8 +257,8 @@ def column_of(archive: Archive, name: str, values: Array, mesh: TriangleMesh, in
         domain = "corner" if values.ndim == 3 else "vertex" if values.shape[:1] == (vertices,) else "face"
         rest = name
     indices = None
-    if domain == "corner" and indexed:
-        (indices,) = read_arrays(archive, f"{name}/indices")
+    if domain == "corner" and of_corners:
+        indices = of_corners.whole()
         if indices.dtype.kind not in "iu" or indices.size != 3 * faces:
             return None
         indices = indices.reshape(-1).astype(np.int64)
@@ -345,87 +316,65 @@ def open_npz_sequence(
     attributes: Callable[[], tuple[Attribute, ...]] = tuple,
     metadata: Callable[[], Metadata] = dict,
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write an npz of `positions`, shape (T, n, 3), `faces` and attributes; yields what takes frame after frame."""
+    """Write an npz of `positions`, shape (T, n, 3), `faces` and attributes; yields what takes frame after frame.
+
+    Frames wait in memory where their number is not known; attributes that change wait in files.
+    """
     kept: list[Positions] = []
+    first: tuple[Attribute, ...] = ()
+    moved: dict[str, IO[bytes]] = {}
     taken = 0
 
-    def write(frame: Positions) -> None:
-        nonlocal taken
-        if taken == 0:
-            header = {"descr": "<f8", "fortran_order": False, "shape": (count, *frame.shape)}
-            np.lib.format.write_array_header_1_0(entry, header)
-        entry.write(np.ascontiguousarray(frame, "<f8").data)
-        taken += 1
+    def begin(entry: IO[bytes], shape: tuple[int, ...], kind: str = "<f8") -> None:
+        np.lib.format.write_array_header_1_0(entry, {"descr": kind, "fortran_order": False, "shape": shape})
 
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, closing(_Waiting(attributes)) as waiting:
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, ExitStack() as waiting:
         # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
         with archive.open(zipfile.ZipInfo("faces.npy"), "w") as entry:
             np.lib.format.write_array(entry, faces)
-        known = count > 0
-        if not known:
-            yield waiting.beside(kept.append)
-            count = len(kept)
-        with archive.open(zipfile.ZipInfo("positions.npy"), "w", force_zip64=True) as entry:
+        with ExitStack() as opened:
+            positions: IO[bytes] | None = None
+
+            def write(frame: Positions) -> None:
+                nonlocal positions
+                if positions is None:
+                    info = zipfile.ZipInfo("positions.npy")
+                    positions = opened.enter_context(archive.open(info, "w", force_zip64=True))
+                    begin(positions, (count or taken, *frame.shape))
+                positions.write(np.ascontiguousarray(frame, "<f8").data)
+
+            def take(frame: Positions) -> None:
+                nonlocal first, taken
+                write(frame) if count else kept.append(frame)
+                now = attributes()
+                first = first if taken else now
+                for before, attribute in zip(first, now, strict=True):
+                    if attribute is not before and attribute.name not in moved:
+                        moved[attribute.name] = values = waiting.enter_context(tempfile.TemporaryFile())
+                        values.writelines(before.values.tobytes() for _ in range(taken))
+                    if attribute.name in moved:
+                        moved[attribute.name].write(attribute.values.tobytes())
+                taken += 1
+
+            yield take
             for frame in kept:
                 write(frame)
-            if known:
-                yield waiting.beside(write)
-            if taken != count:
-                raise CorruptError(f"{taken} of {count} frames came")
-        waiting.finish(archive, count)
-        if entries := metadata():
-            with archive.open(zipfile.ZipInfo("metadata.npy"), "w") as entry:
-                np.lib.format.write_array(entry, _written_metadata(entries))
-
-
-class _Waiting:
-    """Attributes of frames: those that change wait in files until all frames are there."""
-
-    def __init__(self, attributes: Callable[[], tuple[Attribute, ...]]) -> None:
-        self._attributes = attributes
-        self._first: tuple[Attribute, ...] = ()
-        self._moved: dict[str, IO[bytes]] = {}
-        self._frames = 0
-
-    def beside(self, write: Callable[[Positions], None]) -> Callable[[Positions], None]:
-        """What writes a frame, and takes note of its attributes."""
-
-        def take(frame: Positions) -> None:
-            write(frame)
-            self._take()
-
-        return take
-
-    def _take(self) -> None:
-        now = self._attributes()
-        self._first = now if self._frames == 0 else self._first
-        for first, attribute in zip(self._first, now, strict=True):
-            if attribute is not first and attribute.name not in self._moved:
-                self._moved[attribute.name] = tempfile.TemporaryFile()  # noqa: SIM115
-                for _ in range(self._frames):
-                    self._moved[attribute.name].write(first.values.tobytes())
-            if attribute.name in self._moved:
-                self._moved[attribute.name].write(attribute.values.tobytes())
-        self._frames += 1
-
-    def finish(self, archive: zipfile.ZipFile, count: int) -> None:
-        for attribute in self._first:
+        if taken != (count or taken):
+            raise CorruptError(f"{taken} of {count} frames came")
+        for attribute in first:
             with archive.open(f"{attribute.domain}/{attribute.name}.npy", "w", force_zip64=True) as entry:
-                if attribute.name in self._moved:
-                    kind, shape = attribute.values.dtype.str, (count, *attribute.values.shape)
-                    header = {"descr": kind, "fortran_order": False, "shape": shape}
-                    np.lib.format.write_array_header_1_0(entry, header)
-                    self._moved[attribute.name].seek(0)
-                    shutil.copyfileobj(self._moved[attribute.name], entry)
+                if attribute.name in moved:
+                    begin(entry, (taken, *attribute.values.shape), attribute.values.dtype.str)
+                    moved[attribute.name].seek(0)
+                    shutil.copyfileobj(moved[attribute.name], entry)
                 else:
                     np.lib.format.write_array(entry, attribute.values)
             if attribute.indices is not None:
                 with archive.open(f"corner/{attribute.name}/indices.npy", "w") as entry:
                     np.lib.format.write_array(entry, attribute.indices)
-
-    def close(self) -> None:
-        for file in self._moved.values():
-            file.close()
+        if entries := metadata():
+            with archive.open(zipfile.ZipInfo("metadata.npy"), "w") as entry:
+                np.lib.format.write_array(entry, _written_metadata(entries))
 
 
 # ------------------------------------------------------------------------------------------------------------ sequences
@@ -435,44 +384,36 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
     """The sequence of an npz; None if it holds a mesh. Shapes are looked at before numbers are read."""
     held = b"" if given.is_file else given.peek(1 << 32)
     archive = given.name if given.is_file else io.BytesIO(held)
-    shape, _ = shape_of(archive, "positions")
-    if len(shape) != 3:
-        return None
-    if 0 in shape or shape[2] != 3:
-        raise MeshError(f"this npz file holds {shape[0]} frames of shape {shape[1:]}; (n, 3) numbers are a frame")
-    of_faces, size = shape_of(archive, "faces")
-    for name, count in (("frames", shape[0]), ("vertices", shape[1]), ("faces", of_faces[0] if of_faces else 0)):
-        require_count(name, count, limits)
     compressed = os.path.getsize(given.name) if given.is_file else len(held)
-    require_inflated(AS_NUMBERS * 3 * shape[1] + max(size, AS_NUMBERS * math.prod(of_faces)), compressed, limits)
-    (faces,) = read_arrays(archive, "faces")
-    mesh = TriangleMesh(next(npz_frames(archive)), faces)
     with opened_archive(archive) as opened:
-        found = _Beside.of(opened, mesh, compressed, limits, 0, shape[0])
+        count, inflated = _require_shapes(opened, compressed, limits)
+        if not count:
+            return None
+        mesh = TriangleMesh(next(_positions(archive)), NpzArray(opened, "faces").whole())
+        found = _beside(opened, mesh, compressed, limits, inflated, count)
     corners, every_face = np.arange(3 * len(mesh.faces)).reshape(-1, 3), np.arange(len(mesh.faces))
     still, refused = attributes_of(found.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
     found.left.extend(refused)
     notes = (f"left out: {', '.join(found.dropped)}",) if found.left else ()
-    if not found.moving:
-        return Frames(mesh.faces, shape[0], npz_frames(archive), still, notes, metadata=found.metadata)
-    first, meshes = (_dressed(archive, mesh.faces, still, found.moving) for _ in range(2))
-    frames, attributes = npz_frames(archive), next(first).attributes
-    return Frames(mesh.faces, shape[0], frames, attributes, notes, metadata=found.metadata, meshes=meshes)
+    meshes = _dressed(archive, mesh.faces, still, found.moving) if found.moving else None
+    attributes = next(_dressed(archive, mesh.faces, still, found.moving)).attributes if found.moving else still
+    return Frames(mesh.faces, count, _positions(archive), attributes, notes, metadata=found.metadata, meshes=meshes)
+
+
+def _positions(archive: str | BinaryIO) -> Iterator[Positions]:
+    return (frame.astype(np.float64) for (frame,) in _frames(archive, "positions"))
 
 
 def _dressed(
-    archive: str | io.BytesIO, faces: Faces, still: tuple[Attribute, ...], moving: Mapping[str, str]
+    archive: str | BinaryIO, faces: Faces, still: tuple[Attribute, ...], moving: Mapping[str, str]
 ) -> Iterator[TriangleMesh]:
     """One frame after the other, with the attributes of all frames, and its own."""
-    with ExitStack() as stack:
-        arrays = [stack.enter_context(NpzArray(archive, name)).frames() for name in moving.values()]
-        for number, (positions, *values) in enumerate(zip(npz_frames(archive), *arrays, strict=True)):
-            with about(f"frame {number}"):
-                own = [column.astype(column.dtype.newbyteorder("=")) for column in values]
-                named = zip(moving, own, strict=True)
-                more = (Attribute(name, v, semantic=meaning_of(name, v[0].size)) for name, v in named)
-                mesh = TriangleMesh(positions, faces, (*still, *more))
-            yield mesh
+    for number, (positions, *values) in enumerate(_frames(archive, "positions", *moving.values())):
+        with about(f"frame {number}"):
+            own = [column.astype(column.dtype.newbyteorder("=")) for column in values]
+            more = (Attribute(name, v, semantic=meaning_of(name, v[0].size)) for name, v in zip(moving, own))
+            mesh = TriangleMesh(positions, faces, (*still, *more))
+        yield mesh
 
 
 def read_pipe(given: Input, limits: Limits) -> Frames:
