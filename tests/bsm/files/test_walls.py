@@ -91,6 +91,15 @@ def test_a_header_of_an_array_is_bounded():
     tracemalloc.stop()
 
 
+def test_rows_of_a_ply_without_properties_take_no_memory():
+    head, vertex = b"ply\nformat binary_little_endian 1.0\nelement free 999999999999999999\n", b"element vertex 3\n"
+    axes = b"".join(b"property float %c\n" % axis for axis in b"xyz")
+    face = b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    body = np.eye(3, dtype="<f4").tobytes() + b"\3" + np.arange(3, dtype="<i4").tobytes()
+    found = read_mesh(head + vertex + axes + face + body)
+    assert found.mesh.faces.tolist() == [[0, 1, 2]] and found.dropped == ("free",)
+
+
 def test_a_gltf_whose_buffer_is_no_file(tmp_path):
     """A pipe would be waited for, a link to itself be followed for ever."""
     pytest.importorskip("trimesh")

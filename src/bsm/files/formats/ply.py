@@ -2,9 +2,8 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import count, takewhile
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -28,11 +27,15 @@ from bsm.files.formats.metadata import (
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
 from bsm.files.room import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 
-_TYPES = {
+_WRITTEN_TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
-    "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
-    "double": "f8", "float32": "f4", "float64": "f8", "int64": "i8", "uint64": "u8", "long": "i8", "ulong": "u8",
+    "double": "f8",
 }  # fmt: skip
+_TYPES = _WRITTEN_TYPES | {
+    "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
+    "float32": "f4", "float64": "f8", "int64": "i8", "uint64": "u8", "long": "i8", "ulong": "u8",
+}  # fmt: skip
+_NAMES_OF_TYPES = {kind: name for name, kind in _WRITTEN_TYPES.items()}
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 MOST_HEADER = 1 << 20
 _MAX_ELEMENTS = 64
@@ -146,26 +149,14 @@ def _extend(elements: list[Element], column: Property) -> None:
     elements[-1] = Element(last.name, last.count, (*last.properties, column))
 
 
-class Table(Protocol):
-    """The rows of an element."""
-
-    element: Element
-
-    def numbers(self, place: int) -> Array:
-        """The property at a place, a number in each row, shape (count,)."""
-
-    def lists(self, place: int) -> tuple[Ints, Array]:
-        """Return a list property: the lengths of the lists, and all items in one array."""
-
-
-def tables_of(header: Header, body: bytes) -> dict[str, Table]:
+def tables_of(header: Header, body: bytes) -> "dict[str, _TextTable] | dict[str, _BinaryTable]":
     """The elements of a file by their names; of a text file, only vertices and faces."""
     if header.order:
-        tables: dict[str, Table] = {}
-        offset = 0
+        tables: dict[str, _BinaryTable] = {}
+        begin, raw = 0, np.frombuffer(body, np.uint8)
         for element in header.elements:
-            tables[element.name] = table = _binary_table(element, header.order, body, offset)
-            offset = table.end
+            tables[element.name] = table = _BinaryTable(element, header.order, raw, begin)
+            begin = table.walk(0)[2]
         return tables
     lines = [line for line in body.splitlines() if line.strip()]
     require_lines(len(lines), sum(element.count for element in header.elements))
@@ -179,13 +170,17 @@ def tables_of(header: Header, body: bytes) -> dict[str, Table]:
 
 @dataclass
 class _TextTable:
+    """The rows of an element in a text."""
+
     element: Element
     rows: Rows
 
     def numbers(self, place: int) -> Array:
+        """The property at a place, a number in each row, shape (count,)."""
         return _typed(self.rows.values[self._starts(place)], self.element.properties[place].type)
 
     def lists(self, place: int) -> tuple[Ints, Array]:
+        """Return a list property: the lengths of the lists, and all items in one array."""
         starts = self._starts(place)
         sizes = self._sizes(starts)
         items = self.rows.values[ranges(starts + 1, sizes)]
@@ -221,11 +216,12 @@ def _typed(values: Array, kind: str) -> Array:
 
 @dataclass
 class _BinaryTable:
+    """The rows of an element in bytes, from one of them on."""
+
     element: Element
     order: str
     raw: npt.NDArray[np.uint8]
     begin: int
-    end: int = 0
 
     def numbers(self, place: int) -> Array:
         return self.lists(place)[1]
@@ -244,33 +240,22 @@ class _BinaryTable:
 
     def walk(self, place: int) -> tuple[Ints, Ints, int]:
         """Where each row's property begins, how many items it has, and where the last row ends."""
-        widths, count = _widths(self.element), self.element.count
+        # The bytes of the length of each property's lists (0: it is a number), and of an item.
+        sizes_of = ((np.dtype(p.length).itemsize if p.length else 0, p.type) for p in self.element.properties)
+        widths = [(length, np.dtype(kind).itemsize) for length, kind in sizes_of]
+        count = self.element.count if widths else 0  # rows without properties take no bytes, however many they are
+        # Every row is at least as long as its numbers and the lengths of its lists.
+        least = sum(length or width for length, width in widths)
+        if (missing := self.begin + count * least - len(self.raw)) > 0:
+            raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
         if not any(length for length, _ in widths):
-            size = sum(width for _, width in widths)
             first = self.begin + sum(width for _, width in widths[:place])
-            return first + size * np.arange(count), np.ones(count, np.int64), self.begin + size * count
+            return first + least * np.arange(count), np.ones(count, np.int64), self.begin + least * count
         starts, sizes = np.zeros((2, count), np.int64)
         end = _kernels.walk_rows(self.raw, self.begin, np.array(widths), place, self.order == ">", starts, sizes)
         if end < 0:
             raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
         return starts, sizes, end
-
-
-def _widths(element: Element) -> list[tuple[int, int]]:
-    """The bytes of the length of each property's lists (0: it is a number), and of an item."""
-    return [
-        (np.dtype(column.length).itemsize if column.length else 0, np.dtype(column.type).itemsize)
-        for column in element.properties
-    ]
-
-
-def _binary_table(element: Element, order: str, body: bytes, offset: int) -> _BinaryTable:
-    # Every row is at least as long as its numbers and the lengths of its lists.
-    needed = element.count * sum(length or width for length, width in _widths(element))
-    if (missing := offset + needed - len(body)) > 0:
-        raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
-    table = _BinaryTable(element, order, np.frombuffer(body, np.uint8), offset)
-    return replace(table, end=table.walk(0)[2])
 
 
 # -------------------------------------------------------------------------------------------------- reading and writing
@@ -282,12 +267,12 @@ _GROUPS: tuple[tuple[Semantic, tuple[str, ...]], ...] = (
     ("color", ("red", "green", "blue")),
     ("color", ("diffuse_red", "diffuse_green", "diffuse_blue")),
     ("color", ("r", "g", "b")),
-    ("texcoord", ("u", "v")),
     ("texcoord", ("s", "t")),
+    ("texcoord", ("u", "v")),
     ("texcoord", ("texture_u", "texture_v")),
     ("texcoord", ("texture_s", "texture_t")),
 )
-"""Properties that are one value together."""
+"""Properties that are one value together; the first of a meaning and a width are written."""
 _NAMES = {"texnumber": "material", "material_index": "material"}
 """What properties are called here, unless by their own names."""
 
@@ -327,7 +312,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), columns, header.metadata)
 
 
-def _columns(table: Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
+def _columns(table: _TextTable | _BinaryTable, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
     properties = table.element.properties
     plain = (place for place, p in enumerate(properties) if p.length is None and p.name not in needed)
@@ -355,7 +340,7 @@ def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
         left = {member: kind for member, kind in left.items() if member not in together}
 
 
-def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str], list[str]]:
+def _wedges(table: _TextTable | _BinaryTable, corners: int, sizes: Ints) -> tuple[list[Column], list[str], list[str]]:
     """Values of corners: lists as long as that of the vertices, or twice, ...; the lists that are not; and notes."""
     found, dropped, notes = [], [], []
     for place, column in enumerate(table.element.properties):
@@ -380,17 +365,7 @@ def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list
 # ------------------------------------------------------------------------------------------------------------ writing
 
 
-_PLY_TYPES = {
-    "int8": "char", "uint8": "uchar", "int16": "short", "uint16": "ushort", "int32": "int", "uint32": "uint",
-    "float32": "float", "float64": "double",
-}  # fmt: skip
 _MOST_TEXT = 1 << 13  # characters of a comment; readers look for the end of a header in its first 64 KiB
-_PROPERTIES = {
-    ("normal", 3): ("nx", "ny", "nz"),
-    ("color", 3): ("red", "green", "blue"),
-    ("color", 4): ("red", "green", "blue", "alpha"),
-    ("texcoord", 2): ("s", "t"),
-}
 
 
 def write_ply(mesh: TriangleMesh, stem: str) -> Written:
@@ -424,26 +399,21 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     for element, fields in columns.items():
         length = len(fields[0][1])
         lines.append(f"element {element} {length}")
-        row: list[tuple[str, str] | tuple[str, str, int]] = []
+        row: list[Array] = []
         for name, values in fields:
-            kind = values.dtype.newbyteorder("<").str
-            row += [(f"{name} length", "u1"), (name, kind, values.shape[1])] if values.ndim == 2 else [(name, kind)]
-        rows = np.empty(length, row)
-        for name, values in fields:
-            if values.ndim == 2:
-                rows[f"{name} length"] = values.shape[1]
-                lines.append(f"property list uchar {_PLY_TYPES[values.dtype.name]} {name}")
-            else:
-                lines.append(f"property {_PLY_TYPES[values.dtype.name]} {name}")
-            rows[name] = values
-        body.append(rows.tobytes())
+            lines.append(f"property {'list uchar ' * (values.ndim - 1)}{_NAMES_OF_TYPES[values.dtype.str[1:]]} {name}")
+            row += [np.full((length, 1), values.shape[1], np.uint8)] if values.ndim == 2 else []
+            little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
+            row.append(little.view(np.uint8).reshape(length, -1))
+        body.append(np.hstack(row).tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
     return Written(header.encode() + b"".join(body), left_out(mesh, mesh.attributes, omitted), library.beside)
 
 
 def _property_names(attribute: Attribute, taken: list[str]) -> list[str]:
     """The names of an attribute's properties: those that everybody knows, or its own."""
-    known = _PROPERTIES.get((attribute.semantic, attribute.components))
+    groups = (group for meaning, group in _GROUPS if meaning == attribute.semantic)
+    known = next((group for group in groups if len(group) == attribute.components), ())
     if known and not set(known) & set(taken):
         return list(known)
     own = re.sub(r"\s", "_", attribute.name)

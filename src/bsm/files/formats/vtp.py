@@ -9,8 +9,8 @@ import binascii
 import re
 import warnings
 import zlib
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from xml.etree import ElementTree
 
 import numpy as np
@@ -27,7 +27,7 @@ from bsm.files.room import AS_NUMBERS, TAG, Ints, require_count, require_inflate
 _WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
 _TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {"Float32": "f4", "Float64": "f8"}
 _NAMES = {kind: name for name, kind in _TYPES.items()}
-_UNDERSCORE = re.compile(rb"\s*_")
+_UNDERSCORE, _PADDED = re.compile(rb"\s*_"), re.compile(rb"[^=]+={0,2}")
 _TAGS = ("VTKFile", "Piece", "PointData", "CellData")  # elements whose attributes are of use
 _HEADS = {"UInt32": "u4", "UInt64": "u8"}
 _ARRAYS, _MOST_ARRAYS = ("DataArray", "Array"), 1024
@@ -36,17 +36,8 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 
 
-@dataclass(frozen=True, eq=False)
-class _Array:
-    """A `DataArray` of the file: its parent element, attributes and text."""
-
-    around: str
-    attrs: dict[str, str]
-    text: str
-
-
 class _Document:
-    """The contents of the XML of a file."""
+    """The XML of a file: its arrays with the elements that they are in, and other elements of use."""
 
     def __init__(self, text: bytes) -> None:
         if b"<!DOCTYPE" in text:
@@ -55,8 +46,7 @@ class _Document:
             elements = list(ElementTree.fromstring(text).iter())
         except (ElementTree.ParseError, LookupError, ValueError) as error:  # the last two of strange encodings
             raise FormatError(f"this is not a VTP file: its XML is broken: {error}") from error
-        found = [(around.tag, element) for around in elements for element in around if element.tag in _ARRAYS]
-        self.arrays = [_Array(around, element.attrib, element.text or "") for around, element in found]
+        self.arrays = [(around.tag, element) for around in elements for element in around if element.tag in _ARRAYS]
         self.tags = {element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS}
         if len(self.arrays) > _MOST_ARRAYS:
             raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
@@ -67,7 +57,7 @@ class _Document:
 class _Numbers:
     """Makes arrays of a document, and counts their memory."""
 
-    def __init__(self, document: _Document, behind: bytes, encoding: str, limits: Limits, size: int) -> None:
+    def __init__(self, document: _Document, appended: bytes, raw: bool, limits: Limits, size: int) -> None:
         file = document.tags.get("VTKFile", {})
         self._order = ">" if file.get("byte_order") == "BigEndian" else "<"
         head = _HEADS.get(file.get("header_type", "UInt32"))
@@ -75,21 +65,23 @@ class _Numbers:
             raise FormatError(f"headers of blocks cannot be {file['header_type']}")
         self._head = np.dtype(self._order + head)
         self._compressor = file.get("compressor")
-        self._behind, self._encoding = behind, encoding
+        self._appended, self._raw = appended, raw
+        begins = {_count(element.attrib, "offset", 0) for _, element in document.arrays}
+        self._ends = dict(pairwise([*sorted(begins), len(appended)]))
         self._limits, self._size, self._made = limits, size, 0
 
-    def of(self, array: _Array) -> Array:
+    def of(self, array: ElementTree.Element) -> Array:
         """The numbers, shape (k, c)."""
-        kind = "u1" if array.attrs.get("type") == "String" else _TYPES.get(array.attrs.get("type", ""))
+        kind = "u1" if array.get("type") == "String" else _TYPES.get(array.get("type", ""))
         if kind is None:
-            raise MeshError(f"numbers cannot be {array.attrs.get('type')}")
-        components = _count(array.attrs, "NumberOfComponents", 1)
-        if array.attrs.get("format") == "ascii":
-            values = self._of_text(array.text, np.dtype(kind))
+            raise MeshError(f"numbers cannot be {array.get('type')}")
+        components = _count(array.attrib, "NumberOfComponents", 1)
+        if array.get("format") == "ascii":
+            values = self._of_text(array.text or "", np.dtype(kind))
         else:
-            data = self._bytes(array)
+            data = self._bytes(self._coded(array))
             if len(data) % np.dtype(kind).itemsize:
-                raise CorruptError(f"{len(data)} bytes are not {array.attrs['type']} numbers")
+                raise CorruptError(f"{len(data)} bytes are not {array.get('type')} numbers")
             with np.errstate(invalid="ignore"):  # a later check refuses NaN
                 values = np.frombuffer(data, self._order + kind).astype(kind)
         if components < 1 or len(values) % components:
@@ -107,31 +99,39 @@ class _Numbers:
         with np.errstate(over="ignore", invalid="ignore"):
             return values.astype(kind)
 
-    def _bytes(self, array: _Array) -> bytes:
-        appended = array.attrs.get("format") == "appended"
-        if appended:
-            begin = _count(array.attrs, "offset", 0)
-            raw = self._encoding == "raw"
-            given = self._behind[begin:] if raw else self._behind[begin:].split(b"<", 1)[0]
+    def _coded(self, array: ElementTree.Element) -> bytes:
+        """The header of an array and its numbers, base64 undone: headers may be coded apart from the numbers."""
+        if array.get("format") == "appended":
+            begin = _count(array.attrib, "offset", 0)
+            given = self._appended[begin : self._ends[begin]]
+            if self._raw:
+                return given
         else:
-            raw, given = False, "".join(array.text.split()).encode("ascii", "replace")
+            given = "".join((array.text or "").split()).encode("ascii", "replace")
+        self._require(len(given))
+        found = bytearray()
+        try:
+            for part in _PADDED.finditer(given.split(b"<", 1)[0]):
+                found += base64.b64decode(part[0])
+        except binascii.Error as error:
+            raise CorruptError(f"what should be base64 is not: {error}") from error
+        return bytes(found)
+
+    def _bytes(self, given: bytes) -> bytes:
+        count = int(self._numbers(given, 1)[0])
         if not self._compressor:
-            head = self._numbers(given, 1, raw)
-            return self._taken(given, 0, self._head.itemsize, int(head[0]), raw)
+            return self._taken(given, self._head.itemsize, count)
         if self._compressor != "vtkZLibDataCompressor":
             raise FormatError(f"{self._compressor} is not known here; save it with zlib, or uncompressed")
-        count = int(self._numbers(given, 1, raw)[0])
         if count > len(given):
             raise TruncatedError("the blocks of an array are not there")
-        head = self._numbers(given, 3 + count, raw)
-        sizes = head[3:].astype(object)
-        whole = count * int(head[1])
-        self._require(whole)
-        header = (3 + count) * self._head.itemsize
-        packed = self._taken(given, header, 0, sum(sizes), raw)
-        return b"".join(self._inflated(packed, sizes, int(head[1])))
+        head = self._numbers(given, 3 + count)
+        sizes, size = head[3:].tolist(), int(head[1])
+        self._require(count * size)
+        packed = self._taken(given, head.nbytes, sum(sizes))
+        return b"".join(self._inflated(packed, sizes, size))
 
-    def _inflated(self, packed: bytes, sizes: Array, size: int) -> Iterator[bytes]:
+    def _inflated(self, packed: bytes, sizes: Sequence[int], size: int) -> Iterator[bytes]:
         at = 0
         for length in sizes:
             unpacker = zlib.decompressobj()
@@ -143,19 +143,11 @@ class _Numbers:
                 raise CorruptError("a compressed block becomes more than it says")
             at += length
 
-    def _numbers(self, given: bytes, count: int, raw: bool) -> Array:
-        return np.frombuffer(self._taken(given, 0, 0, count * self._head.itemsize, raw), self._head)
+    def _numbers(self, given: bytes, count: int) -> Array:
+        return np.frombuffer(self._taken(given, 0, count * self._head.itemsize), self._head)
 
-    def _taken(self, given: bytes, header: int, skipped: int, size: int, raw: bool) -> bytes:
-        """Read a number of bytes after a separately coded header; raise `TruncatedError` if they are missing."""
-        if not raw:
-            begin = 4 * -(-header // 3)
-            try:
-                given = base64.b64decode(given[begin : begin + 4 * -(-(skipped + size) // 3)])
-            except binascii.Error as error:
-                raise CorruptError(f"what should be base64 is not: {error}") from error
-            header = 0
-        data = given[header + skipped : header + skipped + size]
+    def _taken(self, given: bytes, begin: int, size: int) -> bytes:
+        data = given[begin : begin + size]
         if len(data) < size:
             raise TruncatedError(f"an array should take {size} bytes, and {len(data)} are there")
         self._require(size)
@@ -178,8 +170,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     at = data.find(b"<AppendedData")
     end = data.find(b">", at) if at >= 0 else -1
     found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
-    encoding = b"raw" if b"raw" in data[at : end + 1] else b"base64"
-    text, behind = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
+    text, appended = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
     require_inflated(8 * len(text) + 2 * TAG * text.count(b"<"), len(data), limits)
     document = _Document(text)
     piece = document.tags.get("Piece")
@@ -190,11 +181,11 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
     require_count("vertices", points, limits)
     require_count("faces", polygons, limits)
-    numbers = _Numbers(document, behind, encoding.decode(), limits, len(data))
+    numbers = _Numbers(document, appended, b"raw" in data[at : end + 1], limits, len(data))
     shape = {
-        (array.around, array.attrs.get("Name", "") if array.around == "Polys" else ""): array
-        for array in document.arrays
-        if array.around in ("Points", "Polys")
+        (around, array.get("Name", "") if around == "Polys" else ""): array
+        for around, array in document.arrays
+        if around in ("Points", "Polys")
     }
     try:
         coordinates, corners, ends = (
@@ -222,14 +213,13 @@ def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> t
     before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
     domains: dict[str, Domain] = {"PointData": "vertex", "CellData": "face"}
     found, dropped = [], []
-    for array in document.arrays:
-        domain = domains.get(array.around)
-        name = array.attrs.get("Name", "")
-        if domain and array.attrs.get("type") not in _TYPES:
+    for around, array in document.arrays:
+        domain, name = domains.get(around), array.get("Name", "")
+        if domain and array.get("type") not in _TYPES:
             dropped.append(name)
         elif domain:
             values = numbers.of(array)[before if domain == "face" else 0 :]
-            active = document.tags.get(array.around, {})
+            active = document.tags.get(around, {})
             shown: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
             found.append(named_column(name, values, domain, shown.get(name)))
     return tuple(found), dropped
@@ -239,8 +229,8 @@ def _metadata(document: _Document, numbers: _Numbers) -> tuple[Metadata, list[st
     """Field data: one text, one number, or bytes each; and the names of all others."""
     found: dict[str, str | int | float | bytes] = {}
     dropped = []
-    for array in (array for array in document.arrays if array.around == "FieldData"):
-        name, kind = array.attrs.get("Name", ""), array.attrs.get("type")
+    for array in (array for around, array in document.arrays if around == "FieldData"):
+        name, kind = array.get("Name", ""), array.get("type")
         values = numbers.of(array)
         if kind == "String" and values.size and values[-1] == 0 and np.count_nonzero(values == 0) == 1:
             found[name] = values[:-1].tobytes().decode(errors="replace")
