@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import fields
+from numbers import Integral
 from typing import Any, TypeVar
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from bsm.bitstream.errors import ArgumentError, OptionError
 
 Choice = TypeVar("Choice")
+Entry = TypeVar("Entry")
 
 
 def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
@@ -39,7 +41,17 @@ def check_options(
                 raise OptionError(f"{name} = {value:g} is outside {low:.7g}..{high:.7g}")
 
 
-def check_mapping(what: str, given: object) -> None:
-    """Raise `ArgumentError` unless the value is a mapping."""
-    if not isinstance(given, Mapping):
-        raise ArgumentError(f"{what} must be a mapping from names, not {type(given).__name__}")
+def checked_whole(name: str, value: Any, least: int) -> int:
+    """Return a whole number of 64 bits."""
+    if isinstance(value, bool) or not isinstance(value, Integral):
+        raise ArgumentError(f"{name} must be a whole number, not {value!r}")
+    if not least <= (number := int(value)) < 1 << 63:
+        raise OptionError(f"{name} must be {least} or above, and below 2^63, not {value}")
+    return number
+
+
+def checked_metadata(given: Mapping[str, Entry] | None) -> Mapping[str, Entry]:
+    """Return metadata, none for None; raise `ArgumentError` unless they are a mapping."""
+    if given is not None and not isinstance(given, Mapping):
+        raise ArgumentError(f"metadata must be a mapping from names, not {type(given).__name__}")
+    return given or {}

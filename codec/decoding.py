@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import wraps
-from numbers import Integral
 from threading import RLock
 from types import TracebackType
 from typing import Any, ClassVar, Concatenate, ParamSpec, TypeAlias, TypeVar
@@ -17,6 +16,7 @@ from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, MeshError, OptionError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.choices import checked_whole
 from bsm.codec.events import (
     END_OF_STREAM,
     NEED_DATA,
@@ -78,6 +78,8 @@ class StreamDecoder:
     """Base of the decoders of meshes and sequences."""
 
     _wanted: ClassVar[int]
+    _of_sequences: ClassVar[bool]
+    _misfit: ClassVar[tuple[type[FormatError | UnsupportedError], str]]
 
     def __init__(
         self, limits: Limits, threads: int | None, *, tolerant: bool = False, start: int = 0, layers: int = 0
@@ -204,14 +206,11 @@ class StreamDecoder:
                 continue
             if event[0] == HEADER:
                 self._header = header_of(self._open.header())
-                self._error = self._misfit(self._header)
-                if self._error is not None:
+                if bool(self._header.gop_frames) != self._of_sequences:
+                    kind, text = self._misfit
+                    self._error = kind(text, offset=PREAMBLE_BYTES, frame=0)
                     raise self._error
             return event
-
-    def _misfit(self, header: Header) -> BsmError | None:
-        """Return the error of a header that needs the other decoder."""
-        raise NotImplementedError
 
     def _attribute(self, index: int) -> tuple[Attribute, bool] | None:
         """An attribute and whether it moves; None where it is not whole."""
@@ -256,6 +255,8 @@ class Decoder(StreamDecoder):
     """
 
     _wanted = mask_of(CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, VALUES, LOSS, END)
+    _of_sequences = False
+    _misfit = UnsupportedError, "this is a sequence; decode it with bsm.decode_sequence or bsm.SequenceDecoder"
 
     def __init__(
         self,
@@ -265,11 +266,8 @@ class Decoder(StreamDecoder):
         tolerant: bool = False,
         layers: int | None = None,
     ) -> None:
-        if layers is not None and (isinstance(layers, bool) or not isinstance(layers, Integral)):
-            raise ArgumentError(f"layers must be a whole number or None, not {layers!r}")
-        if layers is not None and layers < 1:
-            raise OptionError("at least one layer must be decoded")
-        super().__init__(limits, threads, tolerant=tolerant, layers=0 if layers is None else min(int(layers), 2))
+        most = 0 if layers is None else min(checked_whole("layers", layers, 1), 2)
+        super().__init__(limits, threads, tolerant=tolerant, layers=most)
         self._sizes: tuple[int, int] | None = None
 
     @_in_turn
@@ -315,15 +313,6 @@ class Decoder(StreamDecoder):
             return EndEvent(Losses(*self._open.losses())) if self._tolerant else EndEvent()
         return super()._event(kind, index, count, vertices, faces)
 
-    def _misfit(self, header: Header) -> BsmError | None:
-        if not header.gop_frames:
-            return None
-        return UnsupportedError(
-            "this is a sequence; decode it with bsm.decode_sequence or bsm.SequenceDecoder",
-            offset=PREAMBLE_BYTES,
-            frame=0,
-        )
-
 
 @public
 class SequenceDecoder(StreamDecoder):
@@ -353,15 +342,13 @@ class SequenceDecoder(StreamDecoder):
     """
 
     _wanted = mask_of(CONNECTIVITY, ATTRIBUTE, VALUES, FRAME, LOSS, END)
+    _of_sequences = True
+    _misfit = FormatError, "this is a static mesh and no sequence; decode it with bsm.decode or bsm.Decoder"
 
     def __init__(
         self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, tolerant: bool = False, start: int = 0
     ) -> None:
-        if isinstance(start, bool) or not isinstance(start, Integral):
-            raise ArgumentError(f"start must be a whole number, not {start!r}")
-        if not 0 <= start < 1 << 63:
-            raise OptionError(f"start must be the index of a frame, from 0 on, not {start}")
-        super().__init__(limits, threads, tolerant=tolerant, start=int(start))
+        super().__init__(limits, threads, tolerant=tolerant, start=checked_whole("start", start, 0))
         self._faces: Faces = np.zeros((0, 3), np.int32)
         self._known: dict[int, tuple[Attribute, bool]] = {}
 
@@ -397,15 +384,6 @@ class SequenceDecoder(StreamDecoder):
         for index, (attribute, moves) in self._known.items():
             found = self._attribute(index) if moves else None
             yield attribute if found is None else found[0]
-
-    def _misfit(self, header: Header) -> BsmError | None:
-        if header.gop_frames:
-            return None
-        return FormatError(
-            "this is a static mesh and no sequence; decode it with bsm.decode or bsm.Decoder",
-            offset=PREAMBLE_BYTES,
-            frame=0,
-        )
 
 
 def header_of(numbers: list[float]) -> Header:

@@ -6,13 +6,12 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
-from numbers import Integral
 from typing import TYPE_CHECKING, TypeVar
 
-from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.codec.choices import checked_whole
 
 if TYPE_CHECKING:
-    from concurrent.futures import Future, ThreadPoolExecutor
+    from concurrent.futures import Future
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -24,13 +23,7 @@ def available_threads() -> int:
 
 def threads_of(wanted: int | None) -> int:
     """How many threads are asked for; None: one per core."""
-    if wanted is None:
-        return available_threads()
-    if isinstance(wanted, bool) or not isinstance(wanted, Integral):
-        raise ArgumentError(f"threads must be a whole number or None, not {wanted!r}")
-    if wanted < 1:
-        raise OptionError(f"threads must be 1 or above, or None for one per core, not {wanted}")
-    return int(wanted)
+    return available_threads() if wanted is None else checked_whole("threads", wanted, 1)
 
 
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
@@ -41,7 +34,9 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
     if count == 1 or len(first) < 2:
         yield from map(work, items)
         return
-    pool = pool_of(count)
+    from concurrent.futures import ThreadPoolExecutor
+
+    pool = ThreadPoolExecutor(count)
     pending: deque[Future[Result]] = deque()
     try:
         for item in items:
@@ -52,10 +47,3 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
             yield pending.popleft().result()
     finally:
         pool.shutdown(cancel_futures=True)
-
-
-def pool_of(threads: int) -> ThreadPoolExecutor:
-    """A pool of threads; who has one thread alone loads nothing for it."""
-    from concurrent.futures import ThreadPoolExecutor
-
-    return ThreadPoolExecutor(threads)

@@ -138,10 +138,6 @@ class Expected:
     bound: Bound
 
 
-def moved(prepared: PreparedAttribute) -> PreparedAttribute:
-    return replace(prepared, declaration=replace(prepared.declaration, moves=1))
-
-
 class MovingAttributeEncoder:
     """Encodes one attribute in the GOPs of a run."""
 

@@ -17,16 +17,16 @@ from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError, public
 from bsm.codec.arrays import Matrix, Order, Positions
-from bsm.codec.choices import check_mapping
+from bsm.codec.choices import checked_metadata
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import PARTS, Progress, silent
-from bsm.codec.sequence.attributes import Bound, MovingAttributeEncoder, moved, with_fields
+from bsm.codec.sequence.attributes import Bound, MovingAttributeEncoder, with_fields
 from bsm.codec.sequence.frames import Group, next_group, require_same
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, RunEncoder, finest_step
-from bsm.codec.sequence.runs import Frame, JoinedRun, Run, RunSplitter, joined_runs
+from bsm.codec.sequence.runs import Frame, JoinedRun, Run, RunSplitter, joined_runs, kind_of
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.sequence.verification import ExpectedFrame, SequenceVerifier
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -123,9 +123,8 @@ class SequenceEncoder:
         self._count = frames
         if not isinstance(attributes, Sequence) or not all(isinstance(a, Attribute) for a in attributes):
             raise ArgumentError("the attributes of a sequence must be a list of Attribute")
-        check_mapping("metadata", metadata)
         self._attributes = tuple(attributes)
-        self._metadata = metadata
+        self._metadata = checked_metadata(metadata)
         if self.options.frame_rate:
             self._metadata = {**metadata, "frame_rate": float(self.options.frame_rate)}
         packets.Metadata(self._metadata).require_readable()
@@ -156,10 +155,16 @@ class SequenceEncoder:
         if self.options.target is None:
             yield from self._chunks(frames, self.options, progress)
         else:
-            yield from self.search(self._of_one_run(frames), progress).chunks
+            yield from self.search(frames, progress).chunks
 
-    def _of_one_run(self, frames: Iterable[Frame]) -> list[Frame]:
-        """Frames that share their faces; no others can be brought to a target."""
+    def search(self, frames: Iterable[Frame], progress: Progress | None = None) -> SequenceAttempt:
+        """Search for the step with which `frames`, each of shape (n, 3), or meshes, reach the options' target.
+
+        If there is none, `TargetError` names the best possible value.
+        """
+        target = self.options.target
+        if target is None:
+            raise OptionError("no target to search for")
         found = list(frames)
         for run in RunSplitter(found, self._faces, allowed=self.options.runs).runs():
             if run.first:
@@ -168,26 +173,14 @@ class SequenceEncoder:
                     "take a preset or a bound"
                 )
             deque(run.frames, maxlen=0)
-        return found
-
-    def search(self, frames: Sequence[Frame], progress: Progress | None = None) -> SequenceAttempt:
-        """Search for the step with which `frames`, each of shape (n, 3), or meshes, reach the options' target.
-
-        If there is none, `TargetError` names the best possible value.
-        """
-        target = self.options.target
-        if target is None:
-            raise OptionError("no target to search for")
-        finest = finest_step([_positions(frame) for frame in frames], self.options)
+        finest = finest_step([_positions(frame) for frame in found], self.options)
         first, rise = self.options.step, RISES.get(target.kind, 1.0)
-        return search_step(lambda step: self.attempt(frames, step, progress), target, first, finest, rise)
+        return search_step(lambda step: self.attempt(found, step, progress), target, first, finest, rise)
 
     def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and compare the decoded ones."""
         shown: list[Positions] = []
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, shown))
-        if len(self.run_starts) > 1:
-            raise MeshError("the faces change: targets need equal faces")
         decoded = np.array(shown)
         original = np.array([_positions(frame)[self.vertex_order] for frame in frames])
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, self._verifier.faces))
@@ -242,7 +235,12 @@ class SequenceEncoder:
         self.run_starts.append(run.first)
         self._done = 0
         opened = meshes.find(run)
-        prepared = self._prepared(run.joined, options) if opened is None else opened.prepared
+        if opened is None:
+            run.joined.mesh.require_sizes(*PROMISED_SIZES)
+            sizes = Parts(options.block_size, options.overlap)
+            prepared = prepare(run.joined.mesh, sizes, keep_order=options.keep_order, splits=run.joined.splits)
+        else:
+            prepared = opened.prepared
         self.vertex_order, self.face_order = _orders(run.joined, prepared)
         frames = (frame[prepared.coding_order] for frame in run.frames)
         longest = options.together(len(prepared.positions))
@@ -291,11 +289,6 @@ class SequenceEncoder:
         self.notes = tuple(dict.fromkeys((*self.notes, *(coder.note for coder in coders))))
         meshes.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, coders, resting), run)
 
-    def _prepared(self, joined: JoinedMesh, options: SequenceOptions) -> Prepared:
-        joined.mesh.require_sizes(*PROMISED_SIZES)
-        sizes = Parts(options.block_size, options.overlap)
-        return prepare(joined.mesh, sizes, keep_order=options.keep_order, splits=joined.splits)
-
     def _carried(
         self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
     ) -> tuple[tuple[PreparedAttribute, ...], tuple[MovingAttributeEncoder, ...]]:
@@ -319,7 +312,10 @@ class SequenceEncoder:
                 del bounds[attribute.name]
             wanted.append((attribute, quality))
         carried = carry(place_of(given, run.joined, prepared), wanted)
-        carried = tuple(moved(a) if a.declaration.name in bounds else a for a in carried)
+        carried = tuple(
+            replace(a, declaration=replace(a.declaration, moves=1)) if a.declaration.name in bounds else a
+            for a in carried
+        )
         coders = tuple(
             MovingAttributeEncoder(
                 number, attribute, group.moving[attribute.declaration.name][0], bounds[attribute.declaration.name]
@@ -392,11 +388,7 @@ def _digest(run: JoinedRun) -> bytes:
     mesh, moving = run.given, {attribute.name for attribute in run.moving}
     found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
     for attribute in mesh.attributes:
-        found.update(
-            repr(
-                (attribute.name, attribute.domain, attribute.semantic, attribute.values.dtype, attribute.values.shape)
-            ).encode()
-        )
+        found.update(repr(kind_of(attribute)).encode())
         found.update(b"" if attribute.name in moving else attribute.values.tobytes())
         if attribute.indices is not None:
             found.update(attribute.indices.tobytes())

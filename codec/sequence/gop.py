@@ -40,15 +40,6 @@ class Inherited:
         self.known.append(differences[:, :INHERITED].copy())
 
 
-def begin_part(track: Track, before: Inherited | None, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix]:
-    """Return the prediction of the components of a part from `ends`, shape (k_i, r), around it."""
-    known, around = track.known[block], track.around[block]
-    if before is not None:
-        known = np.hstack((known, before.known[block]))
-        around = np.hstack((around, before.around[block]))
-    return Loop(known.shape[1], ends.shape[1]).begin(around, ends, step), known
-
-
 class FrameHistory:
     """The state that low-delay frames refer to, block after block; every key frame resets it."""
 
@@ -101,12 +92,6 @@ class FrameHistory:
         latest = self._cosines[::-1][: self._track.kept]
         fresh = [[sum_in_order(part.swapaxes(0, 1) * cosines[:, None, None]) for part in spectra] for cosines in latest]
         self._kept = [*fresh, *self._kept][: self._track.kept]
-
-
-def held_cosines(width: int, frames: int) -> Matrix:
-    """The basis of low-delay frames, shape (d, T, dT): each cosine by itself in one number after the other."""
-    rows = np.kron(time_cosines(frames), np.eye(width))
-    return np.ascontiguousarray(rows.reshape(frames, width, -1).transpose(1, 0, 2))
 
 
 OVERHEAD = 14  # bytes of a GOP besides its levels, about
@@ -230,7 +215,8 @@ class GopEncoder:
         history, width, columns = self._history, self._track.width, self._track.width * len(frames)
         back = self._nearest(frames)
         history.expect(len(frames), back)
-        basis = held_cosines(width, len(frames))
+        rows = np.kron(time_cosines(len(frames)), np.eye(width))  # each cosine in one number after the other
+        basis = np.ascontiguousarray(rows.reshape(len(frames), width, -1).transpose(1, 0, 2))
         wanted = temporal.trajectories(frames) @ basis.reshape(-1, columns)
         field = np.zeros_like(wanted)
         writer, coded = LevelWriter(history.bank, columns), []
@@ -263,7 +249,10 @@ class GopEncoder:
         self.inherited = Inherited(before)
         for k, part in enumerate(self._parts):
             target, ends = part.difference(wanted, field), field[part.around]
-            loop, known = begin_part(self._track, before, k, ends, self.step)
+            known, around = self._track.known[k], self._track.around[k]
+            if before is not None:
+                known, around = np.hstack((known, before.known[k])), np.hstack((around, before.around[k]))
+            loop = Loop(known.shape[1], ends.shape[1]).begin(around, ends, self.step)
             differences = writer.write(loop, known, target, self.step)
             part.place(field, differences)
             self.inherited.keep(ends, differences)

@@ -40,10 +40,9 @@ class Loop:
 
     def begin(self, known: Matrix, field: Matrix, step: float) -> Loop:
         """Learn, before the first row, from vertices around: known values there, shape (m, k), and a field, (m, r)."""
-        if known.shape != (len(field), self._known) or field.shape[1] != self._moments.shape[1] - self._known:
-            raise ValueError(f"{known.shape} known and {field.shape} columns, of {self._moments.shape[1]}")
-        given = np.ascontiguousarray(known), np.ascontiguousarray(field)
-        _kernels.learn_around(*given, self._moments, step, RULES, *self._rows())
+        self._check(known, field)
+        given, width = (np.ascontiguousarray(known), np.ascontiguousarray(field)), self._moments.shape[1]
+        _kernels.learn_around(*given, self._moments, step, RULES, np.empty(width), np.empty(width))
         return self
 
     def search(
@@ -52,7 +51,7 @@ class Loop:
         """Choose levels for `targets`, shape (c, r), given `known`, shape (c, k)."""
         levels, decoded = np.zeros(targets.shape, np.int32), np.empty(targets.shape)
         coded, width = targets.shape[1], self._moments.shape[1]
-        self._check(known, levels)
+        self._check(known, targets)
         given = np.ascontiguousarray(known), np.ascontiguousarray(targets), prices.reshape(-1), weight
         scratch = np.zeros(self._moments.shape), np.empty(width), np.empty((2 * STATES + 1, width))
         tables = np.empty((coded, STATES)), np.empty((coded, STATES), np.int32), np.zeros((coded, STATES), np.uint8)
@@ -67,12 +66,9 @@ class Loop:
         twin._moments = self._moments.copy()
         return twin
 
-    def _rows(self) -> tuple[Matrix, Matrix]:
-        return np.empty(self._moments.shape[1]), np.empty(self._moments.shape[1])
-
-    def _check(self, known: Matrix, levels: Levels) -> None:
-        if known.shape != (len(levels), self._known) or levels.shape[1] != self._moments.shape[1] - self._known:
-            raise ValueError(f"{known.shape} known and {levels.shape} unknown columns, of {self._moments.shape[1]}")
+    def _check(self, known: Matrix, others: Matrix) -> None:
+        if known.shape != (len(others), self._known) or others.shape[1] != self._moments.shape[1] - self._known:
+            raise ValueError(f"{known.shape} known and {others.shape} other columns, of {self._moments.shape[1]}")
 
 
 class LevelWriter:

@@ -121,11 +121,11 @@ def can_move(attribute: Attribute) -> bool:
 
 def moved_to(attribute: Attribute, others: Iterable[Attribute]) -> Attribute | None:
     """Return an attribute as it is in another frame; None if it is absent or differs in kind."""
-    same = (other for other in others if _kind(other) == _kind(attribute))
+    same = (other for other in others if kind_of(other) == kind_of(attribute))
     return next(same, None)
 
 
-def _kind(attribute: Attribute) -> tuple[object, ...]:
+def kind_of(attribute: Attribute) -> tuple[object, ...]:
     return attribute.name, attribute.domain, attribute.semantic, attribute.values.dtype, attribute.values.shape
 
 

@@ -48,25 +48,18 @@ PRODUCTS = tuple(
 BENDING_COLUMNS = 3 + len(PRODUCTS)
 
 
-@dataclass(frozen=True, eq=False)
-class Bending:
-    """The powers that belong to a part."""
+def bending(part: Matrix, around: Matrix) -> tuple[Matrix, Matrix]:
+    """Positions of a part in its first frame and around it, followed by their squares and cubes about the part."""
+    center = sum_in_order(part) / len(part)
+    x, y, z = np.square(part - center).T
+    radius = float(np.sqrt(sum_in_order(x + y + z) / len(part) + SMALLEST))
 
-    center: Matrix
-    radius: float
-
-    @classmethod
-    def of(cls, positions: Matrix) -> Bending:
-        """How a part bends that has the positions, shape (n_i, 3), in its first frame, in BSM units."""
-        center = sum_in_order(positions) / len(positions)
-        x, y, z = np.square(positions - center).T
-        return cls(center, float(np.sqrt(sum_in_order(x + y + z) / len(positions) + SMALLEST)))
-
-    def columns(self, positions: Matrix) -> Matrix:
-        """Positions, shape (m, 3), followed by their squares and cubes about the part: shape (m, 19)."""
-        own = (positions - self.center) / self.radius
-        powers = [reduce(mul, own.T[list(axes)], factor * self.radius) for factor, axes in PRODUCTS]
+    def columns(positions: Matrix) -> Matrix:
+        own = (positions - center) / radius
+        powers = [reduce(mul, own.T[list(axes)], factor * radius) for factor, axes in PRODUCTS]
         return np.column_stack([positions, *powers])
+
+    return columns(part), columns(around)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,10 +94,23 @@ class Setting:
         return sum(part.memory for part in self.parts) + tracks
 
     def memory_for(self, body: GopBody) -> float:
-        """Bytes for decoding a GOP: one part after the other with levels, coefficients, and their products."""
+        """Bytes for decoding a GOP: levels, components, a few frames, and one part after the other."""
+        vertices, around, width = self.vertices, self.around, sum(field.width for field in body.fields)
+        frames = (16.0 * min(body.frames, BATCH) + 32.0) * width
+        if body.method.has_basis:
+            columns = sum(field.components for field in body.fields)
+            needed = INHERITED if body.method is GopMethod.LEARNT_NEXT else 0
+            kept = sum(min(field.components, INHERITED) + needed for field in body.fields)
+            left = 8.0 * kept * (vertices + around)
+        else:
+            columns = width * body.frames
+            left = 24.0 * frames_kept(vertices) * (vertices + around)
+            left += width * (4.0 * body.frames * vertices + 8.0 * (body.frames + 4.0) * around)
+        sizes = ((field.components, 40.0 * field.width * body.frames) for field in body.fields)
+        bases = sum(components * (frame + 24.0 * components) for components, frame in sizes)
         largest = max(len(part.vertices) for part in self.parts)
-        making = max(part.making for part in self.parts)
-        return gop_memory(self.vertices, body, self.around) + 48.0 * largest * _columns(body) + making + SPARE
+        making = max(part.making for part in self.parts) + SPARE
+        return vertices * (12.0 * columns + frames) + bases + left + 48.0 * largest * columns + making
 
 
 def make_setting(
@@ -113,15 +119,13 @@ def make_setting(
     """Make the dictionaries from the decoded first frame, shape (n, 3); see `make_parts` and `Setting`."""
     parts = make_parts(scheme, faces, first_frame, width=width, threads=threads)
     widths = [values.shape[1] for values in moving]
-    columns = [BENDING_COLUMNS, *widths]
+    ends = np.cumsum([BENDING_COLUMNS, *widths])[:-1]
 
     def known(part: Part) -> tuple[list[Matrix], list[Matrix]]:
-        bending = Bending.of(first_frame[part.vertices])
-        here, around = (
-            np.hstack([bending.columns(first_frame[vertices]), *(values[vertices] for values in moving)])
-            for vertices in (part.vertices, part.around)
-        )
-        return split_columns(part.coefficients(here, around), columns), split_columns(around, columns)
+        places = part.vertices, part.around
+        bent = bending(*(first_frame[vertices] for vertices in places))
+        here, around = (np.hstack([own, *(values[v] for values in moving)]) for own, v in zip(bent, places))
+        return np.split(part.coefficients(here, around), ends, axis=1), np.split(around, ends, axis=1)
 
     pairs = list(ordered_map(known, parts, threads))
     tracks = []
@@ -132,29 +136,3 @@ def make_setting(
         kept = LEAST_KEPT if track else frames_kept(len(first_frame))
         tracks.append(Track(width, kept, first, known_of, around_of, start))
     return Setting(len(first_frame), parts, tuple(tracks))
-
-
-def split_columns(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
-    """A matrix of all fields' columns, shape (m, sum of widths), as those of each."""
-    return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
-
-
-def gop_memory(vertices: int, body: GopBody, around: int = 0) -> float:
-    """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames."""
-    width = sum(field.width for field in body.fields)
-    frames = (16.0 * min(body.frames, BATCH) + 32.0) * width
-    bases = (field.components * (40.0 * field.width * body.frames + 24.0 * field.components) for field in body.fields)
-    if body.method.has_basis:
-        needed = INHERITED if body.method is GopMethod.LEARNT_NEXT else 0
-        kept = sum(min(field.components, INHERITED) + needed for field in body.fields)
-        left = 8.0 * kept * (vertices + around)
-    else:
-        left = 24.0 * frames_kept(vertices) * (vertices + around)
-        left += width * (4.0 * body.frames * vertices + 8.0 * (body.frames + 4.0) * around)
-    return vertices * (12.0 * _columns(body) + frames) + sum(bases) + left
-
-
-def _columns(body: GopBody) -> int:
-    if body.method.has_basis:
-        return sum(field.components for field in body.fields)
-    return sum(field.width * body.frames for field in body.fields)

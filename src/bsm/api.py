@@ -12,7 +12,7 @@ from bsm import options as keywords_to
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.choices import check_mapping
+from bsm.codec.choices import checked_metadata, checked_whole
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.console import Console, watched
@@ -98,9 +98,9 @@ def encode(
     from bsm.codec.static.options import EncodeOptions
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
-    check_mapping("metadata", {} if metadata is None else metadata)
+    entries = checked_metadata(metadata)
     with watched("encoding", progress) as reported:
-        source = with_metadata(without_provenance(as_mesh(mesh)), chosen, metadata or {})
+        source = with_metadata(without_provenance(as_mesh(mesh)), chosen, entries)
         if lengths := in_own_unit(keywords, source.metadata):
             chosen = keywords_to.encode_options(**{**keywords, **lengths})
         if simplify:
@@ -183,16 +183,14 @@ def encode_many(
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
-    if type(jobs) is not int or jobs < 0:
-        wrong = OptionError if type(jobs) is int else ArgumentError
-        raise wrong(f"jobs must be a whole number from 0 on, not {jobs!r}")
-    check_mapping("metadata", {} if metadata is None else metadata)
+    checked_whole("jobs", jobs, 0)
+    entries = checked_metadata(metadata)
     run = Run(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
     folder = None if target is None else named(target).rstrip("/") + "/"
     planned = plan([named(source) for source in sources], folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
-    more: dict[str, Any] = {"metadata": metadata or {}, "options": options, "simplify": simplify}
+    more: dict[str, Any] = {"metadata": entries, "options": options, "simplify": simplify}
     job = EncodeJob(force=overwrite, quiet=True, threads=threads, **more)
     return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
@@ -291,10 +289,8 @@ def encode_sequence(
     from bsm.codec.sequence.encoder import SequenceEncoder, frames_of
     from bsm.codec.sequence.options import SequenceOptions
 
-    entries = {} if metadata is None else metadata
-    check_mapping("metadata", entries)
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
-    frames = frames_of(positions)
+    frames, entries = frames_of(positions), checked_metadata(metadata)
     return _joined(SequenceEncoder(faces, chosen, len(frames), entries, mesh_attributes), frames, progress)
 
 
@@ -356,8 +352,6 @@ def encode_frames(
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
-    entries = {} if metadata is None else metadata
-    check_mapping("metadata", entries)
     given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
     chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
     frames = map(_as_frame if chosen is None or chosen.runs else as_mesh, meshes)
@@ -366,7 +360,7 @@ def encode_frames(
         raise MeshError("a sequence needs at least one frame")
     attributes = [a for a in first.attributes if a.semantic != "normal" and not is_empty([a])]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
-    encoder = SequenceEncoder(first.faces, chosen, count, entries, attributes)
+    encoder = SequenceEncoder(first.faces, chosen, count, checked_metadata(metadata), attributes)
     return _joined(encoder, chain([first], frames), progress)
 
 
