@@ -2,18 +2,17 @@
 
 import argparse
 
-from bsm.commands.flags import within
+from bsm.commands.flags import adder, within
 from bsm.console import Console, print_json
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
-    add("meshes", metavar="MESH", nargs="+", help="mesh files")
-    add("--sample", type=within(1), default=16, metavar="N", help="number of blocks for exact solvers (default: 16)")
-    times = "repeat every measurement; the fastest counts (default: 3)"
-    add("--repeat", type=within(1), default=3, metavar="N", help=times)
-    add("--no-solvers", action="store_true", help="leave out exact solvers, which take minutes")
-    add("--json", action="store_true", help="print the result as JSON")
+    add = adder(parser)
+    add("meshes", "MESH", "mesh files", nargs="+")
+    add("--sample", "N", "number of blocks for exact solvers (default: 16)", type=within(1), default=16)
+    add("--repeat", "N", "repeat every measurement; the fastest counts (default: 3)", type=within(1), default=3)
+    add("--no-solvers", "", "leave out exact solvers, which take minutes")
+    add("--json", "", "print the result as JSON")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:

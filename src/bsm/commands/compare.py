@@ -19,7 +19,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
-from bsm.commands.flags import add_limits_flag, limits_of
+from bsm.commands.flags import add_limits_flag, adder, limits_of
 from bsm.comparison import Pair, compare_meshes, numbering, order_of_used, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import GLTF, format_of_name, read_mesh, save_written, written_mesh
@@ -38,23 +38,22 @@ SHOWN = 99.0  # percentile of the distances that has the last color: single vert
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
-    add("original", metavar="A", help="original: mesh file, stream or sequence")
-    add("decoded", metavar="B", help="the mesh to compare: mesh file, stream or sequence")
-    add("--permutation", metavar="FILE.npy", help="the file that encode wrote: vertex p[j] of A is vertex j of B")
+    add = adder(parser)
+    add("original", "A", "original: mesh file, stream or sequence")
+    add("decoded", "B", "the mesh to compare: mesh file, stream or sequence")
+    add("--permutation", "FILE.npy", "the file that encode wrote: vertex p[j] of A is vertex j of B")
     surface = (
         "for meshes, also print the mean normal difference, the rms error in mean edges, and the distance between "
     )
-    surface += "the surfaces. The faces may differ"
-    add("--surface", action="store_true", help=surface)
+    add("--surface", "", f"{surface}the surfaces. The faces may differ")
     alike = "also measure the look distance; at 1, both look the same in smooth shading. The faces may differ. "
-    add("--look", action="store_true", help=f"{alike}A sequence is compared frame by frame")
+    add("--look", "", f"{alike}A sequence is compared frame by frame")
     drawn = "draw both and their difference, from the side where it is largest (implies --look); for sequences, "
-    add("--picture", metavar="FILE.png", help=f"{drawn}a curve of the error of each frame")
+    add("--picture", "FILE.png", f"{drawn}a curve of the error of each frame")
     colored = "draw the error of each vertex of A in colors, from blue to red: a picture (.png), or A as a mesh with "
-    add("--map", metavar="FILE", help=f"{colored}colors (.ply, .obj, .glb)")
+    add("--map", "FILE", f"{colored}colors (.ply, .obj, .glb)")
     add_limits_flag(parser)
-    add("--json", action="store_true", help="print the result as JSON")
+    add("--json", "", "print the result as JSON")
 
 
 EXPLAINED = {

@@ -12,7 +12,7 @@ import numpy as np
 
 from bsm.bitstream.errors import DependencyError, OptionError, how_to_install
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.commands.flags import within
+from bsm.commands.flags import adder, within
 from bsm.console import Console, print_json
 from bsm.evaluation import curve as rates
 from bsm.files.mesh import read_mesh
@@ -28,20 +28,18 @@ Table = tuple[Sequence[str], Sequence[Sequence[str]]]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
-    add("meshes", metavar="MESH", nargs="*", help="mesh files or sequences. Without any, only draw earlier results")
-    add("-o", "--output", metavar="FOLDER", required=True, help="folder for JSON and pictures")
+    add = adder(parser)
+    add("meshes", "MESH", "mesh files or sequences. Without any, only draw earlier results", nargs="*")
+    add("-o --output", "FOLDER", "folder for JSON and pictures", required=True)
     which = "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
-    which += "single lines such as svd,oi-r2 (default: all)"
-    add("--codecs", metavar="LIST", default=",".join(GROUPS), help=which)
+    add("--codecs", "LIST", f"{which}single lines such as svd,oi-r2 (default: all)", default=",".join(GROUPS))
     blocks = "number of blocks for the codecs of the paper (default: blocks of 500 vertices)"
-    add("--blocks", type=within(1), metavar="K", help=blocks)
-    times = "repeat each measurement; the fastest counts (default 1)"
-    add("--repeat", type=within(1), default=1, metavar="N", help=times)
-    add("--csv", action="store_true", help="also write the tables as FOLDER/*.csv")
-    add("--latex", action="store_true", help="also write the tables as FOLDER/*.tex (booktabs)")
-    add("--pdf", action="store_true", help="also write the pictures as PDF")
-    add("--json", action="store_true", help="print the comparison with Draco as JSON")
+    add("--blocks", "K", blocks, type=within(1))
+    add("--repeat", "N", "repeat each measurement; the fastest counts (default 1)", type=within(1), default=1)
+    add("--csv", "", "also write the tables as FOLDER/*.csv")
+    add("--latex", "", "also write the tables as FOLDER/*.tex (booktabs)")
+    add("--pdf", "", "also write the pictures as PDF")
+    add("--json", "", "print the comparison with Draco as JSON")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError, counted
-from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, refuse_two_on_one_pipe
+from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
@@ -43,25 +43,21 @@ class DecodeJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
+    add = adder(parser)
     add_inputs(
         parser,
         "stream, scene of glTF with streams, or - for standard input",
         "mesh file, - for a pipe, or folder for several inputs (default: IN with .ply). For a sequence: npz "
         "(default), PC2, MDD, GLB, USD, a folder for its frames, or a pattern such as walk/%%04d.obj",
     )
-    add("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name, else ply)")
-    part = parser.add_mutually_exclusive_group()
-    part.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write that part")
-    layers = "stop after N layers: 1 is the base, each refinement adds one"
-    part.add_argument("--layers", type=int, metavar="N", help=layers)
-    tolerant = "continue after damage; list the lost parts and leave them out"
-    part.add_argument("--tolerant", action="store_true", help=tolerant)
-    order = "restore the order of the input; the file that encode wrote with the same option"
-    add("--permutation", metavar="FILE.npy", help=order)
+    add("--format", "", "format of the output (default: by its name, else ply)", choices=SEQUENCE_FORMATS)
+    part = adder(parser.add_mutually_exclusive_group())
+    part("--blocks", "N", "stop after N blocks, and write that part", type=int)
+    part("--layers", "N", "stop after N layers: 1 is the base, each refinement adds one", type=int)
+    part("--tolerant", "", "continue after damage; list the lost parts and leave them out")
+    add("--permutation", "FILE.npy", "restore the order of the input; the file that encode wrote with the same option")
     add_limits_flag(parser)
-    group = parser.add_argument_group("sequences")
-    group.add_argument("--frames", metavar="A:B", help="decode frames A to B - 1 only")
+    adder(parser.add_argument_group("sequences"))("--frames", "A:B", "decode frames A to B - 1 only")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

@@ -9,7 +9,7 @@ import numpy as np
 from bsm.bitstream.errors import DependencyError
 from bsm.codec.decoding import decode
 from bsm.codec.static.encoder import Encoder
-from bsm.commands.flags import add_preset_flags, options_of, within
+from bsm.commands.flags import add_preset_flags, adder, options_of, within
 from bsm.console import Console, print_json
 from bsm.evaluation.sample import knot
 from bsm.files.output import refuse_to_overwrite, write_output
@@ -18,11 +18,10 @@ from bsm.pictures import bounds_of, colors_of, png, render, with_titles
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
-    add("-o", "--output", metavar="FOLDER", default=".", help="folder for the results (default: the current one)")
-    size = "number of vertices of the sample (default 20000)"
-    add("--vertices", type=within(1), default=20_000, metavar="N", help=size)
-    add("--json", action="store_true", help="print the result as JSON")
+    add = adder(parser)
+    add("-o --output", "FOLDER", "folder for the results (default: the current one)", default=".")
+    add("--vertices", "N", "number of vertices of the sample (default 20000)", type=within(1), default=20_000)
+    add("--json", "", "print the result as JSON")
     add_preset_flags(parser)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.commands.flags import add_inputs, asked, refuse_two_on_one_pipe
+from bsm.commands.flags import add_inputs, adder, asked, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import (
@@ -60,18 +60,18 @@ class DenoiseJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
+    add = adder(parser)
     add_inputs(
         parser,
         "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
         "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
         "encoded near-lossless",
     )
-    add("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input and of a piped output")
+    add("--format", "", "format of the input and of a piped output", choices=(*MESH_FORMATS, "npy"))
     goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
-    add("--for", dest="goal", choices=GOALS, default=GOALS[0], help=goal)
-    add("--strength", type=float, default=1.0, metavar="S", help="fraction of every movement, 0 to 1 (default 1)")
-    add("--look", action="store_true", help="print the look distance between the input and the result")
+    add("--for", "", goal, dest="goal", choices=GOALS, default=GOALS[0])
+    add("--strength", "S", "fraction of every movement, 0 to 1 (default 1)", type=float, default=1.0)
+    add("--look", "", "print the look distance between the input and the result")
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "Without these options, bsm chooses the method by the noise of the mesh, or of the first frame.\n"
@@ -79,18 +79,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "only with --force.",
         argument_default=argparse.SUPPRESS,
     )
-    ways.add_argument("--fine", choices=FINE, help="method of the fine step (default guided)")
+    add = adder(ways)
+    add("--fine", "", "method of the fine step (default guided)", choices=FINE)
     given = (
         "input of the fine step. positions: those of the coarse step. heights: noisy positions, moved to the coarse "
     )
     given += "surface along its normals. normals: noisy positions, smoothed along coarse normals. none: no coarse step"
-    ways.add_argument("--hand-over", choices=HAND_OVERS, help=given)
-    times = "iterations of the fine step; 0: no fine step (default: by the method)"
-    ways.add_argument("--iterations", type=int, metavar="N", help=times)
+    add("--hand-over", "", given, choices=HAND_OVERS)
+    add("--iterations", "N", "iterations of the fine step; 0: no fine step (default: by the method)", type=int)
     share = "fraction of a block's frequencies that the coarse step keeps, c over n_d (default 0.1)"
-    ways.add_argument("--keep", type=float, metavar="FRACTION", help=share)
-    size = "approximate vertices of a block before overlap (default 500)"
-    ways.add_argument("--block-size", type=int, metavar="N", help=size)
+    add("--keep", "FRACTION", share, type=float)
+    add("--block-size", "N", "approximate vertices of a block before overlap (default 500)", type=int)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

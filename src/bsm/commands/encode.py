@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_encode_flags, add_inputs, asked, options_of, refuse_two_on_one_pipe
+from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
@@ -18,29 +18,28 @@ from bsm.jobs.run import Run, run_jobs
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
+    add = adder(parser)
     add_inputs(
         parser,
         "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence (see below)",
         "output file, - for a pipe, or folder for several inputs (default: IN with .bsm). Several inputs to one .bsm "
         "are the frames of a sequence",
     )
-    below = "encode every mesh file in folders and their subfolders; OUT gets the same folders"
-    add("-r", "--recursive", action="store_true", help=below)
+    add("-r --recursive", "", "encode every mesh file in folders and their subfolders; OUT gets the same folders")
     formats = tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ)))
     known = "format of the input, as a suffix without the dot (default: by its name or content)"
-    add("--format", choices=formats, metavar="FORMAT", help=known)
-    add("--dry-run", action="store_true", help="encode, check and report, but write no file")
+    add("--format", "FORMAT", known, choices=formats)
+    add("--dry-run", "", "encode, check and report, but write no file")
     fewer = "try a half, a quarter, ... of the triangles, and keep the smallest file that keeps the promise to the "
     fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"
-    add("--simplify", action="store_true", help=fewer)
-    add("--permutation", metavar="FILE.npy", help="write the input vertex of each decoded vertex")
-    about_meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
-    add("--meta", action="append", default=[], metavar="NAME=TEXT", help=about_meta)
-    add("--up", choices=("y", "z"), help="store the up axis (same as --meta up=y)")
+    add("--simplify", "", fewer)
+    add("--permutation", "FILE.npy", "write the input vertex of each decoded vertex")
+    meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
+    add("--meta", "NAME=TEXT", meta, action="append", default=[])
+    add("--up", "", "store the up axis (same as --meta up=y)", choices=("y", "z"))
     made = "store the version of bsm, the preset and its bounds, and the SHA-256 of the input. Without the flag, only "
     made += "for meshes decoded from such a stream"
-    add("--provenance", action=argparse.BooleanOptionalAction, help=made)
+    add("--provenance", "", made, action=argparse.BooleanOptionalAction)
     add_encode_flags(parser)
 
 

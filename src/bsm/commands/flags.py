@@ -31,6 +31,16 @@ class Setting:
         group.add_argument(f"--{self.field.replace('_', '-')}", **how)
 
 
+def adder(parser: argparse._ActionsContainer) -> Callable[..., argparse.Action]:
+    """Return a function that adds an argument: names, the name of its value or "" for a switch, help, and details."""
+
+    def add(names: str, value: str, about: str, **more: Any) -> argparse.Action:
+        plain = {"metavar": value} if value else {} if "choices" in more else {"action": "store_true"}
+        return parser.add_argument(*names.split(), help=about, **{**plain, **more})
+
+    return add
+
+
 class HelpAll(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser.print_help()
@@ -167,15 +177,14 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("coding")
     for setting in ENCODE_FLAGS:
         setting.add(group)
-    repeated: dict[str, Any] = {"action": "append", "default": argparse.SUPPRESS}
+    add, repeated = adder(group), {"action": "append", "default": argparse.SUPPRESS}
     quality = "quality of an attribute: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none. The name * means "
     quality += "all others; *=none also drops materials and images. May be repeated"
-    add = group.add_argument
-    add("--attribute", dest="attributes", type=named_quality, metavar="NAME=QUALITY", help=quality, **repeated)
+    add("--attribute", "NAME=QUALITY", quality, dest="attributes", type=named_quality, **repeated)
     advanced = "an advanced setting; --help-all lists them. May be repeated"
-    add("--set", type=named_setting, metavar="NAME=VALUE", help=advanced, **repeated)
-    every = "show this help with all settings"
-    parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help=every)
+    add("--set", "NAME=VALUE", advanced, type=named_setting, **repeated)
+    show = {"action": HelpAll, "nargs": 0, "default": argparse.SUPPRESS}
+    adder(parser)("--help-all", "", "show this help with all settings", **show)
     group = parser.add_argument_group(
         "sequences",
         "Inputs: a folder or a pattern of meshes; several meshes with -o NAME.bsm; npz, PC2, MDD, USD; GLB with\n"
@@ -183,10 +192,10 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     )
     for setting in OF_SEQUENCES:
         setting.add(group)
-    add, beside = group.add_argument, "mesh of a PC2 or MDD (default: the file of the same name beside it)"
-    add("--animation", metavar="NAME", help="encode this animation of a GLB or glTF, by name or number (0)")
-    add("--mesh", dest="cache_mesh", metavar="FILE", help=beside)
-    add("--frames", dest="piped_frames", action="store_true", help="the pipe contains frames, as with --format npy")
+    add = adder(group)
+    add("--animation", "NAME", "encode this animation of a GLB or glTF, by name or number (0)")
+    add("--mesh", "FILE", "mesh of a PC2 or MDD (default: the file of the same name beside it)", dest="cache_mesh")
+    add("--frames", "", "the pipe contains frames, as with --format npy", dest="piped_frames")
 
 
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
@@ -214,20 +223,16 @@ _Asked = TypeVar("_Asked")
 
 def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | None = None) -> None:
     """Declare the inputs, the number of jobs and, if the command writes, the output."""
-    add = parser.add_argument
-    add("inputs", metavar="IN", nargs="+", help=f"{about_them}; or a URL (s3://bucket/name)")
+    add, many = adder(parser), adder(parser.add_argument_group("many inputs"))
+    add("inputs", "IN", f"{about_them}; or a URL (s3://bucket/name)", nargs="+")
     if output:
-        add("-o", "--output", metavar="OUT", help=output)
-    at_once = "work on N inputs at a time; 0: one per core (default 1)"
-    add("-j", "--jobs", type=within(0), default=1, metavar="N", help=at_once)
-    add("--json", action="store_true", help="print the result as JSON")
-    many = parser.add_argument_group("many inputs")
-    many.add_argument("--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler")
+        add("-o --output", "OUT", output)
+    add("-j --jobs", "N", "work on N inputs at a time; 0: one per core (default 1)", type=within(0), default=1)
+    add("--json", "", "print the result as JSON")
+    many("--dask", "ADDRESS", "run on the Dask cluster of this scheduler")
     if output:
-        reported = "write the result of each input to a file, print a table"
-        many.add_argument("--report", metavar="FILE.json", help=reported)
-        resumed = "continue the run of --report: skip inputs whose output is complete and up to date"
-        many.add_argument("--resume", action="store_true", help=resumed)
+        many("--report", "FILE.json", "write the result of each input to a file, print a table")
+        many("--resume", "", "continue the run of --report: skip inputs whose output is complete and up to date")
     else:
         parser.set_defaults(output=None, report=None, resume=False)
 

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import within
+from bsm.commands.flags import adder, within
 from bsm.console import Console
 from bsm.files.output import write_output
 from bsm.files.pipes import read_bytes
@@ -19,27 +19,22 @@ VISIBLE = 0.01  # of the diagonal of a component: an error that is worth a note
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
+    add = adder(parser)
     scene = ".glb, .gltf with the files beside it, or the stream of a sequence, which is wrapped in a scene"
-    add("input", metavar="SCENE", help=scene)
-    add("-o", "--output", metavar="OUT.glb", required=True, help="the compressed scene")
+    add("input", "SCENE", scene)
+    add("-o --output", "OUT.glb", "the compressed scene", required=True)
     promised = "quality of each mesh (default: grid14, as exact as Draco with 14 bits)"
-    add("--preset", choices=PRESETS, default=PRESETS[-1], help=promised)
+    add("--preset", "", promised, choices=PRESETS, default=PRESETS[-1])
     quick = "code only grids: pages decode them several times as fast, with a small decoder "
     quick += f"(default: for scenes of {MANY} primitives and more)"
-    add("--quick", action=argparse.BooleanOptionalAction, help=quick)
+    add("--quick", "", quick, action=argparse.BooleanOptionalAction)
     kept = "quality of an attribute in the words of glTF (TEXCOORD_0=14bits, _ID=exact, COLOR_0=none); repeatable"
-    add("--attribute", action="append", default=[], metavar="NAME=QUALITY", help=kept)
-    shared = "one grid for all meshes with equal scale and rotation, so that touching meshes still touch"
-    add("--one-grid", action="store_true", help=shared)
-    threads = "threads, each for a primitive (0: one per core; default 1)"
-    add("-j", "--jobs", type=within(0), default=1, metavar="N", help=threads)
-    plain = "also write OUT.fallback.bin with plain arrays, for viewers without the extension"
-    add("--fallback", action="store_true", help=plain)
-    images = (
-        "recompress images with Pillow: webp, jpeg, png; webp:85 sets the quality, webp:85@1024 also the longest side"
-    )
-    add("--images", metavar="RULE", help=images)
+    add("--attribute", "NAME=QUALITY", kept, action="append", default=[])
+    add("--one-grid", "", "one grid for all meshes with equal scale and rotation, so that touching meshes still touch")
+    add("-j --jobs", "N", "threads, each for a primitive (0: one per core; default 1)", type=within(0), default=1)
+    add("--fallback", "", "also write OUT.fallback.bin with plain arrays, for viewers without the extension")
+    images = "recompress images with Pillow: webp, jpeg, png; webp:85 sets the quality, webp:85@1024 also the "
+    add("--images", "RULE", f"{images}longest side")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:

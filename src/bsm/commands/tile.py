@@ -12,7 +12,7 @@ from typing import Any
 
 from bsm.bitstream.errors import BsmError, FormatError, OptionError, counted
 from bsm.codec.threads import available_threads
-from bsm.commands.flags import asked, numbers, within
+from bsm.commands.flags import adder, asked, numbers, within
 from bsm.console import Console, print_json
 from bsm.exits import report_error
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
@@ -29,25 +29,21 @@ from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
-    add("input", metavar="MESH", help="binary PLY, binary STL, npz or OBJ of any size, or a URL")
-    add("-o", "--output", metavar="FOLDER", required=True, help="folder or URL for the shards and manifest.json")
-    add("--format", choices=("ply", "stl", "npz", "obj"), help="format of the input (default: by its name or content)")
-    largest = "largest number of triangles of a tile (default 2^19)"
-    add("--triangles", type=within(64), default=1 << 19, metavar="N", help=largest)
-    cell = "cell of the grid of all tiles (default: a power of two, by the look distance)"
-    add("--grid-cell", type=float, metavar="H", help=cell)
-    add("--grid-origin", type=numbers(3), metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
-    add("--finest", action="store_true", help="write only the finest level")
-    add("--work", metavar="FOLDER", help="folder for temporary files, several times the input (default: OUTPUT/.work)")
-    at_once = "work on N tiles at a time; 0: one per core (default 1)"
-    add("-j", "--jobs", type=within(0), default=1, metavar="N", help=at_once)
-    cluster = "run on the Dask cluster of this scheduler; its machines must share the folders"
-    add("--dask", metavar="ADDRESS", help=cluster)
-    add("--resume", action="store_true", help="continue a stopped run from the files in --work")
-    add("--tileset", action="store_true", help="also write tileset.json (3D Tiles) and a GLB for each tile")
-    add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
-    add("--json", action="store_true", help="print the manifest")
+    add = adder(parser)
+    add("input", "MESH", "binary PLY, binary STL, npz or OBJ of any size, or a URL")
+    add("-o --output", "FOLDER", "folder or URL for the shards and manifest.json", required=True)
+    add("--format", "", "format of the input (default: by its name or content)", choices=("ply", "stl", "npz", "obj"))
+    add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
+    add("--grid-cell", "H", "cell of the grid of all tiles (default: a power of two, by the look distance)", type=float)
+    add("--grid-origin", "X,Y,Z", "a point of the grid (default 0,0,0)", type=numbers(3))
+    add("--finest", "", "write only the finest level")
+    add("--work", "FOLDER", "folder for temporary files, several times the input (default: OUTPUT/.work)")
+    add("-j --jobs", "N", "work on N tiles at a time; 0: one per core (default 1)", type=within(0), default=1)
+    add("--dask", "ADDRESS", "run on the Dask cluster of this scheduler; its machines must share the folders")
+    add("--resume", "", "continue a stopped run from the files in --work")
+    add("--tileset", "", "also write tileset.json (3D Tiles) and a GLB for each tile")
+    add("--content", "", CONTENT_HELP, choices=CONTENTS, default=CONTENTS[0])
+    add("--json", "", "print the manifest")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

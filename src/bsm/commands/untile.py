@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError, counted
-from bsm.commands.flags import add_limits_flag, limits_of, numbers
+from bsm.commands.flags import add_limits_flag, adder, limits_of, numbers
 from bsm.console import Console
 from bsm.files.mesh import write_mesh
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
@@ -13,17 +13,14 @@ from bsm.tiles.shards import open_tiles
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
-    add("input", metavar="FOLDER", help="folder of tiles, or its URL")
+    add, of = adder(parser), adder(parser.add_mutually_exclusive_group())
+    add("input", "FOLDER", "folder of tiles, or its URL")
     output = ".ply of any size, - for a pipe, or .../tileset.json (3D Tiles). Other formats must fit into memory"
-    add("-o", "--output", metavar="OUT", required=True, help=output)
-    reaching = "only triangles that meet this box; they must fit into memory"
-    add("--box", type=numbers(6), metavar="X,Y,Z,X,Y,Z", help=reaching)
-    of = parser.add_mutually_exclusive_group()
-    of.add_argument("--level", type=int, metavar="N", help="level of detail; 0 is the coarsest (default: the finest)")
-    coarsest = "the coarsest tiles with an error of at most H, in the unit of the mesh"
-    of.add_argument("--error", type=float, metavar="H", help=coarsest)
-    add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
+    add("-o --output", "OUT", output, required=True)
+    add("--box", "X,Y,Z,X,Y,Z", "only triangles that meet this box; they must fit into memory", type=numbers(6))
+    of("--level", "N", "level of detail; 0 is the coarsest (default: the finest)", type=int)
+    of("--error", "H", "the coarsest tiles with an error of at most H, in the unit of the mesh", type=float)
+    add("--content", "", CONTENT_HELP, choices=CONTENTS, default=CONTENTS[0])
     add_limits_flag(parser)
 
 

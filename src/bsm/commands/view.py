@@ -10,7 +10,7 @@ from threading import Thread
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.commands.flags import add_limits_flag, limits_of, within
+from bsm.commands.flags import add_limits_flag, adder, limits_of, within
 from bsm.console import Console, Progress
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh
@@ -27,16 +27,16 @@ _NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
+    add = adder(parser)
     shown = "stream, - for a pipe, or folder of tiles. Meshes and sequences are encoded and compared. Without "
-    add("inputs", metavar="IN", nargs="*", help=f"{shown}inputs, opens an empty page; drop a mesh on it")
-    add("--preset", choices=PRESETS, default="balanced", help="preset for meshes and sequences (default: balanced)")
-    add("--original", metavar="MESH", help="mesh or sequence to compare the stream with")
-    add("--follow", action="store_true", help="keep reading files that are still being written")
+    add("inputs", "IN", f"{shown}inputs, opens an empty page; drop a mesh on it", nargs="*")
+    add("--preset", "", "preset for meshes and sequences (default: balanced)", choices=PRESETS, default="balanced")
+    add("--original", "MESH", "mesh or sequence to compare the stream with")
+    add("--follow", "", "keep reading files that are still being written")
     add_limits_flag(parser)
-    add("--save", metavar="PAGE.html", help="write a page that contains the streams and needs no server")
-    add("--port", type=within(0, 65535), default=0, metavar="N", help="port of the server (default: a free one)")
-    add("--no-open", action="store_true", help="print the address; do not open a browser")
+    add("--save", "PAGE.html", "write a page that contains the streams and needs no server")
+    add("--port", "N", "port of the server (default: a free one)", type=within(0, 65535), default=0)
+    add("--no-open", "", "print the address; do not open a browser")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
