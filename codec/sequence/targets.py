@@ -9,7 +9,7 @@ import numpy as np
 
 from bsm.bitstream.errors import public
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.geometry.metrics import Reference
+from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.static.targets import Target
 
 RISES = {"kg": 0.78}  # the power of the step that errors grow with, where it is known before two are tried; 1 elsewhere
@@ -32,33 +32,36 @@ class SequenceComparison:
 
 def compare_sequences(original: Positions, decoded: Positions, faces: Faces) -> SequenceComparison:
     """Compare frames, both of shape (T, n, 3), that share their faces and the order of their vertices."""
-    return compare_runs([(original, decoded, faces)])
+    return compare_runs([(original, decoded, faces)])[0]
 
 
 Runs: TypeAlias = Sequence[tuple[Positions, Positions, Faces]]
 
 
-def compare_runs(runs: Runs) -> SequenceComparison:
-    """How far frames whose faces change are from decoded ones: a run is its frames, the decoded ones, and faces."""
-    each = []
+def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]]:
+    """Compare runs of frames, the decoded ones, and their faces; return also the errors of each frame."""
+    seen: list[Comparison] = []
+    each: list[dict[str, float]] = []
     wrong = extent = flicker = motion = 0.0
     for original, decoded, faces in runs:
         found = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
         diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
-        each += [(frame, frame.rms / diagonal, frame.max_error / diagonal) for frame in found]
+        each += [{"rms_relative": f.rms / diagonal, "max_error_relative": f.max_error / diagonal} for f in found]
+        seen += found
         wrong += float(np.square(original - decoded).sum())
         extent += float(np.square(original - original.mean(axis=1, keepdims=True)).sum())
         flicker += float(np.square(np.diff(decoded - original, 2, axis=0)).sum())
         motion += float(np.square(np.diff(original, 2, axis=0)).sum())
-    nmsve = float(np.mean([frame.nmsve for frame, _, _ in each]))
-    return SequenceComparison(
+    nmsve = float(np.mean([frame.nmsve for frame in seen]))
+    compared = SequenceComparison(
         kg=_percent(wrong, extent),
-        theta_deg=float(np.mean([frame.theta_deg for frame, _, _ in each])),
+        theta_deg=float(np.mean([frame.theta_deg for frame in seen])),
         nmsve_db=10.0 * math.log10(nmsve) if nmsve > 0.0 else -math.inf,
-        rms_relative=math.sqrt(float(np.mean([rms**2 for _, rms, _ in each]))),
-        max_error_relative=max(farthest for _, _, farthest in each),
+        rms_relative=math.sqrt(float(np.mean([frame["rms_relative"] ** 2 for frame in each]))),
+        max_error_relative=max(frame["max_error_relative"] for frame in each),
         flicker=_percent(flicker, motion),
     )
+    return compared, each
 
 
 def _percent(part: float, whole: float) -> float:

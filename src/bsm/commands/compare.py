@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
@@ -42,10 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("original", "A", "original: mesh file, stream or sequence")
     add("decoded", "B", "the mesh to compare: mesh file, stream or sequence")
     add("--permutation", "FILE.npy", "the file that encode wrote: vertex p[j] of A is vertex j of B")
-    surface = (
-        "for meshes, also print the mean normal difference, the rms error in mean edges, and the distance between "
-    )
-    add("--surface", "", f"{surface}the surfaces. The faces may differ")
+    surface = "for meshes, also print the mean normal difference, the rms error in mean edges, and the distance "
+    add("--surface", "", f"{surface}between the surfaces. The faces may differ")
     alike = "also measure the look distance; at 1, both look the same in smooth shading. The faces may differ. "
     add("--look", "", f"{alike}A sequence is compared frame by frame")
     drawn = "draw both and their difference, from the side where it is largest (implies --look); for sequences, "
@@ -169,23 +166,19 @@ def _apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, float]:
 
 
 def sentence(compared: dict[str, Any], unit: str) -> str:
-    found = [_errors(compared, unit)]
+    found, share = ["all vertices are equal"], 100.0 * compared["max_error_relative"]
+    if share > 0.0:
+        rms = compared["rms_relative"] / compared["max_error_relative"] * compared["max_error"]
+        found = [
+            f"largest vertex error {length(compared['max_error'], unit)}, {share:.3g} % of the diagonal",
+            f"root mean square {length(rms, unit)}",
+            f"mean normal error {compared['angle_deg']:.3g} degrees, weighted by area",
+        ]
     if compared["flattened"]:
         found.append(f"{counted(triangles=compared['flattened'])} flattened by rounding")
     if compared["merged"]:
         found.append(f"{counted(vertices=compared['merged'])} merged by rounding")
     return "; ".join(found)
-
-
-def _errors(compared: dict[str, Any], unit: str) -> str:
-    share = 100.0 * compared["max_error_relative"]
-    if share == 0.0:
-        return "all vertices are equal"
-    rms = compared["rms_relative"] / compared["max_error_relative"] * compared["max_error"]
-    return (
-        f"largest vertex error {length(compared['max_error'], unit)}, {share:.3g} % of the diagonal; root mean square "
-        f"{length(rms, unit)}; mean normal error {compared['angle_deg']:.3g} degrees, weighted by area"
-    )
 
 
 def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
@@ -306,7 +299,8 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         of_used = None if order is None else order_of_used(order, *whole)
         rows = numbering(mesh, other, of_used)
         runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
-    result = asdict(compare_runs(runs))
+    compared, of_frames = compare_runs(runs)
+    result = asdict(compared)
     if args.look:
         progress.stage("comparing all frames")
         result.update(_looks(runs, progress))
@@ -314,7 +308,6 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     if Path(args.decoded).is_file() and is_stream(args.decoded):
         samples = sum(frames[..., 0].size for frames, _ in decoded)
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
-    of_frames = [found for first, second, _ in runs for found in _of_frames(first, second)]
     if args.picture:
         from bsm.evaluation.curve import frame_errors
 
@@ -327,13 +320,6 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     lines = explained(result)
     lines.append(f"{'worst_frame':<18} {worst:<12} the frame with the largest vertex error")
     return "\n".join(lines)
-
-
-def _of_frames(original: Positions, decoded: Positions) -> list[dict[str, float]]:
-    diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
-    distances = np.linalg.norm(original - decoded, axis=2) / diagonal
-    rms, farthest = np.sqrt(np.square(distances).mean(axis=1)), distances.max(axis=1)
-    return [{"rms_relative": float(a), "max_error_relative": float(b)} for a, b in zip(rms, farthest, strict=True)]
 
 
 def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
@@ -362,14 +348,11 @@ def _write_map(path: str, original: TriangleMesh, positions: Positions, *, overw
     distances = np.linalg.norm(positions - original.positions, axis=1)
     top = float(np.percentile(distances, SHOWN)) or float(distances.max(initial=0.0)) or 1.0
     if kind == "png":
-        write_output(path, _picture(original, distances / top), overwrite=overwrite)
+        heat = colors_of(distances / top)[original.faces].mean(axis=1) / 255.0
+        views = DEFAULT_VIEW, DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])  # from the front, and from behind
+        drawn = [render(original.positions, original.faces, view=view, colors=heat) for view in views]
+        write_output(path, png(np.hstack(drawn)), overwrite=overwrite)
         return
     color = Attribute("color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color")
     mesh = replace(original.bare, attributes=(color, Attribute("distance", distances)))
     save_written(path, written_mesh(mesh, kind, path), overwrite=overwrite)
-
-
-def _picture(mesh: TriangleMesh, shares: npt.NDArray[np.float64]) -> bytes:
-    faces = colors_of(shares)[mesh.faces].mean(axis=1) / 255.0
-    behind = DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])
-    return png(np.hstack([render(mesh.positions, mesh.faces, view=v, colors=faces) for v in (DEFAULT_VIEW, behind)]))
