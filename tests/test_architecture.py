@@ -35,7 +35,8 @@ FLOORS = {
         ("__main__",),
     ),
     "bsm.codec": (
-        ("_kernels", "arrays", "choices", "progress", "threads"),
+        ("_kernels", "arrays", "choices", "progress"),
+        ("threads",),
         # Encoders decode what they wrote: by the compiled decoder, which stands below everything.
         ("geometry",),
         ("events",),
