@@ -17,6 +17,8 @@ BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 using namespace nb::literals;
 
 NB_MODULE(_kernels, m) {
+    make_tables();
+
     m.def("code_uniform", checked<code_one_uniform>, "coder"_a, "value"_a, "count"_a);
     m.def("code_unsigned", checked<code_one_unsigned>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
         "value"_a, "node"_a = 0);

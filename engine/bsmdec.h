@@ -15,7 +15,8 @@
  *     }
  *     bsmdec_close(decoder);
  *
- * Threads: one thread at a time may use a decoder. Separate decoders are independent; the library has no global state.
+ * Threads: one thread at a time may use a decoder. Separate decoders are independent: they share nothing but
+ * constant tables.
  * Memory: all memory comes from the allocator in the options, and bsmdec_close releases it. The library copies the
  * bytes you push. Pointers that it returns point into the decoder. They are valid until bsmdec_close unless it says
  * otherwise.

@@ -63,6 +63,7 @@ bool copy_options(const bsmdec_options *given, bsmdec_options *options) {
 }
 
 EXACTLY(bsmdec *, bsmdec_open, (const bsmdec_options *given), (given)) {
+    make_tables();
     bsmdec_options options = {.size = sizeof options};
     bsmdec_allocator usual = library_allocator(), host = usual;
     bool known = copy_options(given, &options);

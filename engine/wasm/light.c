@@ -13,7 +13,7 @@ static GridField field;
 
 /* `limits`: those of bsmdec.h in their order. */
 bool light_open(const double *limits) {
-    make_tables();
+    make_mixer_tables();
     context = (Context){.host = page_host()};
     memcpy(&context.limits.vertices, limits, sizeof context.limits - offsetof(bsmdec_limits, vertices));
     arena = scratch = arena_of(&context);

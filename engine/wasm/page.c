@@ -19,8 +19,6 @@ static Arena room; /* for a block of a helper, until the next event */
 bsmdec *page_open(const double *limits, int tolerant, int number_of_share, int among) {
     static bool made;
     if (!made) {
-        make_tables();
-        make_value_tables();
         make_priors();
         made = true;
     }

@@ -7,9 +7,7 @@
 void *page_take(size_t size);
 void page_give(void *memory, size_t size);
 bsmdec_allocator page_host(void);
-/* Tables, and what coefficients start from (web/scripts/kernels.mjs). */
-void make_tables(void);
-void make_value_tables(void);
+/* What coefficients start from (web/scripts/kernels.mjs). */
 void make_priors(void);
 
 #endif

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import re
 import struct
+import subprocess
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -24,7 +26,6 @@ from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import compact
 from tests.bitstream.fields.fields import KINDS, SOUPS, encode, field_of, values
-from tools import field_tables
 from tools.payloads import decode_connectivity
 
 SPEC = Path(__file__).parents[2] / "spec"
@@ -91,6 +92,31 @@ def test_the_tables_of_the_coder_are_those_of_the_document() -> None:
     exact = 65536 / (1 + np.exp(-np.arange(-2880, 2880) / 256))
     np.testing.assert_array_equal(squash, np.clip(np.floor(exact + 0.5), 1, 65535))
     assert np.abs(exact % 1 - 0.5).min() > 0.0003
+
+
+TABLES = """#include "bitstream/entropy/tables.c"
+#include "bitstream/fields/tables.c"
+void *tables[] = {SQUASH, STRETCH, RECIPROCAL, SURVIVAL, ODDS, LESS};
+"""
+
+
+def test_kernels_compute_the_tables_of_the_document(tmp_path: Path) -> None:
+    (tmp_path / "tables.c").write_text(TABLES)
+    flags = ["-std=gnu11", "-O2", "-fPIC", "-shared", "-I", str(SPEC.parent)]
+    subprocess.run(["cc", *flags, tmp_path / "tables.c", "-lm", "-o", tmp_path / "tables.so"], check=True)
+    library = ctypes.CDLL(str(tmp_path / "tables.so"))
+    library.make_tables()
+    places = (ctypes.c_void_p * 6).in_dll(library, "tables")
+    expected = {
+        "squash": (reference.SQUASH, ctypes.c_uint16),
+        "stretch": (reference.STRETCH, ctypes.c_int16),
+        "reciprocal": ([131072 // (2 * n + 3) for n in range(1024)], ctypes.c_uint16),
+        "survival": (reference.SURVIVAL, ctypes.c_int32),
+        "odds": (reference.ODDS, ctypes.c_int16),
+        "less": (reference.LESS, ctypes.c_int16),
+    }
+    for place, (name, (table, kind)) in zip(places, expected.items(), strict=True):
+        assert list((kind * len(table)).from_address(place)) == table, name
 
 
 @quick
@@ -217,8 +243,6 @@ def test_positions_of_a_lattice():
 
 
 def test_the_tables_of_fields_are_those_of_the_document():
-    odds, less = field_tables.odds_tables()
-    table = field_tables.survival_table() + odds + less
-    assert table == reference.SURVIVAL + reference.ODDS + reference.LESS
+    table = reference.SURVIVAL + reference.ODDS + reference.LESS
     digest = hashlib.sha256(struct.pack(f"<{len(table)}i", *table)).hexdigest()
     assert digest in FIELDS

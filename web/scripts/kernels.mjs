@@ -14,13 +14,8 @@ function sourcesIn(folder) {
     return readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".c")).map((name) => join(folder, name)).sort();
 }
 
-/** Whether a file holds tables, which the kernels make for themselves, by `tables.c`. */
-const isTable = (path) => readFileSync(join(ROOT, path), "utf8").startsWith("/* Written by");
-
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
-const FOUND = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/[^g])|^engine\/(examples|python|ahead)|rate_distortion/.test(path));
-const SOURCES = [...FOUND.filter((path) => !isTable(path)), ...sourcesIn("web/src")];
-const TABLES = FOUND.filter(isTable);
+const SOURCES = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/[^g])|^engine\/(examples|python|ahead)|rate_distortion/.test(path));
 
 /** Functions for the page (engine/wasm/page.c, engine/bsmdec.h). */
 const PAGE = [
@@ -52,9 +47,9 @@ export function compiler() {
 /** What tells the built kernels and all that they are built of, but for the compiler: where it is as written, they are not compiled again to compare. */
 export function fingerprint() {
     const hash = createHash("sha256");
-    const headers = ["bitstream", "codec", "engine", "web/src"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
+    const headers = ["bitstream", "codec", "engine"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
     const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) => join("web", name));
-    for (const path of [...SOURCES, ...TABLES, ...headers, "spec/priors.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
+    for (const path of [...SOURCES, ...headers, "spec/priors.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
     return hash.digest("hex");
 }
 
@@ -112,24 +107,14 @@ void make_priors(void) {
 `;
 }
 
-/** Compare the tables and models that the kernels make with those of the repository. */
-function checkTables(clang, objects, priors, target) {
-    const tables = TABLES.flatMap((path) => [...readFileSync(join(ROOT, path), "utf8").matchAll(/const (\w+)_t (\w+)\[(\d+)\] = \{([^}]*)\}/g)]);
-    const exported = ["make_tables", "make_value_tables", "make_priors", "PRIORS", ...tables.map(([, , name]) => name)].map((name) => `-Wl,--export=${name}`);
-    clang(TARGET, "-nostdlib", ...objects, "-Wl,--no-entry", "-Wl,--initial-memory=1048576", ...exported, "-o", target);
+/** Compare the priors that the kernels make with those of the repository. */
+function checkPriors(clang, object, priors, target) {
+    const exported = ["make_priors", "PRIORS"].map((name) => `-Wl,--export=${name}`);
+    clang(TARGET, "-nostdlib", object, "-Wl,--no-entry", "-Wl,--initial-memory=1048576", ...exported, "-o", target);
     const { exports } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(target)));
-    const { buffer } = exports.memory;
-    const compare = (name, made, values) => {
-        if (values.some((value, i) => made[i] !== value)) throw new Error(`the kernels make other ${name} than the repository has`);
-    };
-    exports.make_tables();
-    exports.make_value_tables();
     exports.make_priors();
-    for (const [, type, name, length, body] of tables) {
-        const kind = { uint16: Uint16Array, int16: Int16Array, int32: Int32Array }[type];
-        compare(name, new kind(buffer, exports[name].value, Number(length)), body.split(",").map(Number).slice(0, Number(length)));
-    }
-    compare("priors", new Uint8Array(buffer, exports.PRIORS.value, priors.length), priors);
+    const made = new Uint8Array(exports.memory.buffer, exports.PRIORS.value, priors.length);
+    if (priors.some((value, i) => made[i] !== value)) throw new Error("the kernels make other priors than the repository has");
 }
 
 /** Sources of what takes most time, which are compiled for speed, and not for their size alone; vectors that they do not ask for make them slower. */
@@ -176,7 +161,7 @@ export function compileKernels({ vectors, exported = PAGE, without, lacks, fast 
             } else writeFileSync(object, compiled.get(key));
             return object;
         });
-        checkTables(clang, [objects[SOURCES.indexOf("web/src/tables.c")], objects.at(-1)], priors, target);
+        checkPriors(clang, objects.at(-1), priors, target);
         clang(TARGET, "-nostdlib", ...objects.filter((_, i) => !without?.test(SOURCES[i])), ...LINK, ...(without ? ["-Wl,--unresolved-symbols=ignore-all"] : []), ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.

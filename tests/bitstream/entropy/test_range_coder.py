@@ -13,7 +13,6 @@ from bsm import CorruptError, OptionError, TruncatedError
 from bsm.bitstream._kernels import code_uniform, code_unsigned
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import Bank, finish_writing, make_bank, start_writing, unsigned_span
-from tools import entropy_tables
 from tools.payloads import finish_reading, overran, start_reading
 
 UNARY = 5
@@ -101,10 +100,6 @@ def test_a_full_buffer_is_an_error_and_not_a_crash() -> None:
 def test_bad_sizes_of_a_bank_are_refused(arguments: tuple[int, ...]) -> None:
     with pytest.raises(OptionError):
         make_bank(*arguments)
-
-
-def test_tables_of_the_kernels_are_fresh() -> None:
-    assert entropy_tables.PATH.read_text() == entropy_tables.source()
 
 
 def _one_bank(slots: int = 40, selectors: int = 40) -> Bank:

@@ -25,7 +25,6 @@ from tests.bitstream.fields.fields import (
     values,
 )
 from tests.shapes import grid_faces
-from tools import field_tables
 from tools.measure.grids import encode as encode_stream
 from tools.measure.grids import welded
 
@@ -137,10 +136,6 @@ def test_extremes_stay_within_their_types(vertices: int, count: int, seed: int):
     field = field_of("light", faces, vertices, (MOST_LARGEST,) * 3)
     positions = values(vertices, (0, 0, 0), (MOST_LARGEST,) * 3, "extremes", seed)
     np.testing.assert_array_equal(decode(field, encode(field, positions)), positions)
-
-
-def test_tables_are_what_their_tool_writes():
-    assert field_tables.PATH.read_text() == field_tables.source()
 
 
 def test_what_is_known_helps():
