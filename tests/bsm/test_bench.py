@@ -8,7 +8,7 @@ from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.evaluation.bench import EXACT, POWERS, SHIFT, bench_tables, iterated, run_bench
-from bsm.files.mesh import format_mesh
+from bsm.files.mesh import written_mesh
 from tests.shapes import patch
 
 
@@ -42,7 +42,7 @@ def test_iterations_are_those_of_dense_solvers(power, block):
 def test_a_bench_of_a_small_mesh_is_complete_and_fit_for_json(tmp_path):
     pytest.importorskip("DracoPy")
     path = tmp_path / "patch.ply"
-    path.write_bytes(format_mesh(patch(30, 30), "ply"))
+    path.write_bytes(written_mesh(patch(30, 30), "ply").data)
     result = run_bench([str(path)], sample=1, repeats=1, note=print)
     (row,) = result["meshes"]
     exact, ours = ([timing for timing in row["dictionaries"] if timing["exact"] is kind] for kind in (True, False))

@@ -16,7 +16,7 @@ from bsm.codec import denoise as library
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
 from bsm.codec.geometry.metrics import mnd, theta
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
-from bsm.files.mesh import format_mesh, read_mesh, write_mesh
+from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from tests.bsm import program
 from tests.shapes import torus
 from tools.noise import gaussian_along_normals
@@ -72,8 +72,12 @@ def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
 
 def test_a_mesh_that_stays_as_it_was_is_copied_with_what_it_names(tmp_path):
     (tmp_path / "out").mkdir()
-    named = b"mtllib red.mtl\nusemtl red\n" + format_mesh(CLEAN, "obj") + b"# as it was\n"
-    files = {"red.mtl": b"newmtl red\nKd 1 0 0\n", "clean.obj": named, "clean.glb": format_mesh(CLEAN, "glb") + b"    "}
+    named = b"mtllib red.mtl\nusemtl red\n" + written_mesh(CLEAN, "obj").data + b"# as it was\n"
+    files = {
+        "red.mtl": b"newmtl red\nKd 1 0 0\n",
+        "clean.obj": named,
+        "clean.glb": written_mesh(CLEAN, "glb").data + b"    ",
+    }
     for name, data in files.items():
         (tmp_path / name).write_bytes(data)
     for name in ("clean.obj", "clean.glb"):

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import BsmError, CorruptError, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
-from bsm.files.mesh import MESH_FORMATS, format_mesh, read_mesh, write_mesh
+from bsm.files.mesh import MESH_FORMATS, read_mesh, write_mesh, written_mesh
 
 TETRAHEDRON = TriangleMesh(
     np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
@@ -104,7 +104,7 @@ def test_other_line_ends(name, line_end, tmp_path):
 
 def test_the_content_tells_the_format_where_the_name_does_not(tmp_path):
     for kind in MESH_FORMATS:
-        source = read_mesh(write(tmp_path, f"{kind}.dat", format_mesh(TETRAHEDRON, kind)))
+        source = read_mesh(write(tmp_path, f"{kind}.dat", written_mesh(TETRAHEDRON, kind).data))
         assert len(source.mesh.faces) == 4
 
 
@@ -170,7 +170,7 @@ def test_bad_files_are_refused(name, tmp_path):
 
 @pytest.mark.parametrize("kind", ["obj", "off", "ply", "stl", "npz"])
 def test_every_truncation_is_an_error_or_fewer_faces(kind, tmp_path):
-    whole = format_mesh(TETRAHEDRON, kind)
+    whole = written_mesh(TETRAHEDRON, kind).data
     for length in range(len(whole)):
         try:
             faces = len(read_mesh(write(tmp_path, f"a.{kind}", whole[:length])).mesh.faces)

@@ -7,7 +7,7 @@ import pytest
 
 from bsm import END_OF_STREAM, BsmError, CorruptError, Decoder, FormatError
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import format_mesh, read_mesh
+from bsm.files.mesh import read_mesh, written_mesh
 from tools.attack.mutate import mutate_stream
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import patch
@@ -57,7 +57,7 @@ def test_damage_that_looks_like_a_block_before_the_faces_is_refused():
 
 
 def test_an_npz_whose_compression_is_damaged_is_refused(tmp_path):
-    whole = format_mesh(patch(6, 5), "npz")
+    whole = written_mesh(patch(6, 5), "npz").data
     for place in range(60, len(whole)):
         (tmp_path / "a.npz").write_bytes(whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :])
         try:
@@ -67,7 +67,7 @@ def test_an_npz_whose_compression_is_damaged_is_refused(tmp_path):
 
 
 def test_an_npz_with_a_name_that_is_no_text_is_refused(tmp_path):
-    whole = format_mesh(patch(3, 3), "npz")
+    whole = written_mesh(patch(3, 3), "npz").data
     listed = whole.rindex(b"faces.npy")
     flags = listed - 46 + 8
     broken = bytearray(whole)

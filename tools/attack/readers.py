@@ -32,7 +32,7 @@ from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npz import write_npy
-from bsm.files.mesh import format_mesh, read_mesh
+from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
 from tools.attack.taken import Taken, bounds, taken_by_each
@@ -165,10 +165,13 @@ def Mesh "a"
 @cache
 def samples() -> dict[str, Sample]:
     """A small sound file of each kind that is read; of USD the text alone: damaged binary ones end usd-core."""
-    mesh, plain = _mesh(), format_mesh(torus(3, 3), "obj")
+    mesh, plain = _mesh(), written_mesh(torus(3, 3), "obj").data
     beside = (("a.obj", plain),)
     found = {
-        **{kind: Sample(kind, format_mesh(mesh, kind)) for kind in ("obj", "off", "ply", "stl", "vtp", "npz", "glb")},
+        **{
+            kind: Sample(kind, written_mesh(mesh, kind).data)
+            for kind in ("obj", "off", "ply", "stl", "vtp", "npz", "glb")
+        },
         "ply of text": Sample("ply", _ascii_ply()),
         "ply of polygons": Sample("ply", _ragged_ply()),
         "stl of text": Sample("stl", _ASCII_STL),

@@ -120,7 +120,7 @@ def seeds(name: str, vectors: Path) -> list[bytes]:
 def _mesh_seeds() -> list[bytes]:
     from bsm.codec.geometry.attributes import Attribute
     from bsm.codec.geometry.mesh import TriangleMesh
-    from bsm.files.mesh import format_mesh
+    from bsm.files.mesh import written_mesh
     from tools.vectors.meshes import patch
 
     bare = patch(4, 3)
@@ -131,7 +131,7 @@ def _mesh_seeds() -> list[bytes]:
         Attribute("material", np.arange(faces) % 2, "face"),
     )
     mesh = TriangleMesh(bare.positions, bare.faces, attributes, {"name": "patch", "material.1.Kd": "1 0 0"})
-    return [bytes([k]) + format_mesh(mesh, kind) for k, kind in enumerate(MESH_FORMATS)]
+    return [bytes([k]) + written_mesh(mesh, kind).data for k, kind in enumerate(MESH_FORMATS)]
 
 
 def run(target: Target, data: bytes) -> None:

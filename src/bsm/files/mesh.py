@@ -16,7 +16,8 @@ from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import Written, fetched, images_in
+from bsm.files import pipes
+from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Source, as_input, file_beside, is_url
@@ -106,14 +107,10 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
         require_room(kind, data, limits)
     polygons: Polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
     if kind in _PLAIN:
-        metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
+        beside = Beside(Path(path).parent if path else None, limits.metadata_bytes)
+        metadata, notes = fetched(polygons.metadata, beside.read)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
     return polygons.checked(limits, len(data))
-
-
-def format_mesh(mesh: TriangleMesh, file_format: str) -> bytes:
-    """The bytes of a mesh file of one of `WRITTEN_FORMATS`, exact but for float32 where that suffices."""
-    return written_mesh(mesh, file_format).data
 
 
 def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:
@@ -171,7 +168,7 @@ def save_written(
 
 def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
     if isinstance(path, str) and is_url(path):
-        return f"{path.rpartition('/')[0]}/{name}"
+        return pipes.beside(path, name)
     return str(Path(path).parent / name) if os.fspath(path) != "-" and can_be_replaced(path) else None
 
 

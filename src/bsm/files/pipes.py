@@ -11,7 +11,7 @@ import sys
 import tempfile
 import urllib.parse
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, TypeAlias, Union, cast
 
@@ -125,7 +125,7 @@ def open_remote(url: str) -> BinaryIO:
         files, path = _system(url)
         # What the web gives is read as it comes: many a server answers no questions about parts.
         block = {"block_size": 0} if _scheme(url) in _WEB else {}
-        return cast(BinaryIO, _Reader(files.open(path, "rb", **block), url))
+        return cast(BinaryIO, files.open(path, "rb", **block))
 
 
 @contextmanager
@@ -188,21 +188,6 @@ def remove(name: str) -> None:
         files.rm_file(path)
 
 
-class _Reader:
-    """A file whose errors while reading name it."""
-
-    def __init__(self, file: BinaryIO, url: str) -> None:
-        self._file = file
-        self.name = url
-
-    def read(self, size: int = -1) -> bytes:
-        with _errors_of(self.name):
-            return self._file.read(size)
-
-    def close(self) -> None:
-        self._file.close()
-
-
 def _scheme(url: str) -> str:
     match = _URL.match(url)
     return match[1].lower() if match else ""
@@ -219,10 +204,8 @@ def _system(url: str) -> tuple[Any, str]:
     try:
         return cast("tuple[Any, str]", fsspec.url_to_fs(url))
     except ImportError as error:
-        known = errors.imported(
-            "fsspec.registry", "", "remote"
-        ).known_implementations  # the name itself is that of a table
-        package = known.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
+        registry = errors.imported("fsspec.registry", "", "remote")
+        package = registry.known_implementations.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
         if package == "fsspec":
             package = f"fsspec[{'http' if scheme in _WEB else scheme}]"
         raise errors.DependencyError(f"{scheme}:// needs a package that is missing: pip install '{package}'") from error
@@ -323,7 +306,8 @@ class Input:
             else:
                 self._file = sys.stdin.buffer
         read = getattr(self._file, "read1", self._file.read)
-        piece = read(_CHUNK)
+        with _errors_of(self.name) if self._opened and is_url(self.name) else nullcontext():
+            piece = read(_CHUNK)
         if isinstance(piece, str):
             raise errors.ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
         if not piece:
@@ -368,8 +352,7 @@ def read_range(name: str, first: int, size: int) -> bytes:
         with _errors_of(name):
             files, path = _system(name)
             data = bytes(files.cat_file(path, start=first, end=first + size))
-            if len(data) > size:  # of a server that knows no ranges
-                data = data[first : first + size]
+            data = data[first : first + size] if len(data) > size else data  # of a server that knows no ranges
     else:
         with open(name, "rb") as file:
             file.seek(first)

@@ -94,7 +94,7 @@ def sequence_writer(
         return
     if kind in CACHES:
         with _cache_writer(path, kind, faces, count, overwrite, shared) as write_run:
-            yield _of_first(write_run, shared)
+            yield write_run
         return
     with open_output(path, overwrite=overwrite) as file:
         if kind == "npz":
@@ -103,15 +103,13 @@ def sequence_writer(
         elif kind == "npy":
             write_npy(file, faces)
             yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)
+            shared.loses([*(attribute.name for attribute in shared.attributes()), *shared.metadata()])
         elif kind == "glb":
             with by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared) as write_changing:
                 yield write_changing
         else:
             with by_name("bsm.files.motion.usd", "write_usd")(file, kind, faces, shared) as write_changing:
                 yield write_changing
-            return
-        if kind == "npy":
-            shared.loses([*(attribute.name for attribute in shared.attributes()), *shared.metadata()])
 
 
 def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
@@ -126,16 +124,6 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
                 "numbered files (%04d.obj), GLB, PC2 or USD, or frames of the same faces, --frames A:B"
             )
         write(frame)
-
-    return take
-
-
-def _of_first(write: FrameWriter, shared: Shared) -> FrameWriter:
-    """A writer of a form that has the attributes of the first frame of each run."""
-
-    def take(frame: Positions, faces: Faces | None = None) -> None:
-        write(frame, faces)
-        shared.loses(f"how {attribute.name} changes" for attribute in shared.moved(anew=faces is not None))
 
     return take
 
@@ -182,6 +170,7 @@ def _cache_writer(
                 meshes.append(shared.mesh(np.array(frame), first if faces is None else faces))
             spool.write(np.ascontiguousarray(frame, np.float64).tobytes())
             taken += 1
+            shared.loses(f"how {attribute.name} changes" for attribute in shared.moved(anew=faces is not None))
 
         yield take
         if count and taken != count:

@@ -10,7 +10,7 @@ import bsm
 from bsm import Attribute, BsmWarning, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
 from bsm.files.formats.metadata import images_in, materials_in
 from bsm.files.formats.polygons import meaning_of
-from bsm.files.mesh import format_mesh, read_mesh, write_mesh
+from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, png
 from tests.bsm.program import bsm as program
@@ -211,7 +211,7 @@ def seamed(*more):
 
 def test_a_ply_with_seams_keeps_its_vertices(tmp_path):
     mesh = seamed(Attribute("paint", np.arange(36 * 8, dtype=np.uint8)[:, None].repeat(3, 1), "corner", "generic"))
-    again = read_mesh(format_mesh(mesh, "ply")).mesh
+    again = read_mesh(written_mesh(mesh, "ply").data).mesh
     assert again.positions == pytest.approx(mesh.positions) and np.array_equal(again.faces, mesh.faces)
     for name in ("texcoord", "paint"):
         assert attribute(again, name).domain == "corner"
@@ -251,7 +251,7 @@ def test_a_ply_with_whole_numbers_of_64_bits_and_lists_of_vertices():
 @pytest.mark.parametrize("ends", [("\n", "\n"), ("\r\n", "\r\n"), ("\r", "\r"), ("\n", "\r\n"), ("\r\n", "\n")])
 @pytest.mark.parametrize("comment", ["short", "c" * 70_000])
 def test_line_ends_and_lengths_of_ply_headers(ends, comment):
-    data = format_mesh(torus(5, 4), "ply")
+    data = written_mesh(torus(5, 4), "ply").data
     head, body = data.split(b"end_header\n")
     lines = head.decode().splitlines()
     lines.insert(2, f"comment {comment}")
@@ -584,5 +584,5 @@ def test_an_obj_in_utf16_and_a_ply_with_a_line_that_is_a_comment():
     text = f"{THREE}g \u00fc\nf 1 2 3\n"
     for encoding in ("utf-16", "utf-8-sig"):
         assert names(read_mesh(text.encode(encoding), "obj").mesh, "group") == ["\u00fc"]
-    head, body = format_mesh(torus(5, 4), "ply").split(b"format", 1)
+    head, body = written_mesh(torus(5, 4), "ply").data.split(b"format", 1)
     assert len(read_mesh(head + b"Created by somebody\nformat" + body).mesh.faces) == 40

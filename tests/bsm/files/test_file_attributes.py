@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import bsm
 from bsm import Attribute, BsmError, Limits, TriangleMesh
-from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_mesh, read_mesh, write_mesh, written_mesh
+from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, read_mesh, write_mesh, written_mesh
 from tests.shapes import patch, tetrahedron, torus
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -309,9 +309,9 @@ def test_the_arrays_of_an_npz(tmp_path):
 def test_numbers_of_an_stl():
     mesh = tetrahedron()
     marked = TriangleMesh(mesh.positions, mesh.faces, [Attribute("attribute", np.arange(4, dtype=np.uint16), "face")])
-    again = read_mesh(format_mesh(marked, "stl")).mesh
+    again = read_mesh(written_mesh(marked, "stl").data).mesh
     assert attribute(again, "attribute").values[:, 0].tolist() == [0, 1, 2, 3]
-    assert read_mesh(format_mesh(mesh, "stl")).mesh.attributes == ()
+    assert read_mesh(written_mesh(mesh, "stl").data).mesh.attributes == ()
 
 
 @pytest.mark.parametrize("kind", ["dae", "3mf", "glb"])
@@ -352,7 +352,7 @@ def test_texture_coordinates_of_an_obj_are_written_once():
     """As they are first needed, and 0.0 apart from -0.0."""
     values = np.array([[1, 1], [0, 0.5], [1, 1], [-0.0, 0.5], [0, 0.5], [1, 1]], np.float32)
     mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [Attribute("uv", values, "corner", "texcoord")])
-    lines = format_mesh(mesh, "obj").decode().splitlines()
+    lines = written_mesh(mesh, "obj").data.decode().splitlines()
     assert [line for line in lines if line.startswith("vt")] == ["vt 1 1", "vt 0 0.5", "vt -0 0.5"]
     assert lines[-2:] == ["f 1/1 2/2 3/1", "f 2/3 4/2 3/1"]
 
@@ -360,7 +360,7 @@ def test_texture_coordinates_of_an_obj_are_written_once():
 def test_texture_coordinates_without_seams_have_the_numbers_of_vertices(tmp_path):
     values = np.array([[1, 1], [0, 0.5], [1, 1], [0, 0.5], [0.5, 0], [1, 1]], np.float32)
     mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [Attribute("uv", values, "corner", "texcoord")])
-    lines = format_mesh(mesh, "obj").decode().splitlines()
+    lines = written_mesh(mesh, "obj").data.decode().splitlines()
     assert [line for line in lines if line.startswith("vt")] == ["vt 1 1", "vt 0 0.5", "vt 1 1", "vt 0.5 0"]
     assert lines[-2:] == ["f 1/1 2/2 3/3", "f 2/2 4/4 3/3"]
     vtk = pytest.importorskip("vtkmodules.vtkIOGeometry")
@@ -375,7 +375,7 @@ def test_faces_of_an_obj_are_grouped_unless_they_are():
     mesh = torus(40, 24)
     for numbers, changes in ((np.arange(len(mesh.faces)) % 3, 3), (np.arange(len(mesh.faces)) // 100 % 3, 20)):
         of_faces = Attribute("material", numbers, "face")
-        data = format_mesh(TriangleMesh(mesh.positions, mesh.faces, [of_faces]), "obj")
+        data = written_mesh(TriangleMesh(mesh.positions, mesh.faces, [of_faces]), "obj").data
         assert data.count(b"usemtl") == changes
         again = read_mesh(data, "obj").mesh
         assert np.bincount(attribute(again, "material").values[:, 0]).tolist() == np.bincount(numbers).tolist()

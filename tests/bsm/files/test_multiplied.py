@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bsm import CorruptError, LimitError, Limits, MeshError, TruncatedError
-from bsm.files.mesh import format_mesh, format_of_bytes, read_mesh
+from bsm.files.mesh import format_of_bytes, read_mesh, written_mesh
 from bsm.files.room import gunzipped
 from tests.bsm.program import bsm
 from tests.streams import peak_of
@@ -136,7 +136,7 @@ def test_what_gzip_has_compressed_is_bounded():
 
 def test_gzip_of_several_members():
     mesh = torus(6, 6)
-    text = format_mesh(mesh, "obj")
+    text = written_mesh(mesh, "obj").data
     both = gzip.compress(text[:100]) + gzip.compress(text[100:]) + bytes(10)
     assert gunzipped(both, Limits()) == text
     with pytest.raises(TruncatedError):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, TruncatedError
-from bsm.files.mesh import format_mesh, read_mesh
+from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.sequence import open_sequence
 from tests.gltf import Built
 from tests.shapes import tetrahedron, torus
@@ -20,7 +20,7 @@ OURS = ("obj", "off", "ply", "stl")
 
 @pytest.mark.parametrize("kind", [*OURS, "npz"])
 def test_compressed_files(kind, tmp_path):
-    (tmp_path / f"a.{kind}.gz").write_bytes(gzip.compress(format_mesh(tetrahedron(), kind)))
+    (tmp_path / f"a.{kind}.gz").write_bytes(gzip.compress(written_mesh(tetrahedron(), kind).data))
     assert len(read_mesh(tmp_path / f"a.{kind}.gz").mesh.faces) == 4
 
 
@@ -41,7 +41,7 @@ def test_what_is_no_number_is_shown():
 
 
 def test_damaged_compressed_files():
-    whole = gzip.compress(format_mesh(torus(), "ply"))
+    whole = gzip.compress(written_mesh(torus(), "ply").data)
     with pytest.raises(TruncatedError, match="cut short"):
         read_mesh(whole[:-20])
     with pytest.raises(CorruptError, match="damaged"):

@@ -3,7 +3,7 @@
 import pytest
 
 import bsm
-from bsm.files.mesh import format_mesh
+from bsm.files.mesh import written_mesh
 from tools.vectors.meshes import torus
 
 fsspec = pytest.importorskip("fsspec")
@@ -23,7 +23,7 @@ def store():
     files = fsspec.filesystem("memory")
     files.store.clear()
     with files.open("/in/mesh.ply", "wb") as file:
-        file.write(format_mesh(torus(6, 6), "ply"))
+        file.write(written_mesh(torus(6, 6), "ply").data)
     yield files
     files.store.clear()
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.files.mesh import format_mesh, read_mesh
+from bsm.files.mesh import read_mesh, written_mesh
 from tests.bsm.test_libraries import painted
 from tests.shapes import torus
 
@@ -71,7 +71,7 @@ def test_exact_numbers_come_back():
     mesh = torus()
     heat = bsm.Attribute("heat <&> \x01", np.linspace(0, 1, len(mesh.positions)) ** 3)
     far = bsm.TriangleMesh(mesh.positions + 1e7, mesh.faces, (heat,))
-    again = read_mesh(format_mesh(far, "vtp")).mesh
+    again = read_mesh(written_mesh(far, "vtp").data).mesh
     assert np.array_equal(again.positions, far.positions)
     assert again.attributes[0].name == "heat <&> _" and np.array_equal(again.attributes[0].values, heat.values)
 
@@ -93,14 +93,14 @@ def test_exact_numbers_come_back():
     ],
 )
 def test_what_is_wrong_is_reported(before, after):
-    data = format_mesh(torus(), "vtp")
+    data = written_mesh(torus(), "vtp").data
     assert data.count(before) >= 1
     with pytest.raises(bsm.BsmError):
         read_mesh(data.replace(before, after))
 
 
 def test_what_is_cut_short_is_reported():
-    data = format_mesh(torus(5, 4), "vtp")
+    data = written_mesh(torus(5, 4), "vtp").data
     for size in range(100, len(data) - 40, 7):
         with pytest.raises(bsm.BsmError):
             read_mesh(data[:size], "vtp")

@@ -9,7 +9,7 @@ the file's name is "image.0.name", its bytes are "image.0.data". Which face has 
 import json
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -234,16 +234,15 @@ def one_line(text: str) -> str:
 # --------------------------------------------------------------------------------------------------- the files beside
 
 
-def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[str, Value], list[str]]:
-    """Return metadata with the contents of the files that they name, `most` bytes at most, and notes on the others."""
+def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dict[str, Value], list[str]]:
+    """Return metadata with the contents of the files that they name, and notes on those that `read` has not."""
     found = dict(metadata)
     notes: list[str] = []
-    beside = Beside(folder, most)
     libraries: list[bytes] = []
     for line in str(found.get("mtllib", "")).split("\n"):
-        whole = beside.read(line)
+        whole = read(line)
         for name in [line] if isinstance(whole, bytes) or len(line.split()) < 2 else line.split():
-            if isinstance(library := beside.read(name), bytes):
+            if isinstance(library := read(name), bytes):
                 libraries.append(library)
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
@@ -252,7 +251,7 @@ def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[st
         name, place = str(found[key]), key.removesuffix("name") + "data"
         if place in found:
             continue
-        image = beside.read(name)
+        image = read(name)
         if isinstance(image, bytes) and kind_of_image(image) is None:
             image = "it is not an image"
         if isinstance(image, bytes):

@@ -298,9 +298,12 @@ def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limit
     require_count("faces", triangles, limits)
     memory = PER_JOINED * triangles + PER_PART * len(counts)
     limits.check_memory(memory, vertices, received)
-    parts = list(given)
-    kinds = {(column.name, column.domain) for part in parts for column in part.columns}
-    limits.check_memory(memory + PER_JOINED * len(kinds) * triangles, vertices, received)
+    parts: list[Part] = []
+    kinds: set[tuple[str, Domain]] = set()
+    for part in given:
+        parts.append(part)
+        kinds |= {(column.name, column.domain) for column in part.columns}
+        limits.check_memory(memory + PER_JOINED * len(kinds) * triangles, vertices, received)
     begin = np.cumsum([0, *(len(part.positions) for part in parts)])
     nothing = np.empty(0, np.int64)
     columns, notes = joined_columns(parts)

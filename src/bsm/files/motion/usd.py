@@ -40,9 +40,17 @@ from bsm.files.room import Doubles, Ints, require_count, single_suffices
 from bsm.lengths import metres
 
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
-_SINGLE = {"metallic": "metallicFactor", "roughness": "roughnessFactor", "opacityThreshold": "alphaCutoff"}
-_PAINTED = {"diffuseColor": "baseColorTexture", "emissiveColor": "emissiveTexture"}
-_PAINTED |= {"normal": "normalTexture", "occlusion": "occlusionTexture"}
+_INPUTS = {
+    "diffuseColor": ("Color3f", "baseColorFactor", "baseColorTexture"),
+    "emissiveColor": ("Color3f", "emissiveFactor", "emissiveTexture"),
+    "normal": ("Normal3f", "", "normalTexture"),
+    "occlusion": ("Float", "", "occlusionTexture"),
+    "metallic": ("Float", "metallicFactor", ""),
+    "roughness": ("Float", "roughnessFactor", ""),
+    "opacityThreshold": ("Float", "alphaCutoff", ""),
+}
+"""The kind of an input of a surface, and what glTF calls its number and its texture."""
+_USUAL = {"diffuseColor": [1.0] * 4, "emissiveColor": [0.0] * 3}
 _COORDINATES = "st"  # what texture coordinates are called
 
 
@@ -79,17 +87,9 @@ class Materials:
         entries = formats.described({number: dict(words) for words, number in self._known.items()})
         names = {f"image.{number}.name": name for name, number in self._images.items()}
         if not zipfile.is_zipfile(self._path):
-            return formats.fetched({**entries, **names}, Path(self._path).parent, most)
-        packed: dict[str, formats.Value] = {}
-        with zipfile.ZipFile(self._path) as package, suppress(zipfile.BadZipFile, NotImplementedError, RuntimeError):
-            for key, name in names.items():
-                image = next((entry for entry in package.infolist() if entry.filename == name.removeprefix("./")), None)
-                if image is not None and image.compress_type == zipfile.ZIP_STORED and image.file_size <= most:
-                    data = package.read(image)
-                    packed |= {key.replace(".name", ".data"): data} if formats.kind_of_image(data) else {}
-        lacking = [name for key, name in names.items() if key.replace(".name", ".data") not in packed]
-        notes = [f"the image {name} was left out, its name was kept: it is not in the package" for name in lacking]
-        return {**entries, **names, **packed}, notes
+            return formats.fetched({**entries, **names}, formats.Beside(Path(self._path).parent, most).read)
+        with zipfile.ZipFile(self._path) as package:
+            return formats.fetched({**entries, **names}, lambda name: _packed(package, name, most))
 
     def _bound(self, prim: Any) -> Any:
         return self._shade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
@@ -104,25 +104,22 @@ class Materials:
         surface = material.ComputeSurfaceSource()[0]
         if not surface or surface.GetIdAttr().Get() != _SURFACE:
             return words
-        color = self._value(surface, "diffuseColor", 3)
-        opacity = self._value(surface, "opacity", 1) or [1.0]
-        for name, painted in _PAINTED.items():
-            texture = self._texture(surface, name)
+        values = {
+            name: self._value(surface, name, 3 if kind == "Color3f" else 1) for name, (kind, _, _) in _INPUTS.items()
+        }
+        for name, (_, _, painted) in _INPUTS.items():
+            texture = self._texture(surface, name) if painted else None
             if texture is None:
                 continue
             image = texture.GetInput("file").Get() if texture.GetInput("file") else None
             if image is not None and image.path:
                 words[painted] = self._images.setdefault(str(image.path), len(self._images))
             if name == "diffuseColor":
-                color = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
-        if color is not None and [*color, *opacity] != [1.0] * 4:
-            words["baseColorFactor"] = _text([*color, *opacity])
-        if emitted := self._value(surface, "emissiveColor", 3):
-            words |= {"emissiveFactor": _text(emitted)} if any(emitted) else {}
-        for name, known in _SINGLE.items():
-            if value := self._value(surface, name, 1):
-                words[known] = _text(value)
-        return words
+                values[name] = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
+        if color := values["diffuseColor"]:
+            color += self._value(surface, "opacity", 1) or [1.0]
+        found = {known: (values[name], _USUAL.get(name)) for name, (_, known, _) in _INPUTS.items() if known}
+        return words | {known: _text(value) for known, (value, usual) in found.items() if value and value != usual}
 
     def _texture(self, shader: Any, name: str) -> Any:
         """The texture that an input takes its value from, if it takes it from one."""
@@ -138,6 +135,15 @@ class Materials:
         value = given.Get() if given else None
         numbers = np.array([] if value is None else value, np.float64).reshape(-1)
         return numbers.tolist() if len(numbers) == width and np.isfinite(numbers).all() else None
+
+
+def _packed(package: zipfile.ZipFile, name: str, most: int) -> bytes | str:
+    """The bytes of a file in a package, or why there are none."""
+    with suppress(KeyError, zipfile.BadZipFile, NotImplementedError, RuntimeError):
+        entry = package.getinfo(name.removeprefix("./"))
+        if entry.compress_type == zipfile.ZIP_STORED and entry.file_size <= most:
+            return package.read(entry)
+    return "it is not in the package"
 
 
 def _text(numbers: Iterable[float]) -> str:
@@ -163,7 +169,7 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         place = mesh.GetPath().AppendChild(name)
         place = mesh.GetPath().AppendChild(f"{name}_{number}") if stage.GetPrimAtPath(place) else place
         bound[number] = shade.Material.Define(stage, place)
-        shaded = _Surface(pxr, bound[number], files).write(formats.gltf_values(known))
+        shaded = _write_surface(pxr, bound[number], formats.gltf_values(known), files)
         written |= {
             f"material.{number}.{key}"
             for key in known
@@ -197,69 +203,51 @@ def bind_materials(
         api.Apply(subset.GetPrim()).Bind(material)
 
 
-class _Surface:
-    def __init__(self, pxr: Any, material: Any, images: Mapping[int, str]) -> None:
-        self._pxr, self._types, self._images = pxr, pxr.Sdf.ValueTypeNames, images
-        self._stage, self._path = material.GetPrim().GetStage(), material.GetPath()
-        self._surface = self._shader("surface", _SURFACE)
-        material.CreateSurfaceOutput().ConnectToSource(self._surface.ConnectableAPI(), "surface")
+def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Mapping[int, str]) -> set[str]:
+    """Write the words of glTF for which USD has an input, and return these."""
+    types, stage, written = pxr.Sdf.ValueTypeNames, material.GetPrim().GetStage(), {"name"}
 
-    def write(self, words: Mapping[str, Any]) -> set[str]:
-        """Write the words of glTF for which USD has an input, and return these."""
-        types, written = self._types, {"name"}
-        factor = words.get("baseColorFactor")
-        for name, painted in _PAINTED.items():
-            image = words.get(painted, -1)
-            if image in self._images:
-                kind = types.Float if name == "occlusion" else types.Normal3f if name == "normal" else types.Color3f
-                scale = factor if name == "diffuseColor" else None
-                self._paint(name, kind, self._images[image], scale)
-                written.add(painted)
-        if factor is not None:
-            if "baseColorTexture" not in written:
-                self._set("diffuseColor", types.Color3f, self._pxr.Gf.Vec3f(*factor[:3]))
-            if factor[3] < 1.0:
-                self._set("opacity", types.Float, factor[3])
-            written.add("baseColorFactor")
-        emitted = words.get("emissiveFactor")
-        if emitted is not None and "emissiveTexture" not in written:
-            self._set("emissiveColor", types.Color3f, self._pxr.Gf.Vec3f(*emitted))
-            written.add("emissiveFactor")
-        for name, known in _SINGLE.items():
-            if known in words:
-                self._set(name, types.Float, words[known])
-                written.add(known)
-        return written
+    def shader(name: str, kind: str) -> Any:
+        made = pxr.UsdShade.Shader.Define(stage, material.GetPath().AppendChild(name))
+        made.CreateIdAttr(kind)
+        return made
 
-    def _paint(self, name: str, kind: Any, file: str, scale: list[float] | None) -> None:
-        types = self._types
-        reader = self._shader("coordinates", _READER)
+    surface = shader("surface", _SURFACE)
+    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
+    factor = words.get("baseColorFactor")
+    if factor is not None and factor[3] < 1.0:
+        surface.CreateInput("opacity", types.Float).Set(factor[3])
+    for name, (kind, known, painted) in _INPUTS.items():
+        value: Any = words.get(known)
+        image = images.get(words.get(painted, -1))
+        if value is None and image is None:
+            continue
+        given = surface.CreateInput(name, getattr(types, kind))
+        if image is None:
+            given.Set(pxr.Gf.Vec3f(*value[:3]) if kind == "Color3f" else value)
+            written.add(known)
+            continue
+        written.add(painted)
+        reader = shader("coordinates", _READER)
         reader.CreateInput("varname", types.String).Set(_COORDINATES)
-        texture = self._shader(f"{name}_texture", _TEXTURE)
-        texture.CreateInput("file", types.Asset).Set(self._pxr.Sdf.AssetPath(f"./{file}"))
+        texture = shader(f"{name}_texture", _TEXTURE)
+        texture.CreateInput("file", types.Asset).Set(pxr.Sdf.AssetPath(f"./{image}"))
         texture.CreateInput("st", types.Float2).ConnectToSource(reader.ConnectableAPI(), "result")
         for side in ("wrapS", "wrapT"):
             texture.CreateInput(side, types.Token).Set("repeat")
-        if scale is not None:
-            texture.CreateInput("scale", types.Float4).Set(self._pxr.Gf.Vec4f(*scale[:3], 1.0))
+        if name == "diffuseColor" and factor is not None:
+            texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(*factor[:3], 1.0))
+            written.add(known)
         if name == "normal":
-            texture.CreateInput("scale", types.Float4).Set(self._pxr.Gf.Vec4f(2.0, 2.0, 2.0, 1.0))
-            texture.CreateInput("bias", types.Float4).Set(self._pxr.Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
+            texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(2.0, 2.0, 2.0, 1.0))
+            texture.CreateInput("bias", types.Float4).Set(pxr.Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
         if name in ("normal", "occlusion"):
             texture.CreateInput("sourceColorSpace", types.Token).Set("raw")
-        given, channels = self._surface.CreateInput(name, kind), "r" if name == "occlusion" else "rgb"
-        given.ConnectToSource(texture.ConnectableAPI(), channels)
-
-    def _set(self, name: str, kind: Any, value: Any) -> None:
-        self._surface.CreateInput(name, kind).Set(value)
-
-    def _shader(self, name: str, kind: str) -> Any:
-        shader = self._pxr.UsdShade.Shader.Define(self._stage, self._path.AppendChild(name))
-        shader.CreateIdAttr(kind)
-        return shader
+        given.ConnectToSource(texture.ConnectableAPI(), "r" if kind == "Float" else "rgb")
+    return written
 
 
-PER_PART, PER_VALUE = 4000.0, 24.0  # bytes of a mesh or an instance, and of each number of its attributes
+PER_PART = 4000.0  # bytes of a mesh or an instance
 MOST_PRIMS, MOST_NAMED = 1 << 16, 12
 PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
@@ -448,7 +436,7 @@ def _require_room(path: str, limits: Limits) -> None:
 
 class _Stage:
     def __init__(self, path: str, limits: Limits) -> None:
-        self._limits, self._path = limits, path
+        self._limits, self._size = limits, os.path.getsize(path)
         self.pxr = pxr = import_usd()
         _require_room(path, limits)
         try:
@@ -470,7 +458,6 @@ class _Stage:
         pxr, left = self.pxr, dict[str, list[str]]()
         shapes_of = dict[str, _Shape]()
         totals = dict.fromkeys(("vertices", "faces", "parts"), 0)
-        size = os.path.getsize(self._path)
 
         def part(prim: Any, instance: tuple[_Instancer, int, Any] | None = None) -> Iterator[_Part]:
             key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
@@ -482,7 +469,7 @@ class _Stage:
             totals["parts"] += 1
             for name in ("vertices", "faces"):
                 require_count(name, totals[name], self._limits)
-            self._limits.check_memory(PER_PART * totals["parts"], totals["vertices"], size)
+            self._limits.check_memory(PER_PART * totals["parts"], totals["vertices"], self._size)
             if shape.rows["face"] or shape.rows["corner"]:
                 yield _Part(shape, prim, instance)
 
@@ -499,10 +486,6 @@ class _Stage:
                 yield from self._instances(_Instancer(pxr, prim), part, left)
             elif prim.IsA(pxr.UsdGeom.Mesh):
                 yield from part(prim)
-        widths = {(c.name, c.domain): c.values.shape[1] for shape in shapes_of.values() for c in shape.columns}
-        # Each part gets each attribute, which has no more values than there are corners.
-        numbers = sum(widths.values()) * (3 * totals["faces"] + totals["vertices"])
-        self._limits.check_memory(PER_VALUE * numbers, totals["vertices"], size)
         self.notes += [f"left out, {why}: {', '.join(paths[:MOST_NAMED])}" for why, paths in left.items()]
 
     def _instances(
@@ -546,8 +529,6 @@ class _Stage:
     def renew(self, time: float) -> None:
         """Give the parts the faces and primvars that they have at a time."""
         self.parts = [part.renewed(self.pxr, time) for part in self.parts]
-        require_count("vertices", sum(part.shape.vertices for part in self.parts), self._limits)
-        require_count("faces", sum(part.shape.triangles for part in self.parts), self._limits)
 
     @property
     def changes(self) -> bool:
@@ -568,10 +549,8 @@ class _Stage:
             corners, name = shape.corners[order], part.name if len(self.parts) > 1 else part.prim.GetName()
             return shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name)
 
-        counts = [
-            (part.shape.vertices, max(len(part.shape.corners) - 2 * len(part.shape.counts), 0)) for part in self.parts
-        ]
-        found = shapes.joined_parts(map(made, self.parts), counts, self._limits, 1 << 62)
+        counts = [(part.shape.vertices, max(part.shape.triangles, 0)) for part in self.parts]
+        found = shapes.joined_parts(map(made, self.parts), counts, self._limits, self._size)
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
