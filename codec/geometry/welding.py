@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec.arrays import Faces, Indices, Order, Positions
+from bsm.codec.arrays import Faces, Indices, Mask, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 
@@ -17,6 +17,12 @@ def weld(positions: Positions, faces: Faces, *, bits: bool = False) -> tuple[Pos
     index = group_rows(values.view(np.int64) if bits else values)
     first = first_of(index)
     return (positions if len(first) == len(index) else positions[first]), index[faces], index
+
+
+def degenerate(faces: npt.NDArray[Any]) -> Mask:
+    """Which faces have fewer than three different corners, shape (m,)."""
+    a, b, c = faces.T
+    return np.asarray((a == b) | (b == c) | (a == c))
 
 
 def group_rows(values: npt.NDArray[Any]) -> Indices:

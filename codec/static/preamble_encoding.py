@@ -17,11 +17,11 @@ from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Indices, Levels, Mask, Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import weld
+from bsm.codec.geometry.welding import degenerate, weld
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
 
@@ -57,7 +57,7 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
     notes = []
     faces = index[mesh.faces]
-    collapsed = _degenerate(faces) & ~_degenerate(mesh.faces)
+    collapsed = degenerate(faces) & ~degenerate(mesh.faces)
     if keep or collapsed.all():
         collapsed[:] = False
     kept = np.flatnonzero(~collapsed)
@@ -125,11 +125,6 @@ def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
         )
     changed = int((single != mesh.positions).sum())
     return replace(mesh, positions=single), (f"{changed} coordinates were rounded to single precision, by {error:.2g}",)
-
-
-def _degenerate(faces: Indices) -> Mask:
-    a, b, c = faces.T
-    return np.asarray((a == b) | (b == c) | (a == c))
 
 
 FEW_VERTICES = 300  # meshes of fewer have no low frequencies worth speaking of

@@ -128,27 +128,6 @@ static void arrange(const int32_t *faces, int64_t count, Ints starts, int32_t *a
     for (int64_t k = 3 * count; k-- > 0;) around[--starts.data[faces[k]]] = (int32_t)(k / 3);
 }
 
-/* Fix vertices at open borders, and where more than two triangles meet at an edge. */
-static void fix_borders(Surface *surface, int64_t size) {
-    for (int64_t v = 0; v < size; v++) {
-        bool closed = true;
-        for (int turn = 0; turn < 2; turn++) {
-            for (int64_t k = surface->starts[v]; k < surface->starts[v + 1]; k++) {
-                for (int i = 0; i < 3; i++) {
-                    int32_t other = surface->faces[3 * (int64_t)surface->around[k] + i];
-                    if (turn)
-                        closed = closed && (other == v || surface->marks[other] == 2);
-                    else
-                        surface->marks[other] = 0;
-                }
-            }
-            for (int64_t k = surface->starts[v]; !turn && k < surface->starts[v + 1]; k++)
-                for (int i = 0; i < 3; i++) surface->marks[surface->faces[3 * (int64_t)surface->around[k] + i]]++;
-        }
-        if (!closed) surface->states[v] |= FIXED;
-    }
-}
-
 /* Whether the k-th side of a triangle is one of the edges that may become points, each of which is one side so. */
 INLINE bool is_edge(const Surface *surface, int64_t k, int32_t *a, int32_t *b) {
     *a = surface->faces[k];
@@ -179,9 +158,6 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadric
         if (faces.data[k] < 0 || faces.data[k] >= size) return MISUSED;
     Surface surface = {positions.data, faces.data, states.data, quadrics.data, starts.data,
                        around.data,    ends.data,  marks.data,  0};
-    arrange(faces.data, count, starts, around.data);
-    for (int64_t v = 0; v < size; v++) marks.data[v] = 0;
-    fix_borders(&surface, size);
     for (int64_t v = 0; v < size; v++) {
         marks.data[v] = 0;
         owners.data[v] = (int32_t)v;
@@ -203,7 +179,7 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadric
     for (int pass = 0; pass < PASSES && count > target; pass++) {
         int32_t a, b;
         double p[3];
-        if (pass > 0) arrange(faces.data, count, starts, around.data);
+        arrange(faces.data, count, starts, around.data);
         for (int64_t v = 0; v < size; v++) {
             ends.data[v] = (int32_t)v;
             states.data[v] &= FIXED;

@@ -176,11 +176,16 @@ def _of_vertices(attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: n
 def collapsed(positions: Positions, faces: Faces, locked: Mask, target: int) -> tuple[Positions, Faces, Indices]:
     """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1."""
     count, sides = len(positions), 3 * len(faces)
+    ends_of = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    edges, uses = np.unique(ends_of @ np.array([count, 1]), return_counts=True)
+    stay = locked.astype(np.uint8)
+    # At open borders, and where more than two triangles meet at an edge.
+    stay[np.stack(np.divmod(edges[uses != 2], count))] = 1
     moved, left = np.array(positions, np.float64), np.array(faces, np.int32)
     starts, ends, marks, owners = (np.empty(count + more, np.int32) for more in (1, 0, 0, 0))
     scratch = np.empty((count, _TERMS)), starts, np.empty(sides, np.int32), ends, marks
     buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
-    size = _kernels.simplify(moved, left, locked.astype(np.uint8), *scratch, owners, *buckets, target)
+    size = _kernels.simplify(moved, left, stay, *scratch, owners, *buckets, target)
     kept, corners, numbers = compact(moved, left[:size])
     return kept, corners, numbers[owners]
 

@@ -19,6 +19,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import canonical
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
+from bsm.codec.geometry.welding import degenerate
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import compare_sequences
@@ -62,9 +63,7 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
     points = np.asarray(numbered.points, dtype=np.float64)
     if len(np.unique(original)) != len(mesh.positions):
         raise MeshError("Draco dropped vertices; remove those that no face with area uses")
-    a, b, c = mesh.faces.T
-    cornered = mesh.faces[(a != b) & (b != c) & (c != a)]
-    if not np.array_equal(canonical(original[numbered.faces]), canonical(cornered)):
+    if not np.array_equal(canonical(original[numbered.faces]), canonical(mesh.faces[~degenerate(mesh.faces)])):
         raise MeshError("Draco's numbered faces are not those of the original")
     _, identity = np.unique(np.concatenate([points, decoded.positions]), axis=0, return_inverse=True)
     first, second = identity[: len(points)], identity[len(points) :]

@@ -22,7 +22,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import group_rows, weld
+from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.threads import ordered_map
 from bsm.gltf import document as gltf
@@ -42,7 +42,7 @@ from bsm.gltf.coding import (
     drawn,
     stored,
 )
-from bsm.gltf.scene import places_at_rest
+from bsm.gltf.scene import parents_of, places_of
 from bsm.options import encode_options
 
 _SEMANTICS: dict[str, tuple[Semantic, int]] = {
@@ -114,12 +114,13 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
     corners = corners.reshape(-1, 3)
     opens = _opens(arrays, corners)
     positions = arrays.pop("POSITION")
-    normalized = {name: document.is_normalized(index) for name, index in arrays_of(primitives[0]).items()}
+    entries = {name: document.item("accessors", index) for name, index in arrays_of(primitives[0]).items()}
     if not exact:
         arrays |= _levels({name: array for name, array in arrays.items() if name.startswith("WEIGHTS_")})
     attributes, accessors, qualities = [], {"POSITION": (FLOAT, False)}, dict[str, str]()
     for name, array in arrays.items():
-        carried = _carried(name, array, normalized[name] or (name.startswith("WEIGHTS_") and not exact))
+        shares = bool(entries[name].get("normalized")) or (name.startswith("WEIGHTS_") and not exact)
+        carried = _carried(name, array, shares)
         if isinstance(carried, str):
             return carried
         attributes.append(carried[0])
@@ -151,10 +152,10 @@ def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | st
     """What each vertex of a primitive has, or why that cannot be coded."""
     arrays: dict[str, Array] = {}
     for name, index in arrays_of(primitive).items():
-        array = document.array(index)
+        array, normalized = document.array(index), bool(document.item("accessors", index).get("normalized"))
         geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
-        shares = document.is_normalized(index) and (name.startswith("_") or array[0].nbytes % 4 > 0)
-        arrays[name] = _floats(array, document.is_normalized(index)) if geometry or shares else array
+        shares = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
+        arrays[name] = _floats(array, normalized) if geometry or shares else array
     positions = arrays.get("POSITION")
     if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
         return "positions that are not finite floats"
@@ -176,16 +177,11 @@ def _opens(arrays: Mapping[str, Array], faces: npt.NDArray[np.int64]) -> bool:
     moved = [a for name, a in arrays.items() if name.endswith("/POSITION") or name.startswith(("JOINTS_", "WEIGHTS_"))]
     positions = arrays["POSITION"].astype(np.float64)
     triangles = weld(positions, faces.astype(np.int32))[1]
-
-    def flat(triangles: Array) -> npt.NDArray[np.bool_]:
-        a, b, c = triangles.T
-        return np.asarray((a == b) | (b == c) | (a == c))
-
-    closed = flat(triangles) & ~flat(faces)
+    closed = degenerate(triangles) & ~degenerate(faces)
     if not moved or not closed.any():
         return False
     alike = group_rows(np.ascontiguousarray(np.column_stack([positions, *moved]), np.float64))
-    return bool((closed & ~flat(alike[faces])).any())
+    return bool((closed & ~degenerate(alike[faces])).any())
 
 
 def _levels(weights: Mapping[str, Array]) -> dict[str, Array]:
@@ -510,7 +506,7 @@ def _one_grid(
 ) -> list[dict[str, Any]]:
     """Options of each bundle: those whose nodes turn and scale alike share the places and the size of their cells."""
     matrices: dict[object, Array] = {}
-    for node, matrix in places_at_rest(document).items():
+    for node, matrix in places_of(document, parents_of(document)).items():
         entry = document.item("nodes", node)
         matrices.setdefault(entry.get("mesh"), np.eye(4) if "skin" in entry else matrix)
     meshes = {id(primitive): n for n, mesh in enumerate(tree["meshes"]) for primitive in mesh["primitives"]}

@@ -19,8 +19,9 @@ import numpy.typing as npt
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import decode
+from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
-from bsm.files.pipes import Input, file_beside
+from bsm.files.pipes import Input, file_beside, is_url
 from bsm.gltf import coding
 from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, STRIP, TRIANGLES, Array, Tree
 
@@ -110,10 +111,9 @@ class Document:
         return data
 
     def view(self, index: object) -> bytes:
-        data, start, size = self._place(index)
-        return data[start : start + size]
+        return bytes(self._viewed(index))
 
-    def _place(self, index: object) -> tuple[bytes, int, int]:
+    def _viewed(self, index: object) -> memoryview:
         view = self.item("bufferViews", index)
         if unread := self.unread_in(view) & {*self.tree.get("extensionsRequired", [])}:
             raise UnsupportedError(
@@ -122,8 +122,8 @@ class Document:
         if any(name in view.get("extensions", {}) for name in (EXTENSION, *MESHOPT)):
             if index not in self._unpacked:
                 self._unpacked[index] = self._unpack(view["extensions"])
-            return self._unpacked[index], 0, len(self._unpacked[index])
-        return self._plain_place(view, index)
+            return memoryview(self._unpacked[index])
+        return self._plain(view, index)
 
     def unread_in(self, entry: Tree) -> set[str]:
         """The extensions of a buffer or bufferView that are not known here."""
@@ -136,14 +136,12 @@ class Document:
             source = self.item("bufferViews", how["stream"])
             key = ("stream", how["stream"])
             if key not in self._unpacked:
-                data, start, size = self._plain_place(source, how["stream"])
-                mesh = decode(data[start : start + size], limits=self.limits)
+                mesh = decode(bytes(self._plain(source, how["stream"])), limits=self.limits)
                 self._unpacked[key] = mesh, coding.drawn(mesh)
             return coding.array_of(self._unpacked[key], str(how["attribute"]), how.get("componentType")).tobytes()
         how = next(extensions[name] for name in MESHOPT if name in extensions)
         self.limits.check_memory(3 * _count(how, "count") * _count(how, "byteStride"), 0, self.received)
-        data, start, size = self._plain_place(how, "of meshopt")
-        return coding.unpack_meshopt(data[start : start + size], how)
+        return coding.unpack_meshopt(bytes(self._plain(how, "of meshopt")), how)
 
     @cached_property
     def of_draco(self) -> dict[int, tuple[Tree, int]]:
@@ -166,12 +164,12 @@ class Document:
             raise FormatError(f"Draco holds {found.shape} numbers for accessor {index} of {count} values")
         return found.astype(kind)
 
-    def _plain_place(self, view: Tree, index: object) -> tuple[bytes, int, int]:
+    def _plain(self, view: Tree, index: object) -> memoryview:
         data = self.buffer(view.get("buffer"))
         start, size = _count(view, "byteOffset"), _count(view, "byteLength")
         if start + size > len(data):
             raise TruncatedError(f"bufferView {index} of this glTF ends after the {len(data)} bytes of its buffer")
-        return data, start, size
+        return memoryview(data)[start : start + size]
 
     def numbers(self, index: object, *, whole: bool = False) -> Array:
         accessor = self.item("accessors", index)
@@ -220,22 +218,28 @@ class Document:
         name = "" if uri.startswith("data:") else Path(unquote(uri)).name
         return str(image.get("name") or name), self._behind(uri)
 
-    def bytes_of_image(self, index: object) -> bytes | None:
-        """None: they lie at an address, or nowhere."""
-        image = self.item("images", index)
-        if "bufferView" not in image and not str(image.get("uri")).startswith("data:"):
+    def why_absent(self, image: Tree) -> str:
+        """Why the file of an image cannot be read: it lies at an address, or nowhere."""
+        if "bufferView" not in image and not (uri := str(image.get("uri"))).startswith("data:"):
             try:
-                self.file(str(image.get("uri")))
-            except FormatError:
-                return None
-        return self.image(index)[1]
+                self.file(uri)
+            except FormatError as error:
+                return "it lies at an address" if is_url(uri) else str(error)
+        return ""
+
+    def bytes_of_image(self, index: object) -> bytes | None:
+        return None if self.why_absent(self.item("images", index)) else self.image(index)[1]
+
+    def source_of(self, texture: object) -> int | None:
+        """The image of a texture."""
+        entry = self.item("textures", texture)
+        sources = (entry, *entry.get("extensions", {}).values())
+        return next((source["source"] for source in sources if "source" in source), None)
 
     def side_of_texture(self, index: object, usual: int) -> int:
         """The longer side of the image of a texture, in pixels."""
         if index not in self._sides:
-            texture = self.item("textures", index)
-            sources = [texture, *texture.get("extensions", {}).values()]
-            source = next((entry["source"] for entry in sources if "source" in entry), None)
+            source = self.source_of(index)
             data = None if source is None else self.bytes_of_image(source)
             try:
                 self._sides[index] = max(importlib.import_module("PIL.Image").open(io.BytesIO(data or b"")).size)
@@ -243,16 +247,15 @@ class Document:
                 self._sides[index] = usual
         return self._sides[index]
 
-    def is_normalized(self, index: object) -> bool:
-        return bool(self.item("accessors", index).get("normalized"))
-
     def _strided(self, where: Tree, kind: str, count: int, width: int) -> Array:
-        data, start, size = self._place(where["bufferView"])
+        data = self._viewed(where["bufferView"])
         offset, item = _count(where, "byteOffset"), np.dtype(kind).itemsize * width
         stride = _count(self.item("bufferViews", where["bufferView"]), "byteStride") or item
-        if stride < item or (count and offset + stride * (count - 1) + item > size):
-            raise TruncatedError(f"{count} values of {item} bytes do not fit into {size} bytes of their buffer view")
-        return np.array(np.ndarray((count, width), kind, data, start + offset, (stride, np.dtype(kind).itemsize)))
+        if stride < item or (count and offset + stride * (count - 1) + item > len(data)):
+            raise TruncatedError(
+                f"{count} values of {item} bytes do not fit into {len(data)} bytes of their buffer view"
+            )
+        return np.array(np.ndarray((count, width), kind, data, offset, (stride, np.dtype(kind).itemsize)))
 
     def _replace(self, found: Array, sparse: Tree, kind: str, width: int) -> None:
         count, where = _count(sparse, "count"), sparse["indices"]
@@ -384,8 +387,7 @@ def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray
         odd = step % 2 if mode == STRIP else 0
         around = [step, step + 1 + odd, step + 2 - odd] if mode == STRIP else [step + 1, step + 2, 0 * step]
         corners = corners[np.column_stack(around)]
-        a, b, c = corners.T
-        corners = corners[(a != b) & (b != c) & (a != c)]  # not those that only lead to the next piece of a strip
+        corners = corners[~degenerate(corners)]  # not those that only lead to the next piece of a strip
     if corners.size and not (corners.min() >= 0 and corners.max() < count):
         raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
     found: npt.NDArray[np.int64] = corners

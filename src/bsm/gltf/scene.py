@@ -1,8 +1,10 @@
 """The scene of a glTF: curves, nodes, skins and morph targets, at rest or at any time of an animation."""
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
+from types import MappingProxyType
 from typing import Any
 from urllib.parse import unquote
 
@@ -24,13 +26,13 @@ from bsm.files.motion.frames import (
     painted_like,
     rate_of_times,
 )
-from bsm.files.pipes import is_url
 from bsm.files.room import Doubles, Ints, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document, triangles_of
 
 INSTANCING, PER_INSTANCE = "EXT_mesh_gpu_instancing", 2000  # bytes of the node of an instance, at most
-_OF_INSTANCES = ("TRANSLATION", "ROTATION", "SCALE")
+_REST = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
+_OF_INSTANCES = tuple(map(str.upper, _REST))
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,16 +91,17 @@ def matrix_of(translation: Array, rotation: Array, scale: Array) -> Doubles:
     return matrix
 
 
-def local_matrix(tree: Tree, animated: Sequence[Curve | None] = (None, None, None), time: float = 0.0) -> Doubles:
+Curves = Mapping[tuple[int, str], Curve]
+"""Those of an animation: the node and the property that each moves."""
+
+
+def local_matrix(node: int, tree: Tree, curves: Curves, time: float) -> Doubles:
     """The matrix of a node in its parent."""
-    if "matrix" in tree and not any(animated):
+    moved = {name: curves[node, name].at(time) for name in _REST if (node, name) in curves}
+    if "matrix" in tree and not moved:
         return np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
-    rest = (("translation", (0, 0, 0)), ("rotation", (0, 0, 0, 1)), ("scale", (1, 1, 1)))
-    values = [
-        np.asarray(tree.get(name, usual), np.float64).reshape(len(usual)) if curve is None else curve.at(time)
-        for (name, usual), curve in zip(rest, animated, strict=True)
-    ]
-    return matrix_of(*values)
+    rest = {name: np.asarray(tree.get(name, usual), np.float64).reshape(len(usual)) for name, usual in _REST.items()}
+    return matrix_of(**{**rest, **moved})
 
 
 def parents_of(document: Document) -> dict[int, int]:
@@ -120,11 +123,16 @@ def parents_of(document: Document) -> dict[int, int]:
     return parents
 
 
-def places_at_rest(document: Document) -> dict[int, Doubles]:
+_AT_REST: Curves = MappingProxyType({})
+
+
+def places_of(
+    document: Document, parents: Mapping[int, int], curves: Curves = _AT_REST, time: float = 0.0
+) -> dict[int, Doubles]:
     """The matrix of each node of the scene."""
     places: dict[int, Doubles] = {}
-    for node, parent in parents_of(document).items():
-        local = local_matrix(document.item("nodes", node))
+    for node, parent in parents.items():
+        local = local_matrix(node, document.item("nodes", node), curves, time)
         places[node] = places[parent] @ local if parent >= 0 else local
     return places
 
@@ -141,7 +149,7 @@ def place_instances(document: Document, limits: Limits) -> None:
         limits.check_memory(PER_INSTANCE * count, 0, document.received)
         tables = {name: document.numbers(index).astype(np.float64) for name, index in named.items()}
         rows = next(iter(tables.values()))
-        if any(table.shape != (len(rows), 4 if name == "rotation" else 3) for name, table in tables.items()):
+        if any(table.shape != (len(rows), len(_REST[name])) for name, table in tables.items()):
             raise FormatError("the places of a mesh that is drawn several times are not as many, or of other sizes")
         same: Tree = {name: node[name] for name in ("name", "weights") if name in node}
         same |= {"mesh": node.pop("mesh")}
@@ -245,10 +253,8 @@ class Scene:
         for node, parent in self._parents.items():  # parents come first
             if parent in moved:
                 moved.add(node)
-        skins = {id(part.skin): part.skin for part in self.parts if part.skin is not None}
-        return any(part.node in moved for part in self.parts) or any(
-            joint in moved for skin in skins.values() for joint in skin.joints
-        )
+        skins = {id(part.skin): part.skin.joints for part in self.parts if part.skin is not None}
+        return not moved.isdisjoint(chain((part.node for part in self.parts), *skins.values()))
 
     @property
     def keys(self) -> Doubles:
@@ -266,11 +272,7 @@ class Scene:
 
     def _placed(self, time: float) -> Iterator[tuple[Part, Doubles, Doubles]]:
         """Each part with the matrix, or that of each vertex, which places it, and its vertices before that."""
-        places: dict[int, Doubles] = {}
-        for node, parent in self._parents.items():
-            animated = [self._curves.get((node, path)) for path in ("translation", "rotation", "scale")]
-            local = local_matrix(self._nodes[node], animated, time)
-            places[node] = places[parent] @ local if parent >= 0 else local
+        places = places_of(self._document, self._parents, self._curves, time)
         for part in self.parts:
             points = part.base
             if len(part.targets):
@@ -330,7 +332,7 @@ class Scene:
         tables: dict[int, tuple[Doubles, Doubles]] = {}
         for channel in animation.get("channels", []):
             node, path = channel["target"].get("node"), channel["target"]["path"]
-            if node is None or path not in ("translation", "rotation", "scale", "weights"):
+            if node is None or path not in (*_REST, "weights"):
                 self.notes.append(f"channels of {str(path)[:40]} were left out")
                 continue
             sampler = samplers[channel["sampler"]]
@@ -346,10 +348,8 @@ class Scene:
             each = 3 if way == "CUBICSPLINE" else 1
             if path == "weights":
                 values = values.reshape(each * len(times), -1)
-            width = {"translation": 3, "rotation": 4, "scale": 3}.get(path)
-            if width is None:
                 mesh = document.item("meshes", document.item("nodes", node).get("mesh"))
-                width = len(mesh["primitives"][0].get("targets", []))
+            width = len(_REST[path] if path in _REST else mesh["primitives"][0].get("targets", []))
             if values.shape[1] != width:
                 raise FormatError(f"the {path} of node {node} is animated by {values.shape[1]} numbers, not {width}")
             found[int(node), path] = Curve(times, values, way, path == "rotation")
@@ -672,16 +672,8 @@ def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:
 
 def _absent_images(document: Document) -> dict[str, str]:
     """Notes about images that a document names, and that do not lie in its folder or below, by their addresses."""
-    found: dict[str, str] = {}
-    for image in document.items("images"):
-        if (uri := str(image.get("uri", "data:"))).startswith("data:"):
-            continue
-        try:
-            document.file(uri)
-        except FormatError as error:
-            why = "it lies at an address" if is_url(uri) else str(error)
-            found[uri] = f"the image {unquote(uri)[:80]} was left out: {why}"
-    return found
+    absent = {str(image["uri"]): document.why_absent(image) for image in document.items("images") if "uri" in image}
+    return {uri: f"the image {unquote(uri)[:80]} was left out: {why}" for uri, why in absent.items() if why}
 
 
 def _materials(
@@ -700,10 +692,7 @@ def _materials(
         tree = document.item("materials", index)
         for name, value in {**tree, **tree.get("pbrMetallicRoughness", {})}.items():
             if name.endswith("Texture"):
-                texture = document.item("textures", value["index"])
-                sources = [texture, *texture.get("extensions", {}).values()]
-                source = next((entry["source"] for entry in sources if "source" in entry), None)
-                if source is None:
+                if (source := document.source_of(value["index"])) is None:
                     continue
                 image = document.item("images", source)
                 key = str(image.get("bufferView", image.get("uri")))

@@ -6,7 +6,7 @@ import shutil
 import tempfile
 from collections.abc import Iterable
 from contextlib import ExitStack
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
+from bsm.files.formats.ply import table_of
 from bsm.files.output import by_its_own_name, open_output, write_output
 from bsm.files.pipes import inside, is_url
 from bsm.gltf.compress import compress
@@ -22,9 +23,9 @@ from bsm.gltf.write import write_glb
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Ints
 from bsm.tiles.making import keys_of
-from bsm.tiles.manifest import KINDS, Tile
+from bsm.tiles.manifest import Tile
 from bsm.tiles.reading import CARRIED
-from bsm.tiles.shards import Tiles
+from bsm.tiles.shards import Table, Tiles
 
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
@@ -42,8 +43,7 @@ def write_joined(
     with by_its_own_name(tempfile.gettempdir()), ExitStack() as opened:
         tables, faces, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(4))
         counts: list[tuple[int, int]] = []
-        outside, single = [tiles.decoded(*chosen[0])[0][:0]], True
-        width = outside[0].shape[1]
+        outside, single = list[Table](), True
         with console.progress("decoding") as progress:
             for number, (shard, tile) in enumerate(chosen, 1):
                 table, triangles = tiles.decoded(shard, tile)
@@ -58,12 +58,11 @@ def write_joined(
         shared = np.unique(np.concatenate(outside), axis=0)
         numbers = np.full(len(shared), -1, np.int64)
         vertices, total = 0, sum(count for _, count in counts)
-        index = "<i4" if total < 1 << 31 else "<u4"
-        row = _row_of(tiles, single)
+        index, kind = np.int32 if total < 1 << 31 else np.uint32, np.float32 if single else np.float64
         tables.seek(0)
         faces.seek(0)
         for size, triangles_of in counts:
-            table = _read(tables, np.int32, size, width)
+            table = _read(tables, size, shared.shape[1])
             low, high = table[:, :3].min(axis=0).astype(np.int64), table[:, :3].max(axis=0)
             near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
             rows_of = np.flatnonzero(np.isin(keys_of(table[:, :3], low), keys_of(shared[near, :3], low)))
@@ -78,25 +77,17 @@ def write_joined(
             given[fresh] = vertices + np.arange(len(fresh))
             numbers[own] = given[rows_of]
             vertices += len(fresh)
-            rows = np.empty(len(fresh), row)
-            rows["places"] = tiles.lattice.positions(table[fresh, :3])
+            columns = [*zip("xyz", tiles.lattice.positions(table[fresh, :3]).astype(kind).T)]
             for what, values in tiles.values(table[fresh]).items():
-                rows[what] = values
+                columns += zip(CARRIED[what], values.T)
+            of_points, rows = table_of(columns)
             points.write(rows.tobytes())
-            ends = np.empty(triangles_of, [("length", "u1"), ("corners", index, (3,))])
-            ends["length"], ends["corners"] = 3, given[_read(faces, np.int32, triangles_of, 3)]
-            corners.write(ends.tobytes())
-        words = [("float" if single else "double", axis) for axis in "xyz"]
-        for what, (kind, size) in tiles.kinds.items():
-            words += [(KINDS[kind], name) for name in CARRIED[what][:size]]
-        header = (
-            f"ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\n"
-            + "".join(f"property {kind} {name}\n" for kind, name in words)
-            + f"element face {total}\nproperty list uchar {'int' if index == '<i4' else 'uint'} vertex_indices\n"
-            "end_header\n"
-        )
+            of_faces, rows = table_of([("vertex_indices", given[_read(faces, triangles_of, 3)].astype(index))])
+            corners.write(rows.tobytes())
+        lines = ["ply", "format binary_little_endian 1.0", f"element vertex {vertices}", *of_points]
+        lines += [f"element face {total}", *of_faces, "end_header"]
         with open_output(output, overwrite=overwrite) as file, console.progress("writing"):
-            file.write(header.encode())
+            file.write("".join(f"{line}\n" for line in lines).encode())
             for part in (points, corners):
                 part.seek(0)
                 shutil.copyfileobj(part, file, _COPIED)
@@ -147,11 +138,5 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     return len(known)
 
 
-def _row_of(tiles: Tiles, single: bool) -> np.dtype[Any]:
-    """A vertex as it stands in the file."""
-    carried = [(what, kind, (size,)) for what, (kind, size) in tiles.kinds.items()]
-    return np.dtype([("places", "<f4" if single else "<f8", (3,)), *carried])
-
-
-def _read(file: BinaryIO, kind: Any, rows: int, columns: int) -> npt.NDArray[Any]:
-    return np.frombuffer(file.read(columns * rows * np.dtype(kind).itemsize), kind).reshape(-1, columns)
+def _read(file: BinaryIO, rows: int, columns: int) -> Table:
+    return np.frombuffer(file.read(4 * columns * rows), np.int32).reshape(-1, columns)

@@ -12,6 +12,7 @@ from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import farthest_from_surface
+from bsm.codec.geometry.welding import degenerate
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
@@ -116,10 +117,11 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
             for what, table in zip(plan.carried, tables)
         )
 
-    faces, first_face = solid(numbers[corners]), numbers[corners[:1]]
+    faces = numbers[corners]
     del together, corners, numbers
-    if not len(faces):
-        return TriangleMesh(places.astype(np.float64), first_face, carried(np.arange(len(places)))), before
+    if (empty := degenerate(faces)).all():
+        return TriangleMesh(places.astype(np.float64), faces[:1], carried(np.arange(len(places)))), before
+    faces = faces[~empty]
     locked = plan.outside(name, places)
     outside = mapped(folder, "outside", plan.kinds)
     begin, end = plan.ends(name)
@@ -138,16 +140,11 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     return TriangleMesh(new.astype(np.float64), smaller, carried(near)), before + apart * plan.lattice.cell
 
 
-def solid(faces: Faces) -> Faces:
-    """Without triangles whose corners are not three."""
-    a, b, c = faces.T
-    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
-
-
 def simplified(places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int) -> tuple[Places, Faces]:
     """Simplify to about `target` triangles; locked and border vertices stay."""
     low = places.min(axis=0).astype(np.float64)
     kept, corners, _ = collapsed(places - low, faces, locked, target)
     new, numbers, _ = welded(np.rint(kept + low).astype(np.int32))
-    new, smaller, _ = compact(new, solid(numbers[corners]))
+    corners = numbers[corners]
+    new, smaller, _ = compact(new, corners[~degenerate(corners)])
     return (new, smaller) if len(smaller) else (places, faces)

@@ -16,11 +16,11 @@ from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Root
 from bsm.tiles.reading import CARRIED, Kinds
 
-KINDS = {"|u1": "uchar", "<u2": "ushort", "<f4": "float"}  # of numbers that vertices have, and their names in PLY
 MANIFEST = "manifest.json"
 FOOT = 16  # bytes behind the index of a shard
 NO_JSON = (ValueError, KeyError, TypeError, AttributeError, RecursionError)
 _MOST, _FARTHEST_PLACE, _LARGEST = 1 << 60, 1 << 31, 1e290
+_KINDS = ("|u1", "<u2", "<f4")  # of numbers that vertices have
 _SUM = re.compile(r"[0-9a-f]{64}")
 
 
@@ -43,16 +43,6 @@ class Tile:
         return len(self.name) - 1
 
 
-@dataclass(frozen=True)
-class Manifest:
-    """A manifest as it was read, and the parts of it that are computed with."""
-
-    given: Facts
-    lattice: Lattice
-    root: Root
-    kinds: Kinds
-
-
 def json_of(name: str, limits: Limits) -> Any:
     """Return the contents of a JSON file of at most `limits.metadata_bytes`."""
     source = Input(name)
@@ -71,8 +61,8 @@ def _refuse(word: str) -> NoReturn:
     raise ValueError(f"{word} is not a number")
 
 
-def read_manifest(path: str, limits: Limits) -> Manifest:
-    """Read the manifest of a folder or URL."""
+def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kinds]:
+    """Read the manifest of a folder or URL, and the parts of it that are computed with."""
     name = inside(path, MANIFEST)
     try:
         given = json_of(place_of(path, MANIFEST), limits)
@@ -94,24 +84,24 @@ def read_manifest(path: str, limits: Limits) -> Manifest:
         raise FormatError(f"{name}: this is not a manifest of tiles: {error!r:.300}") from error
 
 
-def _checked(given: Facts) -> Manifest:
-    cell, origin = real(given["cell"]), tuple(map(real, _three(given["origin"])))
+def _checked(given: Facts) -> tuple[Facts, Lattice, Root, Kinds]:
+    cell, origin = real(given["cell"]), tuple(map(real, _listed(given["origin"], 3)))
     root = Root(places(given["root"]["low"]), whole(given["root"]["bits"], 1, 59))
     if not cell >= 1.0 / _LARGEST:
         raise ValueError(f"the cell is {cell}")
     kinds = {what: (str(kind), whole(size, 3, 4)) for what, (kind, size) in given.get("attributes", {}).items()}
-    if any(what not in CARRIED or kind not in KINDS for what, (kind, _) in kinds.items()):
+    if any(what not in CARRIED or kind not in _KINDS for what, (kind, _) in kinds.items()):
         raise ValueError("attributes")
     if not isinstance(given["source"], str):
         raise ValueError("source")
     for key in ("vertices", "faces"):
         whole(given[key], 1)
-    for number, level in enumerate(_filled(given["levels"])):
+    for number, level in enumerate(_listed(given["levels"])):
         [whole(level[key], 1) for key in ("tiles", "faces", "bytes")]
         if whole(level["level"]) > 60 or (number and level["level"] <= given["levels"][number - 1]["level"]):
             raise ValueError("the order of levels")
         real(level["error"], 0.0)
-    for shard in _filled(given["shards"]):
+    for shard in _listed(given["shards"]):
         if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not _SUM.fullmatch(shard["sha256"]):
             raise ValueError(shard["file"])
         whole(shard["index"], 2, whole(shard["size"]) - FOOT)
@@ -119,7 +109,7 @@ def _checked(given: Facts) -> Manifest:
         ends(shard)
     if len({shard["file"] for shard in given["shards"]}) < len(given["shards"]):
         raise ValueError("a shard is named twice")
-    return Manifest(given, Lattice(cell, origin), root, kinds)
+    return given, Lattice(cell, origin), root, kinds
 
 
 def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) -> list[Tile]:
@@ -155,7 +145,7 @@ def real(value: Any, least: float = -_LARGEST) -> float:
 
 def places(given: Any) -> tuple[int, ...]:
     """Return a place on the lattice."""
-    return tuple(whole(number, -_FARTHEST_PLACE, _FARTHEST_PLACE) for number in _three(given))
+    return tuple(whole(number, -_FARTHEST_PLACE, _FARTHEST_PLACE) for number in _listed(given, 3))
 
 
 def ends(given: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -166,13 +156,8 @@ def ends(given: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:
     return low, high
 
 
-def _three(given: Any) -> Sequence[Any]:
-    if not isinstance(given, list) or len(given) != 3:
-        raise ValueError("three numbers are expected")
-    return given
-
-
-def _filled(given: Any) -> Sequence[Any]:
-    if not isinstance(given, list) or not given:
-        raise ValueError("a list with something in it is expected")
+def _listed(given: Any, size: int | None = None) -> Sequence[Any]:
+    """Return a list of a size, or of anything at all."""
+    if not isinstance(given, list) or len(given) != (size or len(given) or 1):
+        raise ValueError(f"a list of {size or 'one or more'} is expected")
     return given

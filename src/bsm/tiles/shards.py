@@ -84,6 +84,7 @@ def is_unfinished(folder: str) -> bool | None:
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:
     """Write tiles in their order, and the manifest when all else is there."""
     shards: list[Facts] = []
+    levels: dict[int, Facts] = {}
     waiting = list(reversed(done))
     while waiting:
         name = f"{len(shards):05}.tiles"
@@ -93,21 +94,22 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
             while waiting and offset < SHARD and len(tiles) < MOST_TILES:
                 facts = waiting.pop()
                 data, node = Path(facts["output"]).read_bytes(), Path(facts["output"]).stem
-                sums_of = facts["vertices"], facts["faces"], facts["apart"]
+                counts = facts["vertices"], facts["faces"], facts["apart"]
                 ends = tuple(facts["low"]), tuple(facts["high"])
-                tiles.append(Tile(node, offset, len(data), facts["output_sha256"], *sums_of, *ends))
+                tiles.append(tile := Tile(node, offset, len(data), facts["output_sha256"], *counts, *ends))
                 offset += file.write(data)
+                level = levels.setdefault(
+                    tile.level, {"level": tile.level, "tiles": 0, "faces": 0, "bytes": 0, "error": 0.0}
+                )
+                for sum_of, more in (("tiles", 1), ("faces", tile.faces), ("bytes", tile.size)):
+                    level[sum_of] += more
+                level["error"] = max(level["error"], tile.error)
             index = json.dumps([asdict(tile) for tile in tiles], separators=(",", ":")).encode()
             file.write(index + len(index).to_bytes(8, "little") + _END)
         shards.append({"file": name, "size": offset + len(index) + FOOT, "index": len(index), "tiles": len(tiles)})
-        shards[-1] |= {"sha256": sha256(index).hexdigest(), **_bounds(tiles)}
-    sums: dict[int, dict[str, Any]] = {}
-    for facts in done:
-        level = sums.setdefault(len(Path(facts["output"]).stem) - 1, {"tiles": 0, "faces": 0, "bytes": 0, "error": 0.0})
-        level["tiles"] += 1
-        level["faces"] += facts["faces"]
-        level["bytes"] += facts["output_bytes"]
-        level["error"] = max(level["error"], facts["apart"])
+        lows, highs = zip(*((tile.low, tile.high) for tile in tiles))
+        ends_of = {"low": np.min(lows, axis=0).tolist(), "high": np.max(highs, axis=0).tolist()}
+        shards[-1] |= {"sha256": sha256(index).hexdigest(), **ends_of}
     manifest = {
         "format": "bsm tiles",
         "version": 1,
@@ -119,18 +121,13 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         "attributes": {what: plan.kinds[what] for what in plan.carried},
         "vertices": plan.vertices,
         "faces": plan.faces,
-        "levels": [{"level": level, **sums[level]} for level in sorted(sums)],
+        "levels": [levels[number] for number in sorted(levels)],
         "shards": shards,
     }
     write_output(
         inside(folder, MANIFEST), json.dumps(manifest, indent=1).encode() + b"\n", overwrite=True, follow=False
     )
     return manifest
-
-
-def _bounds(tiles: Sequence[Tile]) -> dict[str, list[int]]:
-    lows, highs = zip(*((tile.low, tile.high) for tile in tiles))
-    return {"low": np.min(lows, axis=0).tolist(), "high": np.max(highs, axis=0).tolist()}
 
 
 def is_tiles(path: str) -> bool:
@@ -165,8 +162,8 @@ def open_tiles(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     >>> part = bsm.open_tiles("scan").region((0, 0, 0), (1, 1, 1), error=0.01)
     """
     name = named(path)
-    found = read_manifest(name, limits)
-    return Tiles(name, found.given, found.lattice, found.root, limits, found.kinds)
+    manifest, lattice, root, kinds = read_manifest(name, limits)
+    return Tiles(name, manifest, lattice, root, limits, kinds)
 
 
 @public
@@ -279,11 +276,8 @@ class Tiles:
 
     def index(self, shard: Facts) -> list[Tile]:
         """Return the index of a shard."""
-        if shard["file"] not in self._held:
-            self._held[shard["file"]] = self._read_index(shard)
-        return self._held[shard["file"]]
-
-    def _read_index(self, shard: Facts) -> list[Tile]:
+        if shard["file"] in self._held:
+            return self._held[shard["file"]]
         name, size = place_of(self.path, shard["file"]), shard["index"] + FOOT
         self.limits.check("metadata_bytes", size)
         data = read_range(name, shard["size"] - size, size)
@@ -294,6 +288,7 @@ class Tiles:
         others = [held for file, held in [*self._held.items()] if file != shard["file"]]  # a thread may have been here
         if twice := {tile.name for tile in tiles} & {tile.name for held in others for tile in held}:
             raise CorruptError(f"{name}: tile {min(twice)} is in another shard, too")
+        self._held[shard["file"]] = tiles
         return tiles
 
     def data(self, shard: Facts, tile: Tile) -> bytes:

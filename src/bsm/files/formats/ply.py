@@ -397,17 +397,22 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     lines += [*free, *(f"comment {line}" for line in (*images, *comments))]
     body = []
     for element, fields in columns.items():
-        length = len(fields[0][1])
-        lines.append(f"element {element} {length}")
-        row: list[Array] = []
-        for name, values in fields:
-            lines.append(f"property {'list uchar ' * (values.ndim - 1)}{_NAMES_OF_TYPES[values.dtype.str[1:]]} {name}")
-            row += [np.full((length, 1), values.shape[1], np.uint8)] if values.ndim == 2 else []
-            little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
-            row.append(little.view(np.uint8).reshape(length, -1))
-        body.append(np.hstack(row).tobytes())
+        properties, rows = table_of(fields)
+        lines += [f"element {element} {len(rows)}", *properties]
+        body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
     return Written(header.encode() + b"".join(body), left_out(mesh, mesh.attributes, omitted), library.beside)
+
+
+def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:
+    """The lines that declare columns, numbers or lists that are as long in each row, and the rows as bytes."""
+    lines, row, length = list[str](), list[Array](), len(columns[0][1])
+    for name, values in columns:
+        lines.append(f"property {'list uchar ' * (values.ndim - 1)}{_NAMES_OF_TYPES[values.dtype.str[1:]]} {name}")
+        row += [np.full((length, 1), values.shape[1], np.uint8)] if values.ndim == 2 else []
+        little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
+        row.append(little.view(np.uint8).reshape(length, -1))
+    return lines, np.hstack(row)
 
 
 def _property_names(attribute: Attribute, taken: list[str]) -> list[str]:
