@@ -102,6 +102,17 @@ def test_untile_gives_the_mesh_back(mesh, suffix, tmp_path):
     assert not (output / ".work").exists()
 
 
+def test_a_tile_whose_vertices_are_all_of_others(tmp_path):
+    fan = [(place, 0, 1) for place in range(2, 66)]
+    arc = np.linspace(0.0, 0.3, 64)
+    positions = np.array([(1, 0, 0), (1, 1, 0), *np.column_stack([arc, arc**2, 0 * arc]).tolist()])
+    write_mesh(tmp_path / "a.ply", bsm.TriangleMesh(positions, [*fan, *np.roll(fan, -1, axis=1).tolist()]))
+    tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 2.0**-12, "--triangles", 64, "--finest")
+    assert program("untile", tmp_path / "out", "-o", tmp_path / "back.ply").returncode == 0
+    back = bsm.load(tmp_path / "back.ply")
+    assert len(back.positions) == 66 and len(back.faces) == 128
+
+
 def test_polygons_and_other_orders_of_obj(tmp_path):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3/1 -2//2 -1\nv 0 1 0\nf 1 2 3 4\n# f 9 9 9\n")
     tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 0.25)

@@ -410,8 +410,8 @@ def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:
     for name, values in columns:
         lines.append(f"property {'list uchar ' * (values.ndim - 1)}{_NAMES_OF_TYPES[values.dtype.str[1:]]} {name}")
         row += [np.full((length, 1), values.shape[1], np.uint8)] if values.ndim == 2 else []
-        little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
-        row.append(little.view(np.uint8).reshape(length, -1))
+        little = np.ascontiguousarray(np.atleast_2d(values.T).T, values.dtype.newbyteorder("<"))
+        row.append(little.view(np.uint8))
     return lines, np.hstack(row)
 
 
