@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Field, Paper, defaults_of
+from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Field
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
@@ -19,6 +19,8 @@ TARGET = Path(__file__).parents[1] / "web/src/constants.ts"
 _PLAIN: dict[Any, str] = {int: "int", float: "float"}
 _OF_A_BUILD = ("vertices", "attributes", "light", "sequence", "paper")
 """Fields that tell which decoder a stream needs."""
+_IN_A_GRID = ("HEADER", "METADATA", "CONNECTIVITY", "GRID", "END")
+"""Frames of a stream on a light grid."""
 _OF_A_GRID = ("vertices", "faces", "center", "scale", "grid", "lattice", "corner", "light")
 _OTHER_LIMITS = {"block_memory": "memory", "block_memory_per_vertex": "memory_per_vertex"}
 """Limits that the browser's decoder calls otherwise: its own `memory` is that of the machine in the page."""
@@ -68,20 +70,18 @@ def limits_there(limits: Limits) -> dict[str, float]:
 def source() -> str:
     """The module."""
     magic = ", ".join(map(str, (*MAGIC, VERSION)))
-    kinds = {kind.value: f'"{kind.name.lower()}"' for kind in FrameType}
+    kinds = {FrameType[name].value: f'"{name.lower()}"' for name in _IN_A_GRID}
     keys = {name: str(HEADER_FIELDS[name].key) for name in _OF_A_BUILD}
     fields = {name: _field(name, HEADER_FIELDS[name]) for name in _OF_A_GRID}
-    law = {camel(name): _number(value) for name, value in defaults_of(Paper).items()}
     granted = {name: _number(value) for name, value in limits_there(Limits()).items()}
     parts = [
         "/** Constants of the format, which `python -m tools.web_constants --write` makes of Python's. */",
         f"/** What a stream begins with: magic and version. */\nexport const PREAMBLE = [{magic}] as const;\n"
         f"/** A payload of fewer bytes has a short checksum (F 3). */\nexport const SHORT = {SHORT};\n"
         f"export const MAX_VARINT_BYTES = {MAX_VARINT_BYTES};",
-        _table("KINDS", "Types of frames (F 3.4).", kinds),
+        _table("KINDS", "Types of frames of a light grid (F 3.4).", kinds),
         _table("HEADER_KEYS", "Keys of the fields that tell which decoder a stream needs (F 4.4).", keys),
         _table("GRID_FIELDS", "The header of a light grid (F 4.4, F 4.6).", fields),
-        _table("LAW", "The law's constants of blocks (F 4).", law),
         _table("LIMITS", "Limits that are Python's (M 14.1).", granted),
     ]
     return "\n\n".join(parts) + "\n"

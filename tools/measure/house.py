@@ -34,12 +34,12 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 60_801,
+    "product in all languages, lines": 60_681,
     "product Python, lines": 33_018,
     "product C and C++, lines": 20_743,
     "product Rust, lines": 908,
-    "product TypeScript, lines": 6_132,
-    "product lines over 120 columns": 218,
+    "product TypeScript, lines": 6_012,
+    "product lines over 120 columns": 216,
     "all Python, lines": 73_114,
     "product modules": 201,
     "product C files and headers": 73,

@@ -6,19 +6,12 @@ export const PREAMBLE = [137, 66, 83, 77, 16] as const;
 export const SHORT = 128;
 export const MAX_VARINT_BYTES = 5;
 
-/** Types of frames (F 3.4). */
+/** Types of frames of a light grid (F 3.4). */
 export const KINDS = {
-    0: "values",
     1: "header",
     2: "metadata",
     3: "connectivity",
-    4: "partition",
-    5: "order",
-    6: "block",
-    7: "gop",
     12: "grid",
-    13: "refinement",
-    14: "attribute",
     15: "end",
 } as const;
 
@@ -41,18 +34,6 @@ export const GRID_FIELDS = {
     lattice: { key: 14, type: "int", low: 1, high: 2147483647, default: [], lengths: [0, 2] },
     corner: { key: 15, type: "int", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
     light: { key: 16, type: "int", low: 0, high: 2, default: 0 },
-} as const;
-
-/** The law's constants of blocks (F 4). */
-export const LAW = {
-    bits: 0,
-    coarser: 0,
-    exact: 0,
-    power: 3,
-    iterations: 1,
-    keyIterations: 2,
-    shift: 0.0078125,
-    springs: 1,
 } as const;
 
 /** Limits that are Python's (M 14.1). */

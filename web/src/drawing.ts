@@ -1,5 +1,4 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
-import { required } from "./required";
 import type { Attribute } from "./attributes";
 import type { Changes, ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./events";
 import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
@@ -246,7 +245,7 @@ export class Drawing {
             this.take(points);
             this.finish();
         }
-        const { vertices, attributes: drawn } = required(this.shape);
+        const { vertices, attributes: drawn } = this.shape!;
         const positions = spread(points, 3, vertices);
         const normals = spread(normalsOf(this.faces, this.origin, points), 3, vertices);
         const small = new Int16Array(normals.length);

@@ -1,5 +1,4 @@
 /** A geometry of three.js that is made of pictures, while they come. */
-import { required } from "./required";
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
 import type { AttributePicture, BegunPicture, DrawnAttribute, FramePicture, GrownPicture, Header, LossEvent, Metadata, Picture, Piece, Shape } from "./index";
 
@@ -175,7 +174,7 @@ export class BSMGeometry extends BufferGeometry {
     }
 
     private keep({ index, positions, normals, attributes }: FramePicture): void {
-        this.frames.push({ positions, normals, attributes, shape: required(this.coming) });
+        this.frames.push({ positions, normals, attributes, shape: this.coming! });
         if (index === 0) this.showFrame(0);
         this.progress.onFrame?.(index, this);
     }

@@ -7,8 +7,7 @@ import type { Kind, Packet } from "./packets";
 const FOLLOWERS: Partial<Record<Kind | "start", readonly Kind[]>> = {
     start: ["header"],
     header: ["connectivity"],
-    connectivity: ["order", "grid", "end"],
-    order: ["grid", "end"],
+    connectivity: ["grid", "end"],
     grid: ["grid", "end"],
 };
 

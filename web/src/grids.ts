@@ -1,8 +1,7 @@
 /** Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else. */
-import { required } from "./required";
 import { crc32 } from "./checksums";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./events";
-import { BsmError, CorruptError, errorLike, UnsupportedError } from "./errors";
+import { BsmError, CorruptError, errorLike } from "./errors";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
@@ -118,11 +117,11 @@ export class Decoder {
     finish(): Mesh {
         this.receiveEof();
         while (this.nextEvent() !== END_OF_STREAM);
-        return { positions: this.positions, faces: required(this.faces), attributes: [] };
+        return { positions: this.positions, faces: this.faces!, attributes: [] };
     }
 
     private get positions(): Float64Array {
-        return this.light.doubles(this.places, 3 * required(this.header).vertices);
+        return this.light.doubles(this.places, 3 * this.header!.vertices);
     }
 
     private accept(packet: Packet): void {
@@ -132,8 +131,7 @@ export class Decoder {
                 this.light.begin(packet.header);
                 return void this.queue.push(packet);
             case "metadata": return void this.queue.push(packet);
-            case "connectivity": return void (this.faces = this.light.faces(packet.data, required(this.header).faces));
-            case "order": throw new UnsupportedError("this build decodes no original order; bsm.js does");
+            case "connectivity": return void (this.faces = this.light.faces(packet.data, this.header!.faces));
             case "grid": return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
                 this.check(packet.positions);
@@ -151,7 +149,7 @@ export class Decoder {
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         if (first === 0) {
             const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
-            this.queue.push({ type: "connectivity", faces: required(this.faces).slice(), vertices: required(this.header).vertices, loose });
+            this.queue.push({ type: "connectivity", faces: this.faces!.slice(), vertices: this.header!.vertices, loose });
         }
         this.places = this.light.decode(data, first, count);
         const vertices = Int32Array.from({ length: count }, (_, i) => first + i);

@@ -1,14 +1,11 @@
 /** The header: what a decoder must know before anything else (specification, F 4). */
-import { GRID_FIELDS, LAW } from "./constants";
+import { GRID_FIELDS } from "./constants";
 import { CorruptError, UnsupportedError } from "./errors";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap, type Value } from "./maps";
 
-type Numbers = Record<"vertices" | "faces" | "blocks" | "blockSize" | "coefficients" | "keyInterval" | "step" | "scale" | "smoothing" | "attributes" | "light", number>;
+type Numbers = Record<"vertices" | "faces" | "blocks" | "blockSize" | "coefficients" | "keyInterval" | "step" | "scale" | "smoothing" | "attributes" | "light" | "bits", number>;
 type Lists = Record<"center" | "refinement" | "grid" | "lattice" | "corner", number[]>;
-
-/** How blocks are coded; only the paper's codec has other than the law's constants (F 4). */
-export type Paper = Readonly<Record<keyof typeof LAW, number>>;
 
 /** The names are those of the specification. */
 export interface Header extends Numbers, Lists {
@@ -18,7 +15,6 @@ export interface Header extends Numbers, Lists {
     run: number;
     /** The run whose mesh this one has; a mesh of its own without one. */
     again?: number;
-    paper: Paper;
 }
 
 /** A field in the header of a light grid: its key and its legal values; a list also has legal `lengths`. */
@@ -37,7 +33,7 @@ const FIELDS = Object.entries<Field>(GRID_FIELDS);
 /** Bytes of a header (F 4.9). */
 const MOST_HEADER = 2 ** 16;
 const LIGHT = 1;
-const OTHERS = { blocks: 0, blockSize: 0, coefficients: 0, keyInterval: 0, step: 2 ** -8, smoothing: 0, attributes: 0, refinement: [], frames: 0, gopFrames: 0, run: 0, again: undefined, paper: LAW };
+const OTHERS = { blocks: 0, blockSize: 0, coefficients: 0, keyInterval: 0, step: 2 ** -8, smoothing: 0, attributes: 0, refinement: [], frames: 0, gopFrames: 0, run: 0, again: undefined, bits: 0 };
 
 /** The header of a light grid in a payload; its counts are checked against `limits`. */
 export function parseHeader(payload: Uint8Array, limits: Limits): Header {

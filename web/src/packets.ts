@@ -9,7 +9,7 @@ import { parseVarint } from "./varint";
 export type Packet =
     | { type: "header"; header: Header }
     | { type: "metadata"; entries: Metadata }
-    | { type: "connectivity" | "order"; data: Uint8Array }
+    | { type: "connectivity"; data: Uint8Array }
     | { type: "grid"; first: number; count: number; data: Uint8Array }
     | { type: "end"; frames: number; crc: number; positions?: number };
 
@@ -63,7 +63,6 @@ export const PARSERS: Parsers = {
         return { type: "metadata", entries };
     },
     connectivity: (payload) => ({ type: "connectivity", data: payload.rest() }),
-    order: (payload) => ({ type: "order", data: payload.rest() }),
     grid: (payload) => ({ type: "grid", first: payload.varint(), count: payload.varint(), data: payload.rest() }),
     end: (payload) => {
         const frames = payload.varint();

@@ -54,7 +54,6 @@ export class Pool {
     private readonly waiting: PooledStream[] = [];
     private task = 0;
     private alone = false;
-    private warned = false;
 
     constructor(private readonly source: Source = here, private limit = LIMIT) {}
 
@@ -68,10 +67,7 @@ export class Pool {
     }
 
     open(listener: Listener, wishes: StreamWishes = {}): StreamDecoding {
-        const stream = new PooledStream(listener, wishes, {
-            begin: (stream, need) => void this.begin(stream, need),
-            end: (stream) => this.end(stream),
-        });
+        const stream: PooledStream = new PooledStream(listener, wishes, (need) => void this.begin(stream, need), () => this.end(stream));
         this.streams.add(stream);
         return stream;
     }
@@ -100,6 +96,7 @@ export class Pool {
         const hand = this.alone ? undefined : this.free(build);
         if (this.alone) return void this.stay(stream);
         if (!hand) return void this.waiting.push(stream);
+        hand.streams.add(stream);
         const helpers = this.helpersFor(stream, hand);
         stream.task = this.task++;
         const ports = helpers.map((helper) => {
@@ -107,7 +104,6 @@ export class Pool {
             helper.worker.postMessage({ help: port2 } satisfies Message, [port2]);
             return port1;
         });
-        for (const member of [hand, ...helpers]) member.streams.add(stream);
         stream.work((message, moved) => hand.worker.postMessage(message, moved), ports);
     }
 
@@ -124,25 +120,24 @@ export class Pool {
         return this.start(build);
     }
 
-    private helpersFor({ need, wishes }: PooledStream, hand: Hand): Hand[] {
+    private helpersFor(stream: PooledStream, hand: Hand): Hand[] {
+        const { need, wishes } = stream;
         const most = Math.min(processors(), this.limit) - 1;
         if (need.build === "quick" || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0) return [];
         const busy = this.hands.filter((other) => other !== hand && other.streams.size > 0).length;
-        hand.streams.add(PLACEHOLDER); // it is not free itself
         const found: Hand[] = [];
         while (found.length < most - busy) {
             const helper = this.free(need.build);
             if (!helper) break;
-            helper.streams.add(PLACEHOLDER);
+            helper.streams.add(stream);
             found.push(helper);
         }
-        for (const member of [hand, ...found]) member.streams.delete(PLACEHOLDER);
         return found;
     }
 
     private start(build: Build): Hand | undefined {
         const worker = this.source.worker(build);
-        if (!worker) return this.settle();
+        if (!worker) return void this.settle();
         const hand: Hand = { build, worker, ready: false, streams: new Set() };
         worker.onmessage = ({ data }: MessageEvent<Answer>) => {
             if ("ready" in data) hand.ready = true;
@@ -156,11 +151,9 @@ export class Pool {
         return hand;
     }
 
-    private settle(): undefined {
+    private settle(): void {
+        if (!this.alone && typeof Worker !== "undefined") console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
         this.alone = true;
-        if (!this.warned && typeof Worker !== "undefined") console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
-        this.warned = true;
-        return undefined;
     }
 
     /** A thread is gone: what it worked on fails, unless it never began. */
@@ -201,11 +194,6 @@ export class Pool {
     }
 }
 
-interface Places {
-    begin: (stream: PooledStream, need: Need) => void;
-    end: (stream: PooledStream) => void;
-}
-
 /** A stream of a pool. All that came is kept until its end, for a build that knows more. */
 class PooledStream implements StreamDecoding {
     closed = false;
@@ -218,7 +206,12 @@ class PooledStream implements StreamDecoding {
     private kernels?: WebAssembly.Module;
     private say?: (message: Message, moved: Transferable[]) => void;
 
-    constructor(private readonly listener: Listener, readonly wishes: StreamWishes, private readonly places: Places) {}
+    constructor(
+        private readonly listener: Listener,
+        readonly wishes: StreamWishes,
+        private readonly begin: (need: Need) => void,
+        private readonly end: () => void,
+    ) {}
 
     receiveData(data: Uint8Array): void {
         this.take(data);
@@ -233,7 +226,7 @@ class PooledStream implements StreamDecoding {
         this.closed = true;
         this.say?.({ task: this.task, stop: true }, []);
         this.pieces.length = 0;
-        this.places.end(this);
+        this.end();
     }
 
     fail(error: BsmError | Error): void {
@@ -281,7 +274,7 @@ class PooledStream implements StreamDecoding {
         else if (!this.known) {
             const need = this.wishes.tolerant ? { build: "whole" as const, vertices: 0 } : needOf(joined(this.pieces));
             this.known = need !== undefined || data === null;
-            if (this.known) this.places.begin(this, need ?? this.need);
+            if (this.known) this.begin(need ?? this.need);
         }
     }
 
@@ -289,13 +282,10 @@ class PooledStream implements StreamDecoding {
     private restart(): void {
         this.say?.({ task: this.task, stop: true }, []);
         [this.say, this.task] = [undefined, -1];
-        this.places.end(this);
-        this.places.begin(this, { ...this.need, build: "whole" });
+        this.end();
+        this.begin({ ...this.need, build: "whole" });
     }
 }
-
-/** Keeps a thread from being taken twice. */
-const PLACEHOLDER = new PooledStream({ onError: () => {} }, {}, { begin: () => {}, end: () => {} });
 
 function joined(pieces: (Uint8Array | null)[]): Uint8Array {
     const there = pieces.flatMap((piece) => piece ?? []);

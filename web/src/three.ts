@@ -12,16 +12,6 @@ export { BSMGeometry, BSMSequence, type Progress, type SequenceEvents };
 /** Threads of all loaders that name no decoder's path of their own. */
 let shared: Pool | undefined;
 
-/** Loads by the signals that stop them. A signal outlives loads: it has one listener, which keeps none that is over. */
-const stoppable = new WeakMap<AbortSignal, Set<AbortController>>();
-
-function stoppedBy(signal: AbortSignal): Set<AbortController> {
-    const found = stoppable.get(signal) ?? new Set();
-    if (!stoppable.has(signal)) signal.addEventListener("abort", () => found.forEach((load) => load.abort(signal.reason)));
-    stoppable.set(signal, found);
-    return found;
-}
-
 /**
  * Loads BSM streams; everything is done in threads of their own, which are kept for the next stream. The geometry of a
  * sequence is that of its first frame; `frames` and `showFrame` have the others, and `BSMSequence` plays them.
@@ -115,9 +105,6 @@ export class BSMLoader extends Loader<BSMGeometry> {
     loadSequence(url: string, onProgress?: (event: ProgressEvent) => void, signal?: AbortSignal): Promise<BSMSequence> {
         let sequence: BSMSequence | undefined;
         const stop = new AbortController();
-        const pass = (): void => stop.abort(signal?.reason);
-        if (signal?.aborted) pass();
-        signal?.addEventListener("abort", pass, { signal: stop.signal });
         return new Promise((keep, fail) => {
             const onFrame = (index: number, geometry: BSMGeometry): void => {
                 if (index > 0) return;
@@ -132,7 +119,8 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 if (sequence) sequence.fail(error);
                 else fail(error);
             };
-            this.load(url, onLoad, onProgress, onError, { onFrame, signal: stop.signal });
+            const either = AbortSignal.any(signal ? [stop.signal, signal] : [stop.signal]);
+            this.load(url, onLoad, onProgress, onError, { onFrame, signal: either });
         });
     }
 
@@ -172,22 +160,21 @@ export class BSMLoader extends Loader<BSMGeometry> {
 
     /** The geometry of a stream that is given its bytes, until somebody or an error stops it. */
     private decoded(progress: Progress | undefined, give: (stream: StreamDecoding, signal: AbortSignal) => Promise<void>): Promise<BSMGeometry> {
-        const own = new AbortController();
-        const stoppers = [this.aborting, this.manager.abortController as AbortController | undefined, progress];
-        const signals = stoppers.flatMap((stopper) => stopper?.signal ?? []);
+        const own = new AbortController(); // a signal outlives loads, and keeps none that is over
+        const stoppers = [own, this.aborting, this.manager.abortController as AbortController | undefined, progress];
+        const signal = AbortSignal.any(stoppers.flatMap((stopper) => stopper?.signal ?? []));
         const found = new Promise<BSMGeometry>((keep, fail) => {
-            for (const signal of signals) signal.throwIfAborted();
+            signal.throwIfAborted();
             const stream = this.open(keep, fail, progress);
             const fall = (error: unknown): void => {
                 stream.close();
                 fail(error);
             };
-            own.signal.onabort = () => fall(own.signal.reason);
-            for (const signal of signals) stoppedBy(signal).add(own);
-            give(stream, own.signal).catch(fall);
+            signal.onabort = () => fall(signal.reason);
+            give(stream, signal).catch(fall);
         });
         return found.finally(() => {
-            for (const signal of signals) stoppedBy(signal).delete(own);
+            signal.onabort = null;
             own.abort();
         });
     }

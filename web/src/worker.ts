@@ -46,10 +46,7 @@ export type Answer = { ready: true } | ({ task: number } & Report);
 
 export type Say = (report: Report, moved?: Transferable[]) => void;
 
-export interface Endpoint {
-    onmessage: ((event: MessageEvent) => void) | null;
-    postMessage(message: unknown, transfer: Transferable[]): void;
-}
+type Endpoint = Pick<MessagePort, "onmessage"> & { postMessage(message: unknown, transfer: Transferable[]): void };
 
 /** Takes the bytes of a stream, and null for their end. */
 export interface StreamWorker {
@@ -62,7 +59,7 @@ export type Guard = (work: () => void) => void;
 export type Open = (start: Start, kernels: Kernels, say: Say, guarded: Guard) => Pick<StreamWorker, "take"> & { close: () => void };
 
 /** Return a worker that takes the bytes of a stream; after its end or a fault it takes and reports nothing more. */
-export function openDesk(open: Open, start: Start, say: Say, kernels = new Kernels(start.kernels)): StreamWorker {
+function opened(open: Open, start: Start, say: Say, kernels = new Kernels(start.kernels)): StreamWorker {
     let over = false;
     let worker: ReturnType<Open> | undefined;
     const stop = (): void => {
@@ -88,14 +85,14 @@ export function openDesk(open: Open, start: Start, say: Say, kernels = new Kerne
 }
 
 /** Take orders from one end of a line. A thread has the kernels of its first stream for all. */
-export function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {}): void {
+function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {}): void {
     const workers = new Map<number, StreamWorker>();
     end.onmessage = ({ data: order }: MessageEvent<Message>) => {
         if ("help" in order) return attend(order.help, open, own);
         const { task } = order;
         if ("start" in order) {
             own.kernels ??= new Kernels(order.start.kernels);
-            workers.set(task, openDesk(open, order.start, (report, moved = []) => end.postMessage({ task, ...report }, moved), own.kernels));
+            workers.set(task, opened(open, order.start, (report, moved = []) => end.postMessage({ task, ...report }, moved), own.kernels));
         } else if ("stop" in order) {
             workers.get(task)?.stop();
             workers.delete(task);
@@ -103,10 +100,16 @@ export function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {
     };
 }
 
-export function serveWith(open: Open): void {
-    const end = self as unknown as Endpoint;
-    attend(end, open);
-    end.postMessage({ ready: true } satisfies Answer, []);
+/** What decodes a stream in this thread, as another one would, and what makes this a thread that decodes, or helps. */
+export function deskOf(open: Open): { openDesk: (start: Start, say: Say) => StreamWorker; serve: () => void } {
+    return {
+        openDesk: (start, say) => opened(open, start, say),
+        serve() {
+            const end = self as unknown as Endpoint;
+            attend(end, open);
+            end.postMessage({ ready: true } satisfies Answer, []);
+        },
+    };
 }
 
 type Decoding = Pick<Decoder, "receiveData" | "receiveEof" | "nextEvent" | "release">;

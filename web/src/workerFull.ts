@@ -1,6 +1,6 @@
 /** The workers of the whole decoder: one decodes and has helpers where that is worthwhile, the other helps. */
 import { Decoder, END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./decoder";
-import { openDesk as opened, serveWith, Reporter, type StreamWorker, type Guard, type Open, type Say, type Start } from "./worker";
+import { deskOf, Reporter, type Guard, type Open, type Say, type Start } from "./worker";
 import type { Header } from "./header";
 import { Helper } from "./helper";
 import type { Share, SharedBlock } from "./share";
@@ -26,7 +26,7 @@ class DecodingWorker implements Taking {
 
     take(data: Uint8Array | null): void {
         this.pieces?.push(data);
-        this.pass(data);
+        this.team?.take(data);
         this.reporter.take(data);
         this.report();
     }
@@ -37,12 +37,11 @@ class DecodingWorker implements Taking {
     }
 
     private findHelpers(header: Header): number {
-        const { helpers, worthwhile } = this.start;
+        const { kernels, limits, tolerant, helpers = [], worthwhile } = this.start;
         const pieces = this.pieces ?? [];
-        const count = Math.min(helpers?.length ?? 0, helpersFor(header, worthwhile));
+        const found = helpers.slice(0, helpersFor(header, worthwhile));
         this.pieces = undefined;
-        if (count === 0 || !helpers) return 0;
-        this.team = new Team(helpers);
+        if (found.length === 0) return 0;
         const onBlock = (shared: SharedBlock): void =>
             this.guarded(() => {
                 this.decoder.receiveBlock(shared);
@@ -53,15 +52,9 @@ class DecodingWorker implements Taking {
                 this.over = why;
                 this.report();
             });
-        const { kernels, limits, tolerant } = this.start;
-        const found = this.team.begin({ kernels, limits, tolerant }, count, { onBlock, onOver });
-        for (const piece of pieces) this.pass(piece);
-        return found;
-    }
-
-    private pass(data: Uint8Array | null): void {
-        if (data) this.team?.receiveData(data);
-        else this.team?.receiveEof();
+        this.team = new Team(found, { kernels, limits, tolerant }, { onBlock, onOver });
+        for (const piece of pieces) this.team.take(piece);
+        return found.length;
     }
 
     private report(): void {
@@ -93,16 +86,7 @@ class HelpingWorker implements Taking {
     }
 }
 
-function open(start: Start, kernels: Kernels, say: Say, guarded: Guard): Taking {
-    return start.share ? new HelpingWorker(start, kernels, start.share, say) : new DecodingWorker(start, kernels, say, guarded);
-}
-
-/** Decode a stream in this thread, as another one would. */
-export function openDesk(start: Start, say: Say): StreamWorker {
-    return opened(open, start, say);
-}
-
-/** Be a thread that decodes, or helps. */
-export function serve(): void {
-    serveWith(open);
-}
+export const { openDesk, serve } = deskOf((start, kernels, say, guarded) => {
+    if (start.share) return new HelpingWorker(start, kernels, start.share, say);
+    return new DecodingWorker(start, kernels, say, guarded);
+});

@@ -39,8 +39,8 @@ for (const build of BUILDS) {
 }
 
 /** Whether a stream has what the small build leaves out. */
-function isLarge({ paper, attributes, gopFrames }: Header): boolean {
-    return paper.bits > 0 || attributes > 0 || gopFrames > 0;
+function isLarge({ bits, attributes, gopFrames }: Header): boolean {
+    return bits > 0 || attributes > 0 || gopFrames > 0;
 }
 
 test("the small build decodes all other meshes to the same", async () => {
@@ -61,9 +61,9 @@ test("the build of sequences decodes those without attributes to the same, and s
         const data = readFileSync(join(folder, `${name}.bsm`));
         const begin = eventsOf(full, data, data.length).next().value as Event;
         assert.ok(begin.type === "header");
-        const { paper, attributes, gopFrames, grid } = begin.header;
+        const { bits, attributes, gopFrames, grid } = begin.header;
         if (grid.length > 0) assert.throws(() => take(data), { name: "UnsupportedError" }, name);
-        if (gopFrames === 0 || paper.bits > 0 || attributes > 0) continue;
+        if (gopFrames === 0 || bits > 0 || attributes > 0) continue;
         assert.deepEqual(take(data), meshOfEvents(eventsOf(full, data, data.length)), name);
         sequences++;
     }

@@ -30,22 +30,24 @@ const FADE = 7; // how fast a shadow fades with the height above the ground, ove
 const MOST = 100_000; // faces that are looked at
 export const GROUND = 2; // width of the ground, over the diagonal
 
-/** How dark the ground is below a mesh that a matrix puts on it, as an alpha map. */
-export function shadowOf(geometry: BufferGeometry, matrix: Matrix4, ground: number, texture = new DataTexture(new Uint8Array(4 * SIDE * SIDE), SIDE, SIDE)): DataTexture {
-    const [place, index] = [geometry.getAttribute("position") as BufferAttribute, geometry.getIndex()!];
+/** How dark the ground is below meshes that a matrix puts on it, as an alpha map. */
+export function shadowOf(geometries: BufferGeometry[], matrix: Matrix4, ground: number, texture = new DataTexture(new Uint8Array(4 * SIDE * SIDE), SIDE, SIDE)): DataTexture {
     let dark = new Float32Array(SIDE * SIDE);
     const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
-    const step = 3 * Math.ceil(geometry.drawRange.count / 3 / MOST);
-    for (let at = 0; at + 2 < Math.min(geometry.drawRange.count, index.count); at += step) {
-        [a, b, c].forEach((corner, k) => corner.fromBufferAttribute(place, index.getX(at + k)).applyMatrix4(matrix));
-        const parts = Math.min(Math.ceil((Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a)) / GROUND) * SIDE), SIDE) || 1;
-        for (let i = 0; i <= parts; i++) {
-            for (let j = 0; i + j <= parts; j++) {
-                const [u, v] = [i / parts, j / parts];
-                const [x, y, z] = [a.x + u * (b.x - a.x) + v * (c.x - a.x), a.y + u * (b.y - a.y) + v * (c.y - a.y), a.z + u * (b.z - a.z) + v * (c.z - a.z)];
-                const cell = SIDE * Math.floor((0.5 - z / GROUND) * SIDE) + Math.floor((0.5 + x / GROUND) * SIDE);
-                const value = DARKEST * Math.exp(FADE * (ground - y));
-                if (dark[cell] < value) dark[cell] = value;
+    const step = 3 * Math.ceil(geometries.reduce((sum, { drawRange }) => sum + drawRange.count, 0) / 3 / MOST);
+    for (const geometry of geometries) {
+        const [place, index] = [geometry.getAttribute("position") as BufferAttribute, geometry.getIndex()!];
+        for (let at = 0; at + 2 < Math.min(geometry.drawRange.count, index.count); at += step) {
+            [a, b, c].forEach((corner, k) => corner.fromBufferAttribute(place, index.getX(at + k)).applyMatrix4(matrix));
+            const parts = Math.min(Math.ceil((Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a)) / GROUND) * SIDE), SIDE) || 1;
+            for (let i = 0; i <= parts; i++) {
+                for (let j = 0; i + j <= parts; j++) {
+                    const [u, v] = [i / parts, j / parts];
+                    const [x, y, z] = [a.x + u * (b.x - a.x) + v * (c.x - a.x), a.y + u * (b.y - a.y) + v * (c.y - a.y), a.z + u * (b.z - a.z) + v * (c.z - a.z)];
+                    const cell = SIDE * Math.floor((0.5 - z / GROUND) * SIDE) + Math.floor((0.5 + x / GROUND) * SIDE);
+                    const value = DARKEST * Math.exp(FADE * (ground - y));
+                    if (dark[cell] < value) dark[cell] = value;
+                }
             }
         }
     }

@@ -14,25 +14,33 @@ const [QUIET, SMOOTH] = [400, 2]; // milliseconds, and by how much pixels are fi
 export type Mode = "one" | "wipe" | "split";
 export type Shading = "smooth" | "flat" | "wire";
 
-/** A mesh, plain or in materials of its own. */
+type AnyMesh = Mesh<BufferGeometry, Material | Material[]>;
+
+/** A mesh, or the tiles of one, plain or in materials of its own. */
 class Drawn {
     readonly holder = new Group();
     readonly clay = new MeshStandardMaterial({ color: CLAY, roughness: 0.6, side: DoubleSide });
     clothes: MeshStandardMaterial[] = [];
-    mesh?: Mesh<BufferGeometry, Material | Material[]>;
 
-    put(geometry: BufferGeometry): void {
-        this.clear();
-        this.mesh = new Mesh<BufferGeometry, Material | Material[]>(geometry, this.clay);
-        this.mesh.frustumCulled = false;
-        this.holder.add(this.mesh);
+    /** Draw these geometries, and no others. */
+    put(geometries: BufferGeometry[]): void {
+        const fresh = new Set(geometries);
+        for (const mesh of [...this.meshes]) {
+            if (fresh.delete(mesh.geometry)) continue;
+            this.holder.remove(mesh);
+            mesh.geometry.dispose();
+        }
+        for (const geometry of fresh) {
+            const mesh = new Mesh(geometry, this.clay);
+            mesh.frustumCulled = geometries.length > 1; // one alone may grow and move out of its bounds
+            this.holder.add(mesh);
+        }
+        for (const material of this.clothes) material.dispose();
+        this.clothes = [];
     }
 
-    clear(): void {
-        this.holder.clear();
-        this.mesh?.geometry.dispose();
-        for (const material of this.clothes) material.dispose();
-        [this.clothes, this.mesh] = [[], undefined];
+    get meshes(): AnyMesh[] {
+        return this.holder.children as AnyMesh[];
     }
 
     get materials(): MeshStandardMaterial[] {
@@ -64,7 +72,6 @@ export class Stage {
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private readonly drawn = [new Drawn(), new Drawn(), new Drawn()];
-    private readonly tiles = new Group();
     private shading: Shading = "smooth";
     private stale = true;
     private moved = 0;
@@ -83,11 +90,13 @@ export class Stage {
         this.ground.rotation.x = -Math.PI / 2;
         this.ground.visible = false;
         this.scene.add(this.key, this.ground, this.turned);
-        this.turned.add(this.tiles, ...this.drawn.map(({ holder }) => holder));
+        this.turned.add(...this.drawn.map(({ holder }) => holder));
     }
 
-    show(index: number, geometry: BufferGeometry): void {
-        this.drawn[index].put(geometry);
+    show(index: number, ...geometries: BufferGeometry[]): void {
+        const shown = this.drawn[index];
+        shown.put(geometries);
+        this.whiten(shown.clay, geometries.some((geometry) => geometry.hasAttribute("color")));
         this.shade(this.shading);
     }
 
@@ -117,34 +126,20 @@ export class Stage {
         camera.aim(points, turned.matrixWorld, frontOf(normals).applyEuler(turned.rotation));
     }
 
-    shadow(geometry: BufferGeometry): void {
+    shadow(...geometries: BufferGeometry[]): void {
         const { ground, turned } = this;
         if (ground.position.y === Infinity) return;
-        ground.material.alphaMap = shadowOf(geometry, turned.matrixWorld, ground.position.y, (ground.material.alphaMap as DataTexture | null) ?? undefined);
+        ground.material.alphaMap = shadowOf(geometries, turned.matrixWorld, ground.position.y, (ground.material.alphaMap as DataTexture | null) ?? undefined);
         ground.material.needsUpdate ||= !ground.visible;
         ground.visible = true;
         this.redraw();
     }
 
     clear(): void {
-        for (const shown of this.drawn) shown.clear();
+        for (const shown of this.drawn) shown.put([]);
         this.ground.visible = false;
         this.ground.position.y = Infinity;
-        this.tiles.clear();
         this.camera.reset();
-        this.redraw();
-    }
-
-    together(geometries: BufferGeometry[]): void {
-        const { clay } = this.drawn[0];
-        const fresh = new Set(geometries);
-        for (const mesh of [...this.tiles.children] as Mesh[]) if (!fresh.delete(mesh.geometry)) this.tiles.remove(mesh);
-        for (const geometry of fresh) {
-            const mesh = new Mesh(geometry, clay);
-            this.tiles.add(mesh);
-            this.edge(mesh);
-        }
-        this.whiten(clay, geometries.some((geometry) => geometry.hasAttribute("color")));
         this.redraw();
     }
 
@@ -168,18 +163,18 @@ export class Stage {
                 material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
                 material.needsUpdate = true;
             }
-            if (shown.mesh) this.edge(shown.mesh);
+            shown.meshes.forEach((mesh) => this.edge(mesh));
         }
-        for (const mesh of this.tiles.children as Mesh[]) this.edge(mesh);
         this.redraw();
     }
 
     /** Color the drawn vertices of a mesh; or none of them; or draw the materials that it has. */
     color(index: number, colors?: BufferAttribute, dressed = false): void {
-        const { mesh, clay, clothes } = this.drawn[index];
-        if (!mesh) return;
-        mesh.material = dressed && clothes.length > 0 ? (clothes.length > 1 ? clothes : clothes[0]) : clay;
-        if (colors) mesh.geometry.setAttribute("color", colors);
+        const { meshes, clay, clothes } = this.drawn[index];
+        for (const mesh of meshes) {
+            mesh.material = dressed && clothes.length > 0 ? (clothes.length > 1 ? clothes : clothes[0]) : clay;
+            if (colors) mesh.geometry.setAttribute("color", colors);
+        }
         this.whiten(clay, colors !== undefined);
         this.redraw();
     }
@@ -243,7 +238,7 @@ export class Stage {
         this.renderer.render(this.scene, this.camera);
     }
 
-    private edge(mesh: Mesh<BufferGeometry, Material | Material[]>): void {
+    private edge(mesh: AnyMesh): void {
         mesh.clear();
         if (this.shading !== "wire") return;
         const edges = new Mesh(mesh.geometry, this.wires);

@@ -188,7 +188,7 @@ export class View {
         if (first) stage.place(tiles.extent.center, tiles.extent.diagonal);
         else tiles.look(eye, pixels);
         const shown = tiles.shown;
-        stage.together(shown);
+        stage.show(0, ...shown);
         const faces = shown.reduce((sum, geometry) => sum + geometry.getIndex()!.count / 3, 0);
         const { shards, levels } = tiles.manifest;
         form.say("figures", `${sized(shards.reduce((sum, { size }) => sum + size, 0))} in ${levels.length} levels`);
@@ -203,6 +203,7 @@ export class View {
         else if (!this.meshes.shown && shown.length > 0) {
             this.meshes.shown = true;
             stage.fill(shown.map((geometry) => geometry.getAttribute("position").array));
+            stage.shadow(...shown);
         }
     }
 
