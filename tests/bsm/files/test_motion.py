@@ -244,6 +244,15 @@ def test_a_mirror_turns_the_faces(tmp_path, hand):
     assert mirrored.positions[:, 0].min() == -1 and np.allclose(area_vectors(mirrored), area_vectors(plain))
 
 
+def test_a_face_of_a_part_has_no_vertices_of_the_next(tmp_path):
+    needs("usdc")
+    mesh = "def Mesh {} {{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, {}]\n{}\n}}\n"
+    points = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]"
+    (tmp_path / "a.usda").write_text("#usda 1.0\n" + mesh.format('"a"', 3, points) + mesh.format('"b"', 2, points))
+    with pytest.raises(MeshError, match="a face of /a refers to a vertex that it does not have"):
+        read_mesh(tmp_path / "a.usda")
+
+
 def test_what_a_stage_loses_is_noted(tmp_path):
     pytest.importorskip("pxr.Usd")
     from pxr import Sdf, UsdGeom

@@ -301,6 +301,8 @@ def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limit
     parts: list[Part] = []
     kinds: set[tuple[str, Domain]] = set()
     for part in given:
+        if len(part.corners) and not 0 <= part.corners.min() <= part.corners.max() < len(part.positions):
+            raise MeshError(f"a face of {part.name or 'a part'} refers to a vertex that it does not have")
         parts.append(part)
         kinds |= {(column.name, column.domain) for column in part.columns}
         limits.check_memory(memory + PER_JOINED * len(kinds) * triangles, vertices, received)

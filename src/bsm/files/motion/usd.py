@@ -51,6 +51,7 @@ _INPUTS = {
 }
 """The kind of an input of a surface, and what glTF calls its number and its texture."""
 _USUAL = {"diffuseColor": [1.0] * 4, "emissiveColor": [0.0] * 3}
+_NO_TIME = float("nan")  # as usd-core has it
 _COORDINATES = "st"  # what texture coordinates are called
 
 
@@ -181,9 +182,7 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
     return bound, written
 
 
-def bind_materials(
-    pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int, Any], time: float | None = None
-) -> None:
+def bind_materials(pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int, Any], time: float = _NO_TIME) -> None:
     """Say which faces have which material, from a time on if one is given."""
     numbers = formats.face_numbers(shown, "material")
     api = pxr.UsdShade.MaterialBindingAPI
@@ -191,15 +190,13 @@ def bind_materials(
         if 0 in bound:
             api.Apply(mesh.GetPrim()).Bind(bound[0])
         return
-    code = pxr.Usd.TimeCode.Default() if time is None else pxr.Usd.TimeCode(time)
     geom, family = pxr.UsdGeom, pxr.UsdShade.Tokens.materialBind
     geom.Subset.SetFamilyType(mesh, family, geom.Tokens.nonOverlapping)
     for number, material in bound.items():
-        places = pxr.Vt.IntArray.FromNumpy(np.flatnonzero(numbers.values[:, 0] == number).astype(np.int32))
         subset = geom.Subset.Define(mesh.GetPrim().GetStage(), mesh.GetPath().AppendChild(f"faces_{number}"))
         subset.CreateElementTypeAttr(geom.Tokens.face)
         subset.CreateFamilyNameAttr(family)
-        subset.CreateIndicesAttr().Set(places, code)
+        subset.CreateIndicesAttr().Set(np.flatnonzero(numbers.values[:, 0] == number), time)
         api.Apply(subset.GetPrim()).Bind(material)
 
 
@@ -598,16 +595,8 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
                 yield painted_like(mesh, found)
 
         meshes = changing()
-    return Frames(
-        mesh.faces,
-        count,
-        checked,
-        mesh.attributes,
-        notes,
-        rate,
-        {**mesh.metadata, **({START: first * rate / codes} if first else {})},
-        meshes,
-    )
+    metadata = {**mesh.metadata, **({START: first * rate / codes} if first else {})}
+    return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, metadata, meshes)
 
 
 def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile:
@@ -654,10 +643,8 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterat
                 _written(pxr, mesh, attribute, code)
             if not single_suffices(frame):
                 raise MeshError(f"frame {taken} needs double precision, which points of USD do not have; write npz")
-            points = np.ascontiguousarray(frame, np.float32)
-            mesh.GetPointsAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(points), code)
-            extent = np.array([points.min(axis=0), points.max(axis=0)])
-            mesh.GetExtentAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(extent), code)
+            mesh.GetPointsAttr().Set(frame.astype(np.float32), code)
+            mesh.GetExtentAttr().Set(np.array([frame.min(axis=0), frame.max(axis=0)], np.float32), code)
             taken, before = taken + 1, code
             if taken % 64 == 0:
                 stage.Save()  # saved frames need not stay in memory
@@ -692,8 +679,8 @@ def _begun(
     mesh = geom.Mesh.Define(stage, f"/{name}")
     stage.SetDefaultPrim(mesh.GetPrim())
     mesh.CreateSubdivisionSchemeAttr(geom.Tokens.none)
-    mesh.CreateFaceVertexCountsAttr(pxr.Vt.IntArray(len(first.faces), 3))
-    mesh.CreateFaceVertexIndicesAttr(pxr.Vt.IntArray.FromNumpy(np.ascontiguousarray(first.faces.reshape(-1))))
+    mesh.CreateFaceVertexCountsAttr().Set(np.full(len(first.faces), 3))
+    mesh.CreateFaceVertexIndicesAttr().Set(first.faces.reshape(-1))
     mesh.CreatePointsAttr()
     mesh.CreateExtentAttr()
     materials, written = write_materials(pxr, mesh, first, images)
@@ -711,39 +698,34 @@ def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
 def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMesh, time: float) -> None:
     """Let the mesh have the faces and attributes of a frame from a time on."""
     faces = frame.faces[:0] if is_empty(frame.attributes) else frame.faces
-    mesh.GetFaceVertexCountsAttr().Set(pxr.Vt.IntArray(len(faces), 3), time)
-    corners = np.ascontiguousarray(faces.reshape(-1))
-    mesh.GetFaceVertexIndicesAttr().Set(pxr.Vt.IntArray.FromNumpy(corners), time)
+    mesh.GetFaceVertexCountsAttr().Set(np.full(len(faces), 3), time)
+    mesh.GetFaceVertexIndicesAttr().Set(faces.reshape(-1), time)
     bind_materials(pxr, mesh, frame, materials, time)
     for attribute in _others(frame, materials):
         _written(pxr, mesh, attribute, time)
 
 
-def _written(pxr: Any, mesh: Any, attribute: Attribute, time: float | None = None) -> bool:
+def _written(pxr: Any, mesh: Any, attribute: Attribute, time: float = _NO_TIME) -> bool:
     """Write an attribute as a primvar, or its values at a time; return whether that is possible."""
-    types, width = pxr.Sdf.ValueTypeNames, attribute.components
+    width, name = attribute.components, pxr.Tf.MakeValidIdentifier(attribute.name)
     values = attribute.values.astype(np.float32)
-    name = pxr.Tf.MakeValidIdentifier(attribute.name)
     if attribute.semantic == "color":
-        whole = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}
-        values = values[:, :3] / whole.get(attribute.values.dtype, 1.0)
-        name, kind = ("displayColor" if attribute.name == "color" else name), types.Color3fArray
         if width < 3:
             return False
+        whole = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}
+        values = values[:, :3] / whole.get(attribute.values.dtype, 1.0)
+        name, kind = ("displayColor" if attribute.name == "color" else name), "Color3fArray"
     elif attribute.semantic == "texcoord" and width == 2:
-        name, kind = ("st" if attribute.name == "texcoord" else name), types.TexCoord2fArray
-    elif (attribute.values.astype(np.float32) == attribute.values).all():
-        kind = {1: types.FloatArray, 2: types.Float2Array, 3: types.Float3Array, 4: types.Float4Array}[width]
+        name, kind = (_COORDINATES if attribute.name == "texcoord" else name), "TexCoord2fArray"
+    elif (values == attribute.values).all():
+        kind = f"Float{width if width > 1 else ''}Array"
     else:
         return False
-    tokens = pxr.UsdGeom.Tokens
+    tokens, types = pxr.UsdGeom.Tokens, pxr.Sdf.ValueTypeNames
     place = {"vertex": tokens.vertex, "face": tokens.uniform, "corner": tokens.faceVarying}[attribute.domain]
-    primvar = pxr.UsdGeom.PrimvarsAPI(mesh).CreatePrimvar(name, kind, place)
-    arrays = {1: pxr.Vt.FloatArray, 2: pxr.Vt.Vec2fArray, 3: pxr.Vt.Vec3fArray, 4: pxr.Vt.Vec4fArray}
-    table = np.ascontiguousarray(values[:, 0] if values.shape[1] == 1 else values, np.float32)
-    code = pxr.Usd.TimeCode.Default() if time is None else pxr.Usd.TimeCode(time)
-    primvar.Set(arrays[values.shape[1]].FromNumpy(table), code)
+    primvar = pxr.UsdGeom.PrimvarsAPI(mesh).CreatePrimvar(name, getattr(types, kind), place)
+    primvar.Set(values[:, 0] if values.shape[1] == 1 else values, time)
     if attribute.indices is not None:
         rows = np.ascontiguousarray(attribute.indices.reshape(-1), np.int32)
-        primvar.SetIndices(pxr.Vt.IntArray.FromNumpy(rows), code)
+        primvar.SetIndices(pxr.Vt.IntArray.FromNumpy(rows), pxr.Usd.TimeCode(time))
     return True
