@@ -28,8 +28,8 @@ from bsm.codec.denoise.learnt.cascade import (
     regressed_normals,
     sigmoid,
 )
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored, surroundings
-from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
+from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals, surroundings
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
 from tools.noise import (
@@ -105,7 +105,7 @@ def described(cases: list[Example]) -> tuple[Singles, Singles]:
     """Numbers of the chosen faces of all examples, and their clean normals in the faces' frames."""
     numbers, wanted = [], []
     for case in cases:
-        parts = list(descriptions(case.positions, case.topology, surroundings(case.positions, case.topology)))
+        parts = list(descriptions(case.positions, case.topology, surroundings(case.positions, case.topology, RADIUS)))
         frames = np.concatenate([frame for _, frame in parts])[case.chosen]
         numbers.append(np.concatenate([part for part, _ in parts])[case.chosen])
         wanted.append(np.einsum("kij,kj->ki", frames, case.normals[case.chosen]).astype(np.float32))
@@ -200,7 +200,7 @@ def main(arguments: list[str] | None = None) -> int:
         network = read_networks(chosen.output)[stage]
         if stage + 1 < chosen.stages:
             for case in cases:
-                near = surroundings(case.positions, case.topology)
+                near = surroundings(case.positions, case.topology, RADIUS)
                 normals = regressed_normals(case.positions, case.topology, near, network)
                 case.positions = follow_normals(case.positions, case.topology, normals, VERTEX_ITERATIONS)
         print(f"stage {stage + 1}: {time.process_time() - begin:.0f} CPU s", flush=True)

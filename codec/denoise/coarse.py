@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Indices
-from bsm.codec.blocks.overlap import Block, Blocks, block_size, degree_weights, grow_blocks, metis_partition
+from bsm.codec.blocks.overlap import Blend, Block, Blocks, block_size, degree_weights, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.threads import ordered_map
@@ -49,25 +49,22 @@ class CoarseFilter:
         self._keep = keep
         blocks = grow_blocks(graph, partition, self._size)
         self._blocks = [
-            (block.vertices, weights(block.degrees)[:, None], dictionary)
+            (block.vertices, weights(block.degrees), dictionary)
             for block, dictionary in _dictionaries(blocks, self._width(keep), rules)
         ]
-        self._weights = np.zeros((n, 1))
-        for vertices, copies, _ in self._blocks:
-            self._weights[vertices] += copies
 
     def __call__(self, values: Floats, keep: float = KEEP) -> Floats:
-        """Filter every column of `values`."""
+        """Filter `values`, shape (n, 3)."""
         if not 0.0 < keep <= self._keep:
             raise OptionError(f"keep must be above 0 and at most {self._keep}, not {keep}")
         width = self._width(keep)
-        sums = np.zeros_like(values)
+        blend = Blend(len(values))
         for vertices, copies, dictionary in self._blocks:
             subspace = dictionary[:, :width]
             # Constants are in the subspace but for rounding, which far from the origin would be all there is.
             center = values[vertices].mean(axis=0)
-            sums[vertices] += copies * (subspace @ (subspace.T @ (values[vertices] - center)) + center)
-        return sums / self._weights
+            blend.add(vertices, subspace @ (subspace.T @ (values[vertices] - center)) + center, copies)
+        return blend.all_positions()
 
     @property
     def size(self) -> int:

@@ -6,8 +6,6 @@
 
 int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
     Longs starts, Ints members);
-int64_t inner_pairs(ConstLongs starts, ConstInts members, ConstInts2 pairs, Longs first, Ints own, Ints inside,
-                    Longs inner_starts, Ints inner);
 int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t begin, Ints seen,
               Longs reached_starts, Ints reached);
 void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals);

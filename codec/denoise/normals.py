@@ -16,7 +16,7 @@ from bsm.codec.denoise.surface import (
     follow_normals,
     mean_centroid_distance,
     pair_distances,
-    reach,
+    surroundings,
     without_first,
 )
 from bsm.codec.geometry.graph import Rows
@@ -65,8 +65,7 @@ class GuidedFilter:
         self, positions: Positions, topology: Topology, within: Callable[[Positions], Positions] = np.asarray
     ) -> None:
         self.positions, self.topology, self._within = positions, topology, within
-        centroids = face_geometry(positions, topology.faces).centroids
-        self._near = reach(centroids, topology.patches, RADIUS * mean_centroid_distance(centroids, topology.pairs))
+        self._near = surroundings(positions, topology, RADIUS)
 
     def step(self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Positions:
         """Positions after one iteration: filter the normals once, then let the vertices follow."""
@@ -97,29 +96,24 @@ def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: i
     """Denoise by bilateral filtering of the normals over faces that share a vertex; the boundary stays."""
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
-    geometry = face_geometry(positions, topology.faces)
-    filtering = _normals(geometry, topology, SIGMA_R)
-    for _ in range(iterations):
-        geometry = next(filtering)
-    return follow_normals(positions, topology, geometry.normals, VERTEX_ITERATIONS, ~topology.boundary)
+    normals = next(islice(_normals(positions, topology, SIGMA_R), iterations, None))
+    return follow_normals(positions, topology, normals, VERTEX_ITERATIONS, ~topology.boundary)
 
 
 def filtered_normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Positions]:
     """The positions, shape (n, 3), after 0, 1, 2, ... times two iterations of the filter and twenty vertex updates."""
+    for normals in islice(_normals(positions, topology, sigma_r), 0, None, AT_ONCE):
+        yield follow_normals(positions, topology, normals, PATIENT_VERTICES, ~topology.boundary)
+
+
+def _normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Floats]:
+    """Yield the normals, shape (m, 3), after 0, 1, 2, ... iterations, without end."""
     geometry = face_geometry(positions, topology.faces)
-    filtering = _normals(geometry, topology, sigma_r)
-    while True:
-        yield follow_normals(positions, topology, geometry.normals, PATIENT_VERTICES, ~topology.boundary)
-        for _ in range(AT_ONCE):
-            geometry = next(filtering)
-
-
-def _normals(geometry: FaceGeometry, topology: Topology, sigma_r: float) -> Iterator[FaceGeometry]:
     others = without_first(topology.patches)
     sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
     while True:
+        yield geometry.normals
         geometry = geometry._replace(normals=filter_normals(geometry, geometry.normals, others, sigma_s, sigma_r))
-        yield geometry
 
 
 FineStep = Callable[..., Positions]

@@ -1,5 +1,7 @@
 """Recipes for any mesh: a hand-over from the coarse step, then iterations of a normal filter."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -119,16 +121,9 @@ class Step:
 class Treatments:
     """Results of recipes on one mesh; those with the same hand-over share their start."""
 
-    def __init__(
-        self,
-        noisy: Positions,
-        smooth: Callable[[float], Positions],
-        topology: Topology,
-        view: View | None = None,
-        bound: Bound | None = None,
-    ) -> None:
-        self.noisy, self._smooth, self._topology, self._view = noisy, smooth, topology, view
-        self._within = np.asarray if bound is None else partial(bound.within, noisy)
+    def __init__(self, noisy: Positions, patient: Patient) -> None:
+        self.noisy, self._patient, self._topology = noisy, patient, patient.topology
+        self._within = np.asarray if patient.bound is None else partial(patient.bound.within, noisy)
         self._starts: dict[tuple[str, float], GuidedFilter] = {}
         self._results: dict[Step, Positions] = {}
 
@@ -138,10 +133,10 @@ class Treatments:
         start = self._starts.get(where)
         if start is None:
             if recipe.hand_over == RAYS:
-                assert self._view is not None
-                positions = self._view.flattened(self.noisy, self._topology, recipe.keep)
+                assert self._patient.view is not None
+                positions = self._patient.view.flattened(self.noisy, self._topology, recipe.keep)
             else:
-                smooth = self._smooth(recipe.keep) if recipe.needs_coarse else self.noisy
+                smooth = self._patient.smooth(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
                 positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._topology)
             start = self._starts[where] = GuidedFilter(self._within(positions), self._topology, self._within)
         if recipe.guide == LOCAL:
@@ -192,7 +187,7 @@ class Patient:
     def treated(self, positions: Positions) -> Treatments:
         if isinstance(self.bound, Grid):
             positions = self.bound.parted(positions, self.probe)
-        return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology, self.view, self.bound)
+        return Treatments(positions, self)
 
     def treatments(self, positions: Positions) -> Treatments:
         """Return `treated` of `positions`, shape (n, 3), and keep it until others are asked for; thread-safe."""

@@ -47,39 +47,6 @@ int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts aroun
     return end;
 }
 
-/* For each patch, the rows of `pairs` of which both faces lie in it. Returns how many there are, and lists as many as
- * `inner` has room for. `first`, `own`, `inside` are scratch: one entry a face and one more, a pair, a face. */
-int64_t inner_pairs(ConstLongs starts, ConstInts members, ConstInts2 pairs, Longs first, Ints own, Ints inside,
-                    Longs inner_starts, Ints inner) {
-    int64_t m = starts.size - 1, end = 0;
-    for (int64_t f = 0; f <= m; f++) first.data[f] = 0;
-    for (int64_t p = 0; p < pairs.rows; p++) first.data[pairs.data[2 * p]]++;
-    int64_t before = 0;
-    for (int64_t f = 0; f <= m; f++) {
-        int64_t count = first.data[f];
-        first.data[f] = before;
-        before += count;
-    }
-    for (int64_t p = 0; p < pairs.rows; p++) own.data[first.data[pairs.data[2 * p]]++] = (int32_t)p;
-    for (int64_t f = m; f > 0; f--) first.data[f] = first.data[f - 1];
-    first.data[0] = 0;
-    for (int64_t f = 0; f < m; f++) inside.data[f] = -1;
-    inner_starts.data[0] = 0;
-    for (int64_t f = 0; f < m; f++) {
-        for (int64_t k = starts.data[f]; k < starts.data[f + 1]; k++) inside.data[members.data[k]] = (int32_t)f;
-        for (int64_t k = starts.data[f]; k < starts.data[f + 1]; k++) {
-            int32_t g = members.data[k];
-            for (int64_t q = first.data[g]; q < first.data[g + 1]; q++) {
-                if (inside.data[pairs.data[2 * (int64_t)own.data[q] + 1]] != f) continue;
-                if (end < inner.size) inner.data[end] = own.data[q];
-                end++;
-            }
-        }
-        inner_starts.data[f + 1] = end;
-    }
-    return end;
-}
-
 /* Breadth-first from each point over adjacent points within the radius of it, point `begin` on. Returns the point
  * before which it stopped because a row of it might not fit into `reached`. `seen`, one entry a point, holds -1 when
  * the first point is asked for. */

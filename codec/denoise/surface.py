@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+from scipy import sparse
 
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
@@ -54,14 +55,13 @@ class Topology:
     @cached_property
     def inner(self) -> Rows:
         """For each patch, the rows of `pairs` of which both faces lie in it."""
-        m, pairs = len(self.faces), self.pairs
-        first, own, inside = np.empty(m + 1, np.int64), np.empty(len(pairs), np.int32), np.empty(m, np.int32)
-        starts, inner = np.empty(m + 1, np.int64), np.empty(0, np.int32)
-        while True:
-            count = _kernels.inner_pairs(*self.patches, pairs, first, own, inside, starts, inner)
-            if count == len(inner):
-                return Rows(starts, inner)
-            inner = np.empty(count, np.int32)
+        m, pairs, (starts, members) = len(self.faces), self.pairs, self.patches
+        sides = sparse.csc_matrix(
+            (np.ones(pairs.size, np.int8), pairs.ravel(), 2 * np.arange(len(pairs) + 1)), (m, len(pairs))
+        )
+        held = sparse.csr_matrix((np.ones(len(members), np.int8), members, starts), (m, m)) @ sides.tocsr()
+        inner = (held == 2).tocsr()
+        return Rows(inner.indptr.astype(np.int64), inner.indices)
 
     @cached_property
     def boundary(self) -> Mask:
@@ -103,6 +103,12 @@ def reach(points: Positions, adjacent: Rows, radius: float) -> Rows:
         # A row has at most as many members as there are points; with room for one, the kernel goes on.
         reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
     return Rows(starts, reached[: starts[count]].copy())
+
+
+def surroundings(positions: Positions, topology: Topology, radius: float) -> Rows:
+    """Faces that are reached from each face, within a radius in mean distances of adjacent centroids."""
+    centroids = face_geometry(positions, topology.faces).centroids
+    return reach(centroids, topology.patches, radius * mean_centroid_distance(centroids, topology.pairs))
 
 
 class FaceGeometry(NamedTuple):

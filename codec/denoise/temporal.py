@@ -39,10 +39,8 @@ class TemporalFilter:
         self._copies = np.bincount(np.concatenate(self._blocks), minlength=n)
 
     def __call__(self, frames: Frames) -> Steadied:
-        """Filter frames of shape (T, n, 3); fewer than `FEWEST_FRAMES` come back as they are."""
+        """Filter frames of shape (T, n, 3), at least `FEWEST_FRAMES`."""
         count, n, _ = frames.shape
-        if count < FEWEST_FRAMES:
-            return Steadied(frames, 0.0, 1.0)
 
         def trajectories(index: int) -> Floats:
             vertices = self._blocks[index]

@@ -7,7 +7,6 @@ iterations that a user might ask for; an "oracle" stops a rival at its best.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from itertools import islice
 from pathlib import Path
 
@@ -16,9 +15,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import FrameDenoiser, denoise_automatically
-from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.recipe import Recipe, Treatments
-from bsm.codec.denoise.surface import Topology
+from bsm.codec.denoise.recipe import Patient, Recipe
 from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
 from bsm.files.mesh import read_mesh
 from tools.noise import (
@@ -105,7 +102,7 @@ def denoise_mesh(source: Source) -> Row:
 
 def against_oracle(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> Row:
     """The angle before, behind the best rival that an oracle stops, and behind ours."""
-    treatments = _treatments(noisy, faces)
+    treatments = Patient(faces, len(noisy)).treated(noisy)
     rival = min(_best(treatments.iterates(recipe), angle_of) for recipe in RIVALS.values())
     return {"noisy": angle_of(noisy), "rival": rival, **ours(noisy, faces, angle_of)}
 
@@ -120,7 +117,7 @@ def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float])
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
     """The angle behind the best of the rivals with numbers of iterations that a user might ask for."""
-    treatments = _treatments(noisy, faces)
+    treatments = Patient(faces, len(noisy)).treated(noisy)
     found = []
     for name, rival in RIVALS.items():
         run, done = treatments.iterates(rival), -1
@@ -149,11 +146,6 @@ def flicker(clean: Positions, frames: Positions, faces: Faces) -> float:
     error = frames - clean
     trembling = error[2:] - 2.0 * error[1:-1] + error[:-2]
     return float(np.sqrt(np.square(trembling).sum(axis=2)).mean()) / mean_edge_length(clean[0], faces)
-
-
-def _treatments(noisy: Positions, faces: Faces) -> Treatments:
-    coarse = CoarseFilter(faces, len(noisy))
-    return Treatments(noisy, partial(coarse, noisy), Topology(faces, len(noisy)))
 
 
 def _best(run: Iterator[Positions], angle_of: Callable[[Positions], float]) -> float:

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored, surroundings
-from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
+from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals, surroundings
 from bsm.codec.geometry.graph import Rows
 
 FARTHEST = np.float32(6.0)  # bound of standardised numbers
@@ -85,7 +85,7 @@ class Learnt:
 
 def learnt(positions: Positions, topology: Topology) -> Learnt:
     """Denoise `positions`, shape (n, 3), by all networks in turn."""
-    normals, near = np.zeros((len(topology.faces), 3)), surroundings(positions, topology)
+    normals, near = np.zeros((len(topology.faces), 3)), surroundings(positions, topology, RADIUS)
     for network in read_networks():
         normals = regressed_normals(positions, topology, near, network)
         positions = follow_normals(positions, topology, normals, VERTEX_ITERATIONS)
@@ -94,8 +94,6 @@ def learnt(positions: Positions, topology: Topology) -> Learnt:
 
 def joined(positions: Positions, other: Learnt, share: float, topology: Topology) -> Positions:
     """Positions, shape (n, 3), that follow the mean of their own normals and the learnt ones, whose part is `share`."""
-    if share == 0.0:
-        return positions
     normals = (1.0 - share) * face_geometry(positions, topology.faces).normals + share * other.normals
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     start = (1.0 - share) * positions + share * other.positions

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from bsm.codec import _kernels
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.normals import filter_normals, patch_guidance
-from bsm.codec.denoise.surface import FaceGeometry, Floats, Topology, face_geometry, mean_centroid_distance, reach
+from bsm.codec.denoise.surface import FaceGeometry, Floats, Topology, face_geometry, mean_centroid_distance
 from bsm.codec.geometry.graph import Rows
 
 Singles = npt.NDArray[np.float32]
@@ -22,12 +22,6 @@ NUMBERS = OWN + 3 * len(REPEATED) + 1
 """The last one is the same for the whole mesh: how much its normals differ from the smoothed ones."""
 BASE = slice(45, 48)  # the filtered normal to which a network adds: guided by patches, both kernels wide
 BATCH = 1024  # faces whose numbers pass the layers together: the output of a layer for a batch stays in the cache
-
-
-def surroundings(positions: Positions, topology: Topology) -> Rows:
-    """The faces about each face that a network sees."""
-    centroids = face_geometry(positions, topology.faces).centroids
-    return reach(centroids, topology.patches, RADIUS * mean_centroid_distance(centroids, topology.pairs))
 
 
 def descriptions(positions: Positions, topology: Topology, near: Rows) -> Iterator[tuple[Singles, Floats]]:

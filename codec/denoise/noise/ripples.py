@@ -9,6 +9,7 @@ are believed only if most windows of the mesh are calmer without them.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,14 +27,14 @@ CELL, MOST_CELLS = 0.9, 1 << 24
 DISTINCT = 30.0
 """Power of a peak over the mean of the spectrum: the strongest of some million values of noise is 17, clean meshes
 reach this here and there."""
-MOST_WAVES = 6
+MOST_WAVES = 3
 WORTH = 0.97  # a wave has to lower the level of what the filter sees to this
 SETTLING, POLISHING = 3, 14  # steps after each wave, and after the last
 SMOOTHING = 1  # averagings of the heights at which phases are taken
 FAINTEST, STRONGEST = 0.04, 1.0  # standard deviation of all waves together, in mean edges, that is believed
-CALMER, MANY_WINDOWS, CALMER_OF_FEW = 0.85, 20, 0.62
-"""Median over the windows of the level without the waves, over that with them: of many windows, and of fewer, where six
-waves have more to choose from; clean made shapes of few windows reach 0.67."""
+CALMER, MANY_WINDOWS, CALMER_OF_FEW, PLAIN = 0.85, 20, 0.42, 0.15
+"""Median over the windows of the level without the waves, over that with them, at most: of many windows, and of fewer;
+and the one above which no wave may be left, as there is of the regular bumps of a shape, products of waves."""
 ROUND = 0.05  # share of the normals in their least direction: a corrugated sheet has none, and keeps its waves
 FEWEST = 1000  # vertices
 OUTSIDE = 2.5  # standardised values from which on they are creases, not waves
@@ -78,9 +79,9 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
     lengths = 2.0 * np.pi / np.linalg.norm(fit.vectors, axis=1)
     level = float(fit.amounts.std())
     calmer = float(np.median(probe.levels(fit.rest)[valid] / np.maximum(probe.levels(fit.seen)[valid], 1e-12)))
-    most = CALMER if int(valid.sum()) >= MANY_WINDOWS else CALMER_OF_FEW
     sound = bool(((lengths > LENGTHS[0]) & (lengths < LENGTHS[1])).all())
-    if not sound or not FAINTEST < level < STRONGEST or calmer > most:
+    most = CALMER if int(valid.sum()) >= MANY_WINDOWS else CALMER_OF_FEW
+    if not sound or not FAINTEST < level < STRONGEST or calmer > most or (calmer > PLAIN and fit.peak() is not None):
         return NO_RIPPLES
     return Ripples(lengths, level, edge * fit.amounts[:, None] * fit.normals)
 
@@ -100,8 +101,7 @@ class _Fit:
 
     def with_wave(self, vector: Floats) -> _Fit:
         """A fit with one more wave, its vector of shape (3,), which the next step gives its height."""
-        other = object.__new__(_Fit)
-        other.__dict__.update(self.__dict__)
+        other = copy(self)
         other.vectors = np.vstack([self.vectors, vector])
         return other
 

@@ -26,6 +26,7 @@ from tools.noise import (
     rounded,
     uniform_along_normals,
 )
+from tools.train_noise import bumpy
 
 KINDS = {
     "white": gaussian_along_normals,
@@ -230,11 +231,21 @@ def test_waves_are_taken_away(length: float) -> None:
     assert reference.theta(result) < 0.1 * reference.theta(noisy)
 
 
+def knobbly(size: int, waves: int) -> tuple[np.ndarray, np.ndarray]:
+    """A ball with bumps along its circles of longitude and latitude."""
+    clean, faces = sphere(size)
+    around, up = np.arctan2(clean[:, 1], clean[:, 0]), np.arcsin(clean[:, 2])
+    return clean * (1.0 + 0.02 * np.cos(up) * np.sin(waves * around) * np.sin(waves * up))[:, None], faces
+
+
 def test_neither_clean_shapes_nor_white_noise_nor_corrugated_sheets_have_waves() -> None:
     for shape in (cube, sphere):
         clean, faces = shape(24)
         for positions in (clean, gaussian_along_normals(clean, faces, 0.2, 3)):
             assert len(find_ripples(positions, Probe(Topology(faces, len(clean)))).lengths) == 0
+    for patterned, faces in (bumpy(60, 6, 0.05), bumpy(90, 6, 0.03), knobbly(20, 8), knobbly(26, 13)):
+        result, choice = denoise_automatically(patterned, faces)
+        assert not choice.ripples and (result == patterned).all()
     sheet, faces = grid(40)
     sheet[:, 2] = 0.2 * np.sin(2.0 * np.pi * sheet[:, 0] / 4.0)
     ripples = find_ripples(sheet, Probe(Topology(faces, len(sheet))))

@@ -5,7 +5,7 @@ import pytest
 
 from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
-from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
+from bsm.codec.denoise.temporal import TemporalFilter, noise_deviation, shrunk
 from bsm.codec.geometry.metrics import mean_edge_length, theta
 from tests.codec.denoise.denoise_shapes import sphere
 from tools.noise import gaussian_along_normals
@@ -51,11 +51,6 @@ def test_noise_goes_and_motion_stays() -> None:
     assert rms(steadied.frames - frames) < 0.4 * rms(noisy - frames)
     assert np.sqrt(3.0) * steadied.deviation == pytest.approx(0.3 * EDGE, rel=0.25)
     assert steadied.remaining == pytest.approx(rms(steadied.frames - frames) / rms(noisy - frames), rel=0.5)
-
-
-def test_too_few_frames_come_back_as_they_are() -> None:
-    frames = turning(FEWEST_FRAMES - 1)
-    assert TemporalFilter(FACES, len(CLEAN))(frames).frames is frames
 
 
 @pytest.mark.slow
