@@ -1,9 +1,11 @@
 """Choices that go by a name, and options with a range."""
 
+import types
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import fields
-from numbers import Integral
-from typing import Any, TypeVar
+from numbers import Integral, Real
+from typing import Any, TypeVar, Union, get_args, get_origin
 
 import numpy as np
 
@@ -24,28 +26,49 @@ def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
 def check_options(
     options: Any, choices: Mapping[str, tuple[str, ...]], ranges: Mapping[str, tuple[float, float]]
 ) -> None:
-    """Check the fields of a dataclass that have a list of choices or a closed range by name; None is always legal."""
+    """Give the fields of a dataclass their types, and check those with choices or a closed range; None is legal."""
     for item in fields(options):
-        name, value = item.name, getattr(options, item.name)
-        if isinstance(item.default, bool) and not isinstance(value, (bool, np.bool_)):
-            raise ArgumentError(f"{name} must be True or False, not {value!r}")
+        name, value = item.name, checked(item.name, getattr(options, item.name), item.type)
+        object.__setattr__(options, name, value)
         if value is None:
             continue
-        if name in choices and not (isinstance(value, str) and value in choices[name]):
+        if name in choices and value not in choices[name]:
             raise OptionError(f"{name} must be one of {', '.join(choices[name])}, not {value!r}")
-        if name in ranges:
-            low, high = ranges[name]
-            if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
-                raise ArgumentError(f"{name} must be a number, not {value!r}")
-            if not low <= value <= high:
-                raise OptionError(f"{name} = {value:g} is outside {low:.7g}..{high:.7g}")
+        if name in ranges and not ranges[name][0] <= value <= ranges[name][1]:
+            raise OptionError(f"{name} = {value:g} is outside {ranges[name][0]:.7g}..{ranges[name][1]:.7g}")
+
+
+def checked(name: str, value: Any, hint: Any) -> Any:
+    """Return a value as the type that a field has; raise `ArgumentError` if it is of another."""
+    kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
+    for kind in kinds:
+        with suppress(TypeError):
+            return _as(kind, value)
+    words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
+    expected = " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)
+    raise ArgumentError(f"{name} must be {expected}, not {value!r}")
+
+
+def _as(kind: Any, value: Any) -> Any:
+    """Return a value as one type; raise `TypeError` if it is of another."""
+    origin, parts = get_origin(kind), get_args(kind)
+    usual = {float: Real, int: Integral, bool: (bool, np.bool_), tuple: (tuple, list)}
+    expected: Any = usual.get(origin or kind, origin or kind)
+    if not isinstance(value, expected) or (kind in (float, int) and isinstance(value, bool)):
+        raise TypeError
+    if origin is not tuple:
+        return kind(value) if kind in (float, int, bool) else value
+    if parts[-1] is Ellipsis:
+        return tuple(value)
+    if len(value) != len(parts):
+        raise TypeError
+    return tuple(map(_as, parts, value))
 
 
 def checked_whole(name: str, value: Any, least: int) -> int:
     """Return a whole number of 64 bits."""
-    if isinstance(value, bool) or not isinstance(value, Integral):
-        raise ArgumentError(f"{name} must be a whole number, not {value!r}")
-    if not least <= (number := int(value)) < 1 << 63:
+    number: int = checked(name, value, int)
+    if not least <= number < 1 << 63:
         raise OptionError(f"{name} must be {least} or above, and below 2^63, not {value}")
     return number
 

@@ -9,10 +9,10 @@ from itertools import islice
 
 import numpy as np
 
-from bsm.bitstream.errors import OptionError, public
+from bsm.bitstream.errors import public
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.choices import named
+from bsm.codec.choices import check_options, named
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
 from bsm.codec.denoise.noise.causes import Bound, Grid
@@ -89,13 +89,8 @@ class DenoiseOptions:
     block_size: int = BLOCK_SIZE
 
     def __post_init__(self) -> None:
-        named("hand-over", HAND_OVERS, self.hand_over)
-        named("fine step", FINE_STEPS, self.fine)
-        if self.iterations is not None and self.iterations < 0:
-            raise OptionError(f"iterations must not be negative, not {self.iterations}")
-        if not 0.0 < self.keep <= 1.0 or self.block_size < 1:
-            given = f"{self.keep}, {self.block_size}"
-            raise OptionError(f"keep must be above 0 and at most 1, block_size positive; not {given}")
+        choices = {"hand_over": tuple(HAND_OVERS), "fine": tuple(FINE_STEPS)}
+        check_options(self, choices, {"iterations": (0, 1 << 20), "keep": (1e-6, 1.0), "block_size": (1, 1 << 20)})
 
 
 @dataclass(frozen=True)

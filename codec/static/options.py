@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from bsm.bitstream.errors import ArgumentError, OptionError, public
+from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
@@ -90,11 +90,6 @@ class Paper:
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
-        doi: object = self.doi
-        if doi is not None and not (
-            isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(bound, (int, float)) for bound in doi)
-        ):
-            raise ArgumentError(f"doi must be two thresholds, not {doi!r}")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
 
@@ -199,16 +194,12 @@ class EncodeOptions:
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        if self.target is not None and not isinstance(self.target, Target):
-            raise ArgumentError(f"target must be a Target, not {self.target!r}")
         check_options(self, CHOICES, RANGES)
         if self.quick and self.effort == "best":
             raise OptionError("quick means effort 'quick', and excludes another effort")
         object.__setattr__(self, "effort", "quick" if self.quick else self.effort)
         object.__setattr__(self, "quick", self.effort == "quick")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
-        if not isinstance(self.paper, Paper):
-            raise ArgumentError(f"paper must be a Paper, not {self.paper!r}")
         if self.paper.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
         if self.exact and (self.grid is not None or self.grid_cell is not None or self.quick):

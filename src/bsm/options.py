@@ -6,12 +6,11 @@ import difflib
 import math
 import types
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
 from dataclasses import fields, replace
-from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any, NoReturn, Union, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.codec.choices import checked
 from bsm.lengths import parse_bytes, parse_length
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
             number = min(number, contract.farthest)
         contract = replace(contract, farthest=number, absolute=absolute)
     if look is not None:
-        look = _checked("look", look, float)
+        look = checked("look", look, float)
         contract = replace(contract, look=min(contract.look, look) if named else look)
     given["contract"] = contract
     return given
@@ -85,7 +84,7 @@ def sequence_options(
         raise OptionError(f"a sequence cannot have preset {name}: GOPs round frames together; try near-lossless")
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
-    together = _checked("low_delay", low_delay, int)
+    together = checked("low_delay", low_delay, int)
     base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), low_delay=together)
     quick = bool(quick) or _named("effort", {"quick": True, "normal": False, "best": False}, effort)
     if quick and (bounds or given.get("target") is not None):
@@ -96,7 +95,7 @@ def sequence_options(
         if given.get("target") is not None or given.get("step") is not None:
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
         farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
-        look = _checked("look", bounds.get("look", math.inf if together else PROMISES[name].look), float)
+        look = checked("look", bounds.get("look", math.inf if together else PROMISES[name].look), float)
         given["promise"] = Promise(farthest, look, absolute)
     elif not (together or quick or {"target", "step", "promise"} & {key for key in given if given[key] is not None}):
         given["promise"] = PROMISES[name]
@@ -118,55 +117,27 @@ def _fields(
     target: Callable[[str, float], Target] | None = None,
 ) -> dict[str, Any]:
     """The fields of `options` that keywords give, the target among them."""
-    # Of the constructor, which knows the names of its own module; the class goes by that of `bsm`.
-    hints = get_type_hints(options.__init__)
-    if "paper" in hints:
-        hints |= get_type_hints(hints["paper"].__init__)
-    hints.pop("return", None)
+    from bsm.codec.static.options import EncodeOptions, Paper
+
+    known = [item.name for kind in (options, *([Paper] if options is EncodeOptions else [])) for item in fields(kind)]
     given: dict[str, Any] = {}
     wanted = []
     for name, value in keywords.items():
-        if name in hints:
-            given[name] = _checked(name, value, hints[name])
+        if name in known:
+            given[name] = value
         elif name in targets and target is not None:
             if value is not None:
                 wanted.append(name)
-                number = parse_bytes(name, value) if name == "size" else _checked(name, value, float)
+                number = parse_bytes(name, value) if name == "size" else checked(name, value, float)
                 given["target"] = target(targets[name], number)
         else:
             more = (*(BOUNDS if targets is TARGETS else ()), *(("preset",) if targets else ()))
-            _refuse(name, what, (*hints, *targets, *more))
+            _refuse(name, what, (*known, *targets, *more))
     if keywords.get("target") is not None:
         wanted.append("target")
     if len(wanted) > 1:
         raise OptionError(f"give one target only, not {' and '.join(wanted)}")
     return given
-
-
-def _checked(name: str, value: Any, hint: Any) -> Any:
-    """`value` as the type that a field has; `ArgumentError` if it is of another."""
-    kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
-    for kind in kinds:
-        with suppress(TypeError):
-            return _as(kind, value)
-    words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
-    expected = " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)
-    raise ArgumentError(f"{name} must be {expected}, not {value!r}")
-
-
-def _as(kind: Any, value: Any) -> Any:
-    """`value` as one type; `TypeError` if it is of another."""
-    origin, parts = get_origin(kind), get_args(kind)
-    expected: Any = {float: Real, int: Integral, tuple: (tuple, list)}.get(origin or kind, origin or kind)
-    if not isinstance(value, expected) or (kind in (float, int) and isinstance(value, bool)):
-        raise TypeError
-    if origin is not tuple:
-        return kind(value) if kind in (float, int) else value
-    if parts[-1] is Ellipsis:
-        return tuple(value)
-    if len(value) != len(parts):
-        raise TypeError
-    return tuple(map(_as, parts, value))
 
 
 def _named(what: str, choices: Mapping[str, Any], name: str) -> Any:
