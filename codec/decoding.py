@@ -13,9 +13,9 @@ from bsm._engine import Decoder as Engine
 from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, paper_of
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
-from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, MeshError, OptionError, UnsupportedError, public
+from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces
 from bsm.codec.choices import checked_whole
 from bsm.codec.events import (
     END_OF_STREAM,
@@ -34,7 +34,7 @@ from bsm.codec.events import (
 )
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.progress import Progress, silent
+from bsm.codec.progress import Progress
 from bsm.codec.threads import threads_of
 
 Buffer: TypeAlias = bytes | bytearray | memoryview | npt.NDArray[Any]
@@ -419,26 +419,3 @@ def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = N
     with Decoder(limits, threads) as decoder:
         decoder.receive_data(data)
         return decoder.decode_rest()
-
-
-def decode_sequence(
-    data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, progress: Progress = silent
-) -> tuple[Positions, Faces]:
-    """Decode a complete sequence."""
-    frames: list[Positions] = []
-    faces = np.zeros((0, 3), np.int32)
-    vertices = 0
-    with SequenceDecoder(limits, threads) as decoder:
-        for event in decoder.events([data]):
-            match event:
-                case ConnectivityEvent(received, vertices=count):
-                    if frames and not np.array_equal(faces, received):
-                        raise MeshError(
-                            f"the faces change at frame {len(frames)}, so the frames do not form one array; "
-                            "use bsm.decode_frames"
-                        )
-                    faces, vertices = received, count
-                case FrameEvent(_, positions):
-                    frames.append(positions)
-                    progress(len(frames), decoder._header.frames)
-    return np.array(frames).reshape(-1, vertices, 3), faces

@@ -18,7 +18,7 @@ from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.console import Console, watched
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import format_of_name, save_written, unknown_suffix, written_mesh
-from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
+from bsm.files.pipes import Input, Source, named, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import in_own_unit
 from bsm.libraries import as_mesh, read_any, warn, with_metadata, without_provenance
@@ -438,10 +438,29 @@ def decode_sequence(
     >>> positions.ndim, faces.shape[1]
     (3, 3)
     """
-    from bsm.codec.decoding import decode_sequence as decode_frames
+    import numpy as np
 
-    with watched("decoding", progress) as reported:
-        return decode_frames(read_bytes(stream), limits, threads, reported)
+    from bsm.codec.decoding import SequenceDecoder
+    from bsm.codec.events import ConnectivityEvent, FrameEvent, HeaderEvent
+
+    frames: list[Positions] = []
+    faces, vertices, count = np.zeros((0, 3), np.int32), 0, 0
+    with watched("decoding", progress) as reported, SequenceDecoder(limits, threads) as decoder:
+        for event in decoder.events(read_chunks(stream)):
+            match event:
+                case HeaderEvent(header):
+                    count = header.frames
+                case ConnectivityEvent(received, vertices):
+                    if frames and not np.array_equal(faces, received):
+                        raise MeshError(
+                            f"the faces change at frame {len(frames)}, so the frames do not form one array; "
+                            "use bsm.decode_frames"
+                        )
+                    faces = received
+                case FrameEvent(_, positions):
+                    frames.append(positions)
+                    reported(len(frames), count)
+    return np.array(frames).reshape(-1, vertices, 3), faces
 
 
 def load(source: Source, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:

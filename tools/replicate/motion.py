@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+import bsm
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.decoding import decode_sequence
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.targets import compare_sequences
@@ -85,7 +85,7 @@ def measure_motion(moving: Moving) -> Row:
     for label, words in OURS.items():
         encoder = SequenceEncoder(faces, sequence_options(threads=1, **words), len(frames))
         data = b"".join(encoder.chunks(frames))
-        decoded, coded = decode_sequence(data, threads=1)
+        decoded, coded = bsm.decode_sequence(data, threads=1)
         points[label] = {"bytes": len(data), **errors(frames[:, encoder.vertex_order], decoded, coded)}
     for bits in DRACO_BITS:
         meshes = [TriangleMesh(frame, faces) for frame in frames]

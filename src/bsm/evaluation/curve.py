@@ -32,15 +32,12 @@ from bsm.files.inspection import inspect_stream
 from bsm.files.output import open_output, write_output
 
 
-def encode_draco(mesh: TriangleMesh, position_bits: int, level: int) -> bytes:
-    draco = _draco()
+def encode_draco(mesh: TriangleMesh, position_bits: int, level: int, **more: Any) -> bytes:
+    draco, settings = _draco(), {"quantization_bits": position_bits, "compression_level": level, **more}
     try:
-        data: bytes = draco.encode(
-            mesh.positions.astype(np.float32), mesh.faces, quantization_bits=position_bits, compression_level=level
-        )
+        return bytes(draco.encode(mesh.positions.astype(np.float32), mesh.faces, **settings))
     except draco.EncodingFailedException as error:
         raise MeshError(f"Draco does not take this mesh: {error}") from error
-    return data
 
 
 def decode_draco(data: bytes) -> TriangleMesh:
@@ -51,14 +48,7 @@ def decode_draco(data: bytes) -> TriangleMesh:
 def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits: int) -> Positions:
     """What Draco made of each vertex of `mesh`, given the mesh that it decoded."""
     numbers = np.arange(len(mesh.positions), dtype=np.uint32)[:, None]
-    data = _draco().encode(
-        mesh.positions.astype(np.float32),
-        mesh.faces,
-        quantization_bits=position_bits,
-        compression_level=10,
-        generic_attributes={0: numbers},
-    )
-    numbered = _draco().decode(data)
+    numbered = _draco().decode(encode_draco(mesh, position_bits, 10, generic_attributes={0: numbers}))
     original = numbered.get_attribute_by_unique_id(0)["data"].reshape(-1).astype(np.int64)
     points = np.asarray(numbered.points, dtype=np.float64)
     if len(np.unique(original)) != len(mesh.positions):
@@ -187,14 +177,14 @@ def paper_options(**changes: Any) -> EncodeOptions:
     return changed(EncodeOptions(), **{**settings, "threads": 1, "limits": "wide", **changes})
 
 
-def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) -> tuple[Curve, ...]:
+def paper_curves(block_size: int) -> tuple[Curve, ...]:
     """The lines of the paper's rate-distortion figure: full SVD, orthogonal iterations of several kinds, and DOI."""
 
     def line(name: str, label: str, settings: Sequence[dict[str, Any]]) -> Curve:
         return Curve(name, label, tuple(Spectral(paper_options(block_size=block_size, **c)) for c in settings))
 
     dynamic = [{"keep": 0.4, "doi": (0.9 * threshold, threshold)} for threshold in PAPER_THRESHOLDS]
-    fixed = (line(name, label, [{"keep": keep, **own} for keep in keeps]) for name, label, own in PAPER_LINES)
+    fixed = (line(name, label, [{"keep": keep, **own} for keep in PAPER_KEEPS]) for name, label, own in PAPER_LINES)
     return (*fixed, line("doi-r1", "DOI, R", dynamic))
 
 
@@ -219,8 +209,7 @@ def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int
     """Encode and decode once or more, and return all measurements."""
     encode_seconds, (data, align) = timed(lambda: codec.encode(mesh), repeats)
     decode_seconds, decoded = timed(lambda: codec.decode(data), repeats)
-    comparison = reference.compare(align(decoded))
-    parts = codec.parts(data)
+    errors, parts = asdict(reference.compare(align(decoded))), codec.parts(data)
     bpv_paper, geometry = parts.pop("bpv_paper"), parts["coefficients"]
     vertices = len(mesh.positions)
     return {
@@ -229,10 +218,7 @@ def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int
         "bpv_total": 8 * len(data) / vertices,
         "bpv_geometry": None if geometry is None else 8 * geometry / vertices,
         "bpv_paper": bpv_paper,
-        "nmsve_db": finite(comparison.nmsve_db),
-        "theta_deg": comparison.theta_deg,
-        "rms_relative": comparison.rms_relative,
-        "max_error_relative": comparison.max_error_relative,
+        **{name: finite(errors[name]) for name in ("nmsve_db", "theta_deg", "rms_relative", "max_error_relative")},
         "encode_seconds": encode_seconds,
         "decode_seconds": decode_seconds,
     }
@@ -317,9 +303,9 @@ def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurv
     return RateCurve(np.array(list(kept), np.float64), np.array(list(kept.values()), np.float64))
 
 
-def rate_curve_of(points: Sequence[Result], measure: str, rate: str = "bpv_total") -> RateCurve:
-    """Curve of a result's points: a rate against one of `MEASURES`; lossless points are left out."""
-    usable = [(point[rate], scaled(point[measure], measure)) for point in points_of(points, measure)]
+def rate_curve_of(points: Sequence[Result], measure: str) -> RateCurve:
+    """Curve of a result's points: bits of the file against one of `MEASURES`; lossless points are left out."""
+    usable = [(point["bpv_total"], scaled(point[measure], measure)) for point in points_of(points, measure)]
     pairs = [(bits, distortion) for bits, distortion in usable if distortion is not None]
     return rate_curve([bits for bits, _ in pairs], [distortion for _, distortion in pairs])
 
@@ -349,10 +335,10 @@ def rate_ratio(reference: RateCurve, tested: RateCurve, distortion: float) -> fl
     return None if first is None or second is None else second / first
 
 
-def compare_curves(reference: Result, tested: Result, angles: Sequence[float] = (7.0, 10.0)) -> Result:
+def compare_curves(reference: Result, tested: Result) -> Result:
     """One row of a table: one codec against another on one mesh."""
     curves = {m: (rate_curve_of(reference["points"], m), rate_curve_of(tested["points"], m)) for m in MEASURES}
-    at_angles = {f"{a:g}": rate_ratio(*curves["theta_deg"], scaled(a, "theta_deg") or 0.0) for a in angles}
+    at_angles = {f"{a:g}": rate_ratio(*curves["theta_deg"], scaled(a, "theta_deg") or 0.0) for a in (7.0, 10.0)}
     return {
         "mesh": tested["mesh"]["name"],
         "codec": tested["codec"],
@@ -601,7 +587,7 @@ def title_of(result: Result) -> str:
     return "{name}, {vertices:,} vertices".format_map(result["mesh"])
 
 
-def new_figure(width: float = 7.0, height: float = 5.0) -> Any:
+def new_figure(width: float, height: float) -> Any:
     imported("matplotlib", "pictures need matplotlib", "eval")
     from matplotlib.figure import Figure
 
