@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError, public
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -102,6 +102,17 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
         if np.array_equal(by_decoder.faces, encoded.faces):
             return encoded.vertex_order[np.argsort(by_decoder.vertex_order)].astype(np.int64)
     raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
+
+
+def paired_frames(
+    original: Positions, faces: Faces, decoded: Positions, others: Faces, order: Order | None = None
+) -> tuple[Positions, Positions, Faces]:
+    """The vertices that faces use in frames, shape (T, n, 3), the same ones of decoded frames, and their faces."""
+    whole = TriangleMesh(original[0], faces), TriangleMesh(decoded[0], others)
+    (mesh, kept), (other, other_kept) = (side.without_isolated_vertices() for side in whole)
+    rows = numbering(mesh, other, None if order is None else order_of_used(order, *whole))
+    before = original[:, kept]
+    return before, np.where(rows[:, None] < 0, before, decoded[:, other_kept[rows]]), mesh.faces
 
 
 def paired_corners(original: TriangleMesh, other: TriangleMesh, rows: Order) -> tuple[Order, Order]:

@@ -19,7 +19,7 @@ from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, adder, limits_of
-from bsm.comparison import Pair, compare_meshes, numbering, order_of_used, pair, read_permutation
+from bsm.comparison import Pair, compare_meshes, order_of_used, pair, paired_frames, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import GLTF, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
@@ -292,13 +292,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     if args.permutation and len(original) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
     order = read_permutation(args.permutation) if args.permutation else None
-    runs = []
-    for (first, faces), (second, others) in zip(original, decoded, strict=True):
-        whole = TriangleMesh(first[0], faces), TriangleMesh(second[0], others)
-        (mesh, kept), (other, other_kept) = (side.without_isolated_vertices() for side in whole)
-        of_used = None if order is None else order_of_used(order, *whole)
-        rows = numbering(mesh, other, of_used)
-        runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
+    runs = [paired_frames(*first, *second, order) for first, second in zip(original, decoded, strict=True)]
     compared, of_frames = compare_runs(runs)
     result = asdict(compared)
     if args.look:

@@ -21,12 +21,12 @@ from bsm.bitstream.errors import BsmError, DependencyError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import compare
-from bsm.comparison import in_order_of, pair
+from bsm.comparison import in_order_of, pair, paired_frames
 from bsm.exits import worded
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import Input
-from bsm.files.stream import SequenceStream, decode_whole, numbered, numbers_of, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, peek_header
 
 DRACO_LEVEL = 10
 DRACO_BITS = range(4, 25)
@@ -104,16 +104,12 @@ def compared(
 
 def _over_time(name: str, decoder: SequenceStream, original: Frames) -> dict[str, Any]:
     """Return the largest error of each frame, as a fraction of the first one's diagonal."""
-    decoded = [frame for _, frame in decoder.frames()]
+    decoded = np.array([frame for _, frame in decoder.frames()])
     if len(decoded) != original.count:
         raise MeshError(f"{name} has {len(decoded)} frames, and its original has {original.count}")
-    frames = np.array(list(original.frames))
-    mesh, kept = TriangleMesh(frames[0], original.faces).without_isolated_vertices()
-    other, others = TriangleMesh(decoded[0], decoder.faces).without_isolated_vertices()
-    rows = others[numbers_of(in_order_of(mesh, numbered(other.faces, len(others))))]
-    diagonal = float(np.linalg.norm(extent_of(mesh.positions))) or 1.0
-    pairs = zip(frames, decoded, strict=True)
-    errors = [float(np.linalg.norm(frame[kept] - other[rows], axis=1).max()) / diagonal for frame, other in pairs]
+    first, second, _ = paired_frames(np.array(list(original.frames)), original.faces, decoded, decoder.faces)
+    diagonal = float(np.linalg.norm(extent_of(first[0]))) or 1.0
+    errors = (np.linalg.norm(first - second, axis=2).max(axis=1) / diagonal).tolist()
     return {"diagonal": diagonal, "farthest": max(errors), "errors": errors}
 
 
