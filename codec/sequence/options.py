@@ -1,6 +1,5 @@
 """Options for encoding a sequence."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -9,9 +8,8 @@ import numpy as np
 from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
-from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.attributes.quality import checked_qualities
-from bsm.codec.static.targets import vertex_error
+from bsm.codec.static.targets import SEQUENCE_TARGETS, Contract, Target
 
 CHOICES = {"limits": tuple(NAMED_LIMITS)}
 SIZES, SPANS = (5_000, 10_000), (512, 256)
@@ -30,37 +28,11 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-@dataclass(frozen=True)
-class Promise:
-    """Bounds of every frame, checked on the decoded result."""
-
-    farthest: float
-    look: float = math.inf
-    absolute: bool = False
-
-    def __post_init__(self) -> None:
-        if not (0.0 < self.farthest < math.inf and self.look > 0.0):
-            raise OptionError(f"bounds must be above 0, not vertex error {self.farthest:g} and look {self.look:g}")
-
-    def reach(self, scale: float) -> float:
-        """How far a vertex may be off in BSM units, `scale` of the mesh's own each."""
-        return float(self.farthest / scale if self.absolute else self.farthest)
-
-    @property
-    def first_step(self) -> float:
-        """A step to try first."""
-        farthest = 0.01 if self.absolute else self.farthest
-        return min(0.33 * farthest, 3.3e-3 * min(self.look, 1e3))
-
-    def __str__(self) -> str:
-        return vertex_error(self.farthest, self.absolute) + ("" if math.isinf(self.look) else f", look {self.look:g}")
-
-
 PROMISES = {
-    "small": Promise(0.02, 3.0),
-    "balanced": Promise(0.01, 1.0),
-    "fine": Promise(0.005, 0.5),
-    "near-lossless": Promise(0.0005),
+    "small": Contract(0.02, look=3.0),
+    "balanced": Contract(0.01, look=1.0),
+    "fine": Contract(0.005, look=0.5),
+    "near-lossless": Contract(0.0005),
 }
 """The presets of sequences, with the bounds of those of meshes."""
 
@@ -98,11 +70,11 @@ class SequenceOptions:
         None: one per core.
     runs : bool
         Let the faces change from frame to frame, as in volumetric capture; each change begins a run.
-    target : SequenceTarget, optional
+    target : Target, optional
         Search for one step for all frames that reaches this target. All frames must fit into memory.
-    promise : Promise, optional
-        Search for the step of each GOP, or with low delay of each frame, that keeps this promise. It cannot be combined
-        with a target.
+    promise : Contract, optional
+        Search for the step of each GOP, or with low delay of each frame, that keeps this promise in every frame:
+        `farthest`, and `look`. It cannot be combined with a target.
 
     Raises
     ------
@@ -129,13 +101,17 @@ class SequenceOptions:
     limits: str = "default"
     threads: int | None = None
     runs: bool = False
-    target: SequenceTarget | None = None
-    promise: Promise | None = None
+    target: Target | None = None
+    promise: Contract | None = None
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
         if self.promise is not None and self.target is not None:
             raise OptionError("promise and target are mutually exclusive")
+        if self.target is not None:
+            self.target.require_kind(SEQUENCE_TARGETS, "a sequence")
+        if (bounds := self.promise) and bounds != Contract(bounds.farthest, absolute=bounds.absolute, look=bounds.look):
+            raise OptionError(f"a sequence promises vertex errors and looks only, not {bounds}")
         if self.gop is not None and self.low_delay > self.gop:
             raise OptionError(f"{self.low_delay} frames at a time are more than a GOP of {self.gop}")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))

@@ -174,7 +174,9 @@ class RunEncoder:
             return found
 
         search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units.scale, options.threads)
-        first, finest = step or promise.first_step, finest_step(group.positions, options)
+        bound = 0.01 if promise.absolute else promise.farthest
+        first = step or min(0.33 * bound, 3.3e-3 * min(promise.look, 1e3))
+        finest = finest_step(group.positions, options)
         found = search.run(attempt, first, finest, weighed=not options.low_delay)
         near.to(1.0)
         return found

@@ -15,8 +15,7 @@ from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.sequence.frames import same_frames
-from bsm.codec.sequence.options import Promise
-from bsm.codec.static.targets import COARSEST_STEP
+from bsm.codec.static.targets import COARSEST_STEP, Contract
 from bsm.codec.threads import ordered_map
 
 KNOTS = 8  # frames, evenly over a GOP, that are drawn at every attempt, besides the worst one of each attempt
@@ -53,9 +52,9 @@ Found = TypeVar("Found", bound=Candidate)
 class StepSearch:
     """Searches for the widest step with which the frames of a GOP keep a promise."""
 
-    def __init__(self, frames: Positions, faces: Faces, promise: Promise, scale: float, threads: int | None) -> None:
+    def __init__(self, frames: Positions, faces: Faces, promise: Contract, scale: float, threads: int | None) -> None:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
-        self._reach = promise.reach(scale)
+        self._reach = promise.farthest / scale if promise.absolute else promise.farthest
         self._metrics: dict[int, LookMetric | None] = {}
         self._room = KEPT
         self._knots: set[int] = set()

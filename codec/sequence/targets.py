@@ -3,11 +3,10 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
-from bsm.bitstream.errors import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.static.targets import Target
@@ -70,28 +69,5 @@ def _percent(part: float, whole: float) -> float:
     return 100.0 * math.sqrt(part / whole) if whole else math.inf
 
 
-@public
-@dataclass(frozen=True)
-class SequenceTarget(Target):
-    """A quality or size of a sequence to reach.
-
-    Parameters
-    ----------
-    kind : str
-        "kg" (percent), "theta_deg", "nmsve_db" (at most this error), or "bpvf" (at most this many bits per vertex and
-        frame of the whole file).
-    value : float
-
-    Raises
-    ------
-    OptionError
-        If the target is unknown.
-
-    Examples
-    --------
-    >>> import bsm
-    >>> options = bsm.SequenceOptions(target=bsm.SequenceTarget("kg", 0.5))
-    >>> data = bsm.encode_sequence(*bsm.decode_sequence("dance.bsm"), options)
-    """
-
-    KINDS: ClassVar[tuple[str, ...]] = ("kg", "theta_deg", "nmsve_db", "bpvf")
+SequenceTarget = Target
+"""Its name where the target is one of a sequence."""

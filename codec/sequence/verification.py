@@ -122,7 +122,7 @@ class SequenceVerifier:
         self._wrong += float(apart.sum())
         self._extent += float(np.square(original - original.mean(axis=0)).sum())
         if self._promise is not None:
-            far, most = math.sqrt(float(apart.max())), self._promise.reach(units.scale) * units.scale
+            far, most = math.sqrt(float(apart.max())), self._promise.reach(units.scale, 1.0)
             rounding = ROUNDING * most + 8.0 * float(np.finfo(np.float64).eps * np.abs(original).max())
             require(far <= most + rounding, f"vertex {apart.argmax()} of frame {frame.index} is off by {far:.4g}")
         error = shading_error(original, frame.positions, frame.faces)

@@ -10,7 +10,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
 from bsm.codec.static.coding import KEY_SEEDS
-from bsm.codec.static.targets import Contract, Target
+from bsm.codec.static.targets import TARGETS, Contract, Target
 
 CHOICES = {
     "key_seed": KEY_SEEDS,
@@ -195,6 +195,8 @@ class EncodeOptions:
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
+        if self.target is not None:
+            self.target.require_kind(TARGETS, "a mesh")
         if self.quick and self.effort == "best":
             raise OptionError("quick means effort 'quick', and excludes another effort")
         object.__setattr__(self, "effort", "quick" if self.quick else self.effort)

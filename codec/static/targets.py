@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from operator import itemgetter
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.codec.geometry.metrics import decibel
@@ -122,6 +122,8 @@ def vertex_error(value: float, absolute: bool) -> str:
     return f"vertex error {value:.4g}" if absolute else f"vertex error {100.0 * value:.4g} % of the diagonal"
 
 
+TARGETS = ("nmsve_db", "theta_deg", "bpv", "size")
+SEQUENCE_TARGETS = ("kg", "theta_deg", "nmsve_db", "bpvf")
 SIZES = ("bpv", "bpvf", "size")
 UNITS = {
     "nmsve_db": "visual error {:.6g} dB",
@@ -152,13 +154,14 @@ class Outcome(Protocol):
 @public
 @dataclass(frozen=True)
 class Target:
-    """A quality or size to reach.
+    """A quality or size of a mesh or a sequence to reach.
 
     Parameters
     ----------
     kind : str
-        "nmsve_db", "theta_deg" (at most this error), "bpv" or "size" (at most this many bits per vertex, or bytes, of
-        the whole file).
+        "nmsve_db", "theta_deg" (at most this error), of a mesh "bpv" or "size" (at most this many bits per vertex, or
+        bytes, of the whole file), of a sequence "kg" (percent) or "bpvf" (at most this many bits per vertex and frame
+        of the whole file).
     value : float
 
     Raises
@@ -174,16 +177,17 @@ class Target:
     True
     """
 
-    KINDS: ClassVar[tuple[str, ...]] = ("nmsve_db", "theta_deg", "bpv", "size")
-
     kind: str
     value: float
 
     def __post_init__(self) -> None:
-        if self.kind not in self.KINDS:
-            raise OptionError(f"a target must be one of {', '.join(self.KINDS)}, not {self.kind!r}")
+        self.require_kind(tuple(UNITS), "a mesh or sequence")
         if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
             raise OptionError(f"{self.worded(self.value)} cannot be a target")
+
+    def require_kind(self, kinds: tuple[str, ...], what: str) -> None:
+        if self.kind not in kinds:
+            raise OptionError(f"a target of {what} must be one of {', '.join(kinds)}, not {self.kind!r}")
 
     def reached(self, outcome: Outcome) -> float:
         """Return the outcome's value of the target's measure."""

@@ -6,8 +6,6 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, TypedDict
 
 if TYPE_CHECKING:
-    from bsm.codec.sequence.options import Promise
-    from bsm.codec.sequence.targets import SequenceTarget
     from bsm.codec.static.options import Paper
     from bsm.codec.static.targets import Contract, Target
 
@@ -70,10 +68,10 @@ class SequenceKeywords(_Shared, total=False):
     keep: float
     kg: float | None
     low_delay: int
-    promise: Promise | None
+    promise: Contract | None
     runs: bool
     step: float
-    target: SequenceTarget | None
+    target: Target | None
 
 class DenoiseKeywords(TypedDict, total=False):
     """Keywords of `bsm.denoise`, as `DenoiseOptions` has them."""

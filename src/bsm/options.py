@@ -76,14 +76,14 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 def sequence_options(
     *, preset: str | None = None, low_delay: int = 0, effort: str = "normal", quick: bool | None = None, **keywords: Any
 ) -> SequenceOptions:
-    from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
-    from bsm.codec.sequence.targets import SequenceTarget
+    from bsm.codec.sequence.options import PROMISES, SequenceOptions
+    from bsm.codec.static.targets import Contract, Target
 
     name = "balanced" if preset is None else preset
     if name in ("none", "lossless", "grid14"):
         raise OptionError(f"a sequence cannot have preset {name}: GOPs round frames together; try near-lossless")
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
-    given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
+    given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, Target)
     together = checked("low_delay", low_delay, int)
     base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), low_delay=together)
     quick = bool(quick) or _named("effort", {"quick": True, "normal": False, "best": False}, effort)
@@ -96,7 +96,7 @@ def sequence_options(
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
         farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
         look = checked("look", bounds.get("look", math.inf if together else PROMISES[name].look), float)
-        given["promise"] = Promise(farthest, look, absolute)
+        given["promise"] = Contract(farthest, look=look, absolute=absolute)
     elif not (together or quick or {"target", "step", "promise"} & {key for key in given if given[key] is not None}):
         given["promise"] = PROMISES[name]
     return replace(base, **given)

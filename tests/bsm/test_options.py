@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.sequence.options import PROMISES, Promise
+from bsm.codec.sequence.options import PROMISES
 from bsm.codec.static.options import BALANCED, changed
 from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
@@ -35,10 +35,10 @@ def test_presets_of_sequences(preset):
 
 
 def test_bounds_of_sequences():
-    assert sequence_options(max_error="0.2%").promise == Promise(0.002, 1.0)
-    assert sequence_options(max_error="3mm", look=2).promise == Promise(3.0, 2.0, absolute=True)
-    assert sequence_options(preset="fine", look=2).promise == Promise(PROMISES["fine"].farthest, 2.0)
-    assert sequence_options(max_error=0.001, low_delay=4).promise == Promise(0.001)
+    assert sequence_options(max_error="0.2%").promise == bsm.Contract(0.002, look=1.0)
+    assert sequence_options(max_error="3mm", look=2).promise == bsm.Contract(3.0, look=2.0, absolute=True)
+    assert sequence_options(preset="fine", look=2).promise == bsm.Contract(PROMISES["fine"].farthest, look=2.0)
+    assert sequence_options(max_error=0.001, low_delay=4).promise == bsm.Contract(0.001)
     for others in ({"kg": 1}, {"step": 0.01}):
         with pytest.raises(bsm.OptionError):
             sequence_options(max_error=0.01, **others)

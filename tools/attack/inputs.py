@@ -17,7 +17,7 @@ from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
-from bsm.codec.static.targets import Target
+from bsm.codec.static.targets import TARGETS, Target
 from tools.attack.mutate import mutate_stream
 from tools.attack.sweep import mutate
 from tools.gridded import random_grid
@@ -161,7 +161,7 @@ def _static_options(random: Random) -> EncodeOptions:
         keep, quick = random.random() < 0.3, random.random() < 0.5
         return EncodeOptions(grid=random.randrange(1, 21), threads=1, keep_order=keep, quick=quick)
     if way == 2:
-        given["target"] = Target(random.choice(Target.KINDS), random.choice((0.01, 1.0, 8.0, 400.0)))
+        given["target"] = Target(random.choice(TARGETS), random.choice((0.01, 1.0, 8.0, 400.0)))
     elif way == 3:
         given |= {"bits": random.randrange(2, 17), "partition": "metis"}
     elif way == 4:

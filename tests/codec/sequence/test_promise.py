@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import Contract
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.step_search import StepSearch, _evening, shading_error
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending
 
 
 def kept(
-    positions: np.ndarray, faces: np.ndarray, promise: Promise, **changes: int
+    positions: np.ndarray, faces: np.ndarray, promise: Contract, **changes: int
 ) -> tuple[int, np.ndarray, np.ndarray, np.ndarray]:
     """Bytes, the frames in the decoder's order, what is decoded, and the faces."""
     options = bsm.SequenceOptions(block_size=100, promise=promise, threads=1, **changes)
@@ -39,7 +39,7 @@ def farthest(original: np.ndarray, decoded: np.ndarray) -> float:
 
 @pytest.mark.parametrize("gop", [3, 256])
 def test_every_frame_looks_the_same(gop: int) -> None:
-    _, original, decoded, faces = kept(*bending(5), Promise(0.01, 1.0), gop=gop)
+    _, original, decoded, faces = kept(*bending(5), Contract(0.01, look=1.0), gop=gop)
     found = looks(original, decoded, faces)
     assert max(found) <= 1.0 and farthest(original, decoded) <= 0.01
     assert max(found) > 0.7  # with little to spare
@@ -50,7 +50,7 @@ def test_no_vertex_is_farther_off_than_reported(absolute: bool) -> None:
     positions, faces = bending(12)
     diagonal = float(np.linalg.norm(np.ptp(positions[0], axis=0)))
     bound = 0.002
-    promise = Promise(bound * diagonal if absolute else bound, absolute=absolute)
+    promise = Contract(bound * diagonal if absolute else bound, absolute=absolute)
     _, original, decoded, _ = kept(positions, faces, promise)
     assert 0.7 * bound < farthest(original, decoded) <= bound
 
@@ -59,7 +59,7 @@ def test_no_vertex_is_farther_off_than_reported(absolute: bool) -> None:
 def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     positions, faces = bending(6)
     positions[5] += 0.004 * np.random.default_rng(0).standard_normal(positions[5].shape)
-    options = bsm.SequenceOptions(block_size=100, promise=Promise(0.002, look), threads=1, low_delay=1, gop=4)
+    options = bsm.SequenceOptions(block_size=100, promise=Contract(0.002, look=look), threads=1, low_delay=1, gop=4)
     encoder = bsm.SequenceEncoder(faces, options, len(positions))
     given: list[int] = []
 
@@ -79,10 +79,10 @@ def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     assert max(looks(original, decoded, found)) <= look
 
 
-@pytest.mark.parametrize("promise", [Promise(0.002), Promise(0.5, 1.0), Promise(1e-3, absolute=True)])
+@pytest.mark.parametrize("promise", [Contract(0.002), Contract(0.1, look=1.0), Contract(1e-3, absolute=True)])
 @pytest.mark.parametrize("low_delay", [0, 1])
 def test_a_search_that_takes_a_step_too_coarse_is_caught(
-    promise: Promise, low_delay: int, monkeypatch: pytest.MonkeyPatch
+    promise: Contract, low_delay: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(StepSearch, "run", lambda search, encode, *_, **__: encode(0.04, np.ones(len(search._frames))))
     with pytest.raises(bsm.VerificationError, match=r"is off by|has look"):
@@ -92,7 +92,9 @@ def test_a_search_that_takes_a_step_too_coarse_is_caught(
 @pytest.mark.parametrize("changes", [{}, {"keep_order": True}, {"step": 0.01, "promise": None}])
 def test_the_encoder_reports_errors_of_decoded_frames(changes: dict[str, Any]) -> None:
     positions, faces = bending(7)
-    chosen = bsm.SequenceOptions(**{"block_size": 100, "promise": Promise(0.01, 1.0), "threads": 1, "gop": 4} | changes)
+    chosen = bsm.SequenceOptions(
+        **{"block_size": 100, "promise": Contract(0.01, look=1.0), "threads": 1, "gop": 4} | changes
+    )
     encoder = bsm.SequenceEncoder(faces, chosen, 7)
     decoded, found = bsm.decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
     original = positions[:, encoder.vertex_order]
@@ -112,7 +114,7 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     monkeypatch.setattr(StepSearch, "_metric", noted)
     positions, faces = bending(40)
     positions[23] += 0.01 * np.random.default_rng(0).standard_normal(positions[23].shape)
-    _, original, decoded, found = kept(positions, faces, Promise(0.02, 1.0))
+    _, original, decoded, found = kept(positions, faces, Contract(0.02, look=1.0))
     some = sorted({*range(0, 40, 6), *range(21, 26), *drawn})
     seen = dict(zip(some, looks(original[some], decoded[some], found), strict=True))
     assert max(seen.values()) <= 1.0 and len(drawn) < 30
@@ -125,8 +127,8 @@ def test_frames_that_look_worse_weigh_more() -> None:
     assert np.array_equal(_evening(np.zeros(3)), np.zeros(3))
 
 
-@pytest.mark.parametrize("promise", [None, Promise(0.01, 1.0)])
-def test_the_progress_of_a_search_grows_to_the_whole(promise: Promise | None) -> None:
+@pytest.mark.parametrize("promise", [None, Contract(0.01, look=1.0)])
+def test_the_progress_of_a_search_grows_to_the_whole(promise: Contract | None) -> None:
     positions, faces = bending(6)
     reports: list[float] = []
     options = bsm.SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)
@@ -139,20 +141,20 @@ def test_the_progress_of_a_search_grows_to_the_whole(promise: Promise | None) ->
 def test_frames_of_which_nothing_is_seen_are_no_obstacle() -> None:
     positions, faces = bending(4)
     positions[2] = positions[2, :1]  # all vertices at one place
-    _, original, decoded, _ = kept(positions, faces, Promise(0.01, 1.0))
+    _, original, decoded, _ = kept(positions, faces, Contract(0.01, look=1.0))
     assert farthest(original, decoded) <= 0.01
 
 
 def test_what_cannot_be_kept_is_an_error() -> None:
     with pytest.raises(bsm.TargetError, match="cannot be kept"):
-        kept(*bending(3), Promise(1e-9))
-    for bounds in ((0.0, 1.0), (0.01, 0.0), (float("inf"), 1.0)):
-        with pytest.raises(bsm.OptionError, match="bounds"):
-            Promise(*bounds)
+        kept(*bending(3), Contract(1e-9))
+    for bounds in (Contract(0.01, by_part=0.01), Contract(0.01, angle=5.0)):
+        with pytest.raises(bsm.OptionError, match="vertex errors and looks only"):
+            bsm.SequenceOptions(promise=bounds)
 
 
 @pytest.mark.parametrize("width", [0.0, 1.0])
 def test_faces_without_area_are_encoded(width: float) -> None:
     frames = np.stack([np.linspace(0, width, 6)[:, None] * [k, 0, 0] for k in range(1, 5)])
-    _, original, decoded, _ = kept(frames, np.array([[0, 1, 2], [3, 4, 5]], np.int32), Promise(0.01, 1.0))
+    _, original, decoded, _ = kept(frames, np.array([[0, 1, 2], [3, 4, 5]], np.int32), Contract(0.01, look=1.0))
     assert np.abs(original - decoded).max() <= 0.01

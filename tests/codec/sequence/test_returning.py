@@ -8,7 +8,6 @@ import pytest
 import bsm
 from bsm import Attribute, SequenceEncoder, SequenceOptions, TriangleMesh, decode_sequence
 from bsm.bitstream.container.packets import Gop
-from bsm.codec.sequence.options import Promise
 from tests.motion import bending
 from tools.payloads import parse_stretches
 from tools.surgery import Cursor, scan
@@ -72,7 +71,7 @@ def test_groups_of_frames_tell_of_their_own() -> None:
 def test_promises_are_kept_as_frames_are_shown() -> None:
     positions, faces = bending(6)
     noise = 1e-5 * np.random.default_rng(0).standard_normal((12, *positions[0].shape))
-    data, decoded, original = coded(positions[TURNS["loop"]] + noise, faces, promise=Promise(0.004))
+    data, decoded, original = coded(positions[TURNS["loop"]] + noise, faces, promise=bsm.Contract(0.004))
     assert places(data) == [TURNS["loop"]]
     far = np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(np.ptp(positions[0], axis=0))
     assert far <= 0.004

@@ -9,7 +9,6 @@ import bsm
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
 from bsm.bitstream.container.wire import FrameType, write_preamble
-from bsm.codec.sequence.options import Promise
 from tests.streams import frames_in, moving_events_of, packets_of
 from tools.surgery import frames_of, spans_of
 from tools.vectors.meshes import torus
@@ -82,7 +81,7 @@ def test_a_mesh_that_returns_is_not_sent_again(way):
 
 def test_a_promise_holds_in_every_run():
     frames = meshes((10, 3), (7, 2), (10, 2))
-    _, errors = restored(frames, promise=Promise(0.004), gop=4)
+    _, errors = restored(frames, promise=bsm.Contract(0.004), gop=4)
     for error, frame in zip(errors, frames, strict=True):
         first = next(mesh for mesh in frames if len(mesh.positions) == len(frame.positions))
         assert error <= 0.004 * np.linalg.norm(np.ptp(first.positions, axis=0))

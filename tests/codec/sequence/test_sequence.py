@@ -227,7 +227,7 @@ def test_a_target_that_cannot_be_met_is_an_error():
         list(encoder.chunks(positions))
     for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
         with pytest.raises(bsm.OptionError):
-            bsm.SequenceTarget(kind, value)
+            options(target=bsm.SequenceTarget(kind, value))
 
 
 def test_limits():
