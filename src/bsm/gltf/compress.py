@@ -417,7 +417,6 @@ def _renumber(tree: Tree, kind: str, stay: set[int], before: set[int], blank: Tr
 # -------------------------------------------------------------------------------------------------------------- a scene
 
 
-_TYPES = {width: name for name, width in gltf.VECTORS.items()}
 _MOST = float(np.finfo(np.float32).max)
 
 
@@ -565,9 +564,8 @@ class _Rewritten(gltf.Growing):
         self._virtual = 0  # bytes of what decoders fill
         self.plain: list[bytes] = []
 
-    def fresh(self, data: bytes, **more: Any) -> int:
-        """Add a bufferView."""
-        view = self.view(data, **more)
+    def view(self, data: bytes, **more: Any) -> int:
+        view = super().view(data, **more)
         self._moved.add(view)
         return view
 
@@ -582,24 +580,24 @@ class _Rewritten(gltf.Growing):
 
     def put(self, bundle: Bundle, coded: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
-        stream = self.fresh(coded.stream)
+        stream = self.view(coded.stream)
         entries: list[Tree] = self.tree["accessors"]
         given, places = arrays_of(bundle[0][0]), dict[str, int]()
         for name, array in coded.shape.arrays.items():
             component, normalized = coded.accessors[name]
             view = self._view(stream, name, stored(name, array, component), component)
-            accessor: Tree = {"bufferView": view, "componentType": component, "count": len(array)}
-            accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {})}
-            accessor |= gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {}
-            places[name] = self.add("accessors", accessor | _words(entries[given[name]]))
+            more: Tree = {"normalized": True} if normalized else {}
+            more |= gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {}
+            places[name] = self.accessor(
+                component, len(array), array.shape[1], view, **more, **_words(entries[given[name]])
+            )
         component, _ = coded.accessors.get("indices", (UINT, False))
         corners = stored("indices", coded.shape.index, component)
         view = self._view(stream, "indices", corners, component)
         for same, (start, count) in zip(bundle, coded.shape.pieces, strict=True):
-            accessor = {"bufferView": view, "componentType": component, "count": count, "type": "SCALAR"}
-            accessor |= {"byteOffset": start * corners.itemsize} if start else {}
-            accessor |= _words(entries[same[0]["indices"]] if "indices" in same[0] else {})
-            indices = self.add("accessors", accessor)
+            more = {"byteOffset": start * corners.itemsize} if start else {}
+            more |= _words(entries[same[0]["indices"]] if "indices" in same[0] else {})
+            indices = self.accessor(component, count, 1, view, **more)
             for primitive in same:
                 primitive["indices"] = indices
                 primitive.pop("mode", None)
@@ -628,7 +626,7 @@ class _Rewritten(gltf.Growing):
             if not found:
                 continue
             image.pop("uri", None)
-            image |= {"mimeType": f"image/{rule.kind}", "bufferView": self.fresh(found)}
+            image |= {"mimeType": f"image/{rule.kind}", "bufferView": self.view(found)}
             for texture in self.tree.get("textures", []) if rule.kind == "webp" else ():
                 if texture.get("source") == number:
                     del texture["source"]
@@ -649,7 +647,7 @@ class _Rewritten(gltf.Growing):
             kind = image.get("mimeType") or (data and gltf.mime_of(data))
             if data and kind:
                 image.pop("uri")
-                image |= {"mimeType": kind, "bufferView": self.fresh(data)}
+                image |= {"mimeType": kind, "bufferView": self.view(data)}
         self._write_draco()
         self._drop_accessors()
         self._place_views()
@@ -680,7 +678,6 @@ class _Rewritten(gltf.Growing):
             if entry.get("bufferView") in shared and "sparse" not in entry:
                 strided = "byteStride" in self._document.item("bufferViews", entry["bufferView"])
                 entry["bufferView"] = self.table(self._document.array(numbers[id(entry)]), packed=not strided)
-                self._moved.add(entry["bufferView"])
                 entry.pop("byteOffset", None)
 
     def _write_draco(self) -> None:
@@ -697,7 +694,6 @@ class _Rewritten(gltf.Growing):
                 if index < len(self._document.items("accessors")) and "bufferView" not in accessor:
                     values = self._document.array(index)
                     accessor |= {"bufferView": self.table(values, packed=not name), "count": len(values)}
-                    self._moved.add(accessor["bufferView"])
 
     def _place_views(self) -> None:
         """Drop replaced views, and put the bytes of the others into the new buffer."""

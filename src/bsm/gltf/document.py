@@ -27,8 +27,8 @@ from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, STRIP, TRIANGLES, 
 
 _MIMES = {kind: f"image/{kind}" for kind in ("png", "webp", "avif")}
 _MIMES |= {"jpg": "image/jpeg", "ktx": "image/ktx2", "dds": "image/vnd-ms.dds"}
-VECTORS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-_WIDTHS = {**VECTORS, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_WIDTHS = {"MAT2": 4, "MAT3": 9, "MAT4": 16, "SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+_TYPES = {width: name for name, width in _WIDTHS.items()}  # vectors rather than matrices
 _MOST_BYTES = (1 << 32) - 1
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 WEBP = "EXT_texture_webp"
@@ -316,6 +316,11 @@ class Growing:
         entries: list[Tree] = self.tree.setdefault(kind, [])
         entries.append(entry)
         return len(entries) - 1
+
+    def accessor(self, component: int, count: int, width: int, view: int | None = None, **more: Any) -> int:
+        entry: Tree = {} if view is None else {"bufferView": view}
+        entry |= {"componentType": component, "count": count, "type": _TYPES[width]}
+        return self.add("accessors", entry | more)
 
     def append(self, data: bytes) -> int:
         """Append bytes to the buffer; return their offset."""

@@ -21,11 +21,10 @@ from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream, numbered, numbers_of
 from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn
-from bsm.gltf.document import VECTORS, WEBP, Growing, bounds_of, mime_of
+from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
-_TYPES = {width: name for name, width in VECTORS.items()}
 _SORTING = ("part", "material")  # attributes of faces that only sort these
 _HALF = 0.5**0.5
 _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
@@ -38,19 +37,20 @@ class _Scene(Growing):
     def __init__(self, file: IO[bytes]) -> None:
         super().__init__(file)
         self._images: dict[bytes, int] = {}
+        self.left_out: tuple[str, ...] = ()
 
     def numbers(self, values: Array, *, bounds: bool = False, shares: bool = False) -> int:
-        kind = {"componentType": COMPONENTS[values.dtype.name], "count": len(values), "type": _TYPES[values.shape[1]]}
-        accessor: Tree = {"bufferView": self.table(values), **kind}
-        accessor |= {"normalized": True} if shares and values.dtype.kind == "u" else {}
-        return self.add("accessors", accessor | (bounds_of(values) if bounds else {}))
+        more: Tree = {"normalized": True} if shares and values.dtype.kind == "u" else {}
+        more |= bounds_of(values) if bounds else {}
+        rows, width = values.shape
+        return self.accessor(COMPONENTS[values.dtype.name], rows, width, self.table(values), **more)
 
     def ones(self, places: Ints, count: int) -> int:
         """An accessor of zeros, with ones at some places: the bytes grow with the places only."""
         views = self.view(places.astype(np.uint32).tobytes()), self.view(np.ones(len(places), np.float32).tobytes())
         indices = {"bufferView": views[0], "componentType": UINT}
         sparse = {"count": len(places), "indices": indices, "values": {"bufferView": views[1]}}
-        return self.add("accessors", {"componentType": FLOAT, "count": count, "type": "SCALAR", "sparse": sparse})
+        return self.accessor(FLOAT, count, 1, sparse=sparse)
 
     def place(self, mesh: Tree, **more: Any) -> None:
         node = self.add("nodes", {"mesh": self.add("meshes", mesh), **more})
@@ -60,29 +60,8 @@ class _Scene(Growing):
         self.tree["buffers"] = [{"byteLength": self.size}, *self.tree.get("buffers", [])]
         super().write(file)
 
-
-def _upright(metadata: Metadata) -> Tree:
-    turn = _TURNS.get(str(metadata.get("up", "y")).lower())
-    return {"rotation": turn} if turn else {}
-
-
-# ------------------------------------------------------------------------------------------------------------ one mesh
-
-
-def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
-    scene = _Still(io.BytesIO(), mesh, stem)
-    return formats.Written(scene.whole(), scene.left_out)
-
-
-class _Still(_Scene):
-    """A mesh as a scene; `primitives` come with the vertices of the mesh that theirs are."""
-
-    def __init__(self, file: IO[bytes], mesh: TriangleMesh, stem: str) -> None:
-        super().__init__(file)
-        self.left_out: tuple[str, ...] = ()
-        self.begin(mesh, stem)
-
-    def begin(self, mesh: TriangleMesh, stem: str) -> None:
+    def show(self, mesh: TriangleMesh, stem: str) -> None:
+        """Place a mesh; its `primitives` come with the vertices of the mesh that theirs are."""
         if not single_suffices(mesh.positions):
             raise MeshError("the coordinates need double precision, which GLB does not have; write PLY, OBJ or OFF")
         split = split_by_attributes(replace(mesh, positions=numbered(mesh.faces, len(mesh.positions)).positions))
@@ -152,6 +131,17 @@ class _Still(_Scene):
         return self.add("textures", {"extensions": {WEBP: {"source": known}}})
 
 
+def _upright(metadata: Metadata) -> Tree:
+    turn = _TURNS.get(str(metadata.get("up", "y")).lower())
+    return {"rotation": turn} if turn else {}
+
+
+def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
+    scene = _Scene(io.BytesIO())
+    scene.show(mesh, stem)
+    return formats.Written(scene.whole(), scene.left_out)
+
+
 def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]:
     """What glTF has of each vertex, by its names, and the attributes that these are."""
     normal, color, texcoord = shown = formats.shown_at_vertices(mesh)
@@ -190,12 +180,11 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
     first frame of a run is kept in memory; the targets wait in a file until their number is known.
     """
     with tempfile.TemporaryFile() as spool:
-        moving: _Moving | None = None
+        moving = _Moving(spool)
 
         def write(frame: Positions, faces: Faces | None = None) -> None:
-            nonlocal moving
-            if moving is None:
-                moving = _Moving(spool, shared.mesh(frame, first), Path(path).stem)
+            if not moving.frames:
+                moving.begin(shared.mesh(frame, first), Path(path).stem)
             elif faces is not None:
                 moving.begin(shared.mesh(frame, faces), f"{Path(path).stem}_{moving.frames:05d}")
             else:
@@ -204,7 +193,6 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
             shared.loses(f"how {attribute.name} changes" for attribute in moved if attribute is not moving.painted)
 
         yield write
-        assert moving is not None
         shared.loses(moving.left_out)
         codes = np.array([shared.code(number) for number in range(moving.frames)])
         moving.animate((codes - codes[0]) / (shared.frame_rate or USUAL_RATE))
@@ -222,20 +210,20 @@ class _Run:
     primitives: list[tuple[Tree, Ints]]
 
 
-class _Moving(_Still):
-    """Make a scene of the first frame of each run; return it and the additions of other frames."""
+class _Moving(_Scene):
+    """The first frame of each run, and the additions of other frames."""
 
-    def __init__(self, file: IO[bytes], first: TriangleMesh, stem: str) -> None:
+    def __init__(self, file: IO[bytes]) -> None:
+        super().__init__(file)
         self.frames, self._runs = 0, list[_Run]()
         self.painted: Attribute | None = None  # of the last frame
-        super().__init__(file, first, stem)
 
     def begin(self, first: TriangleMesh, stem: str) -> None:
         normals = _vertex_normals(first.positions, first.faces)
         kept = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
         normal = Attribute("normal", normals.astype(np.float32), "vertex", "normal")
         begin = len(self.tree.get("nodes", ()))
-        super().begin(replace(first, attributes=(*kept, normal)), stem)
+        self.show(replace(first, attributes=(*kept, normal)), stem)
         for primitive, _ in self.primitives:
             primitive["targets"] = []
         nodes = range(begin, len(self.tree["nodes"]))
@@ -291,8 +279,7 @@ class _Moving(_Still):
                 if any(
                     "COLOR_0" in target for target in primitive["targets"]
                 ):  # then all have to; without bytes it is 0
-                    kind = _TYPES[run.first[2].shape[1]]
-                    zeros = self.add("accessors", {"componentType": FLOAT, "count": len(rows), "type": kind})
+                    zeros = self.accessor(FLOAT, len(rows), run.first[2].shape[1])
                     primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
             if count:
                 weights = self.ones(count + np.arange(count) * (count + 1), (count + 1) * count)
@@ -339,8 +326,7 @@ def moving_scene(stream: bytes) -> bytes:
         count = len(shape.index if name == "indices" else shape.arrays["POSITION"])
         room = max(room, size := 4 * width * count)
         view: Tree = {"buffer": 1, "byteLength": size, "extensions": {EXTENSION: {"stream": source, "attribute": name}}}
-        accessor = {"bufferView": scene.add("bufferViews", view), "componentType": component, "count": count}
-        places[name] = scene.add("accessors", accessor | {"type": _TYPES[width]})
+        places[name] = scene.accessor(component, count, width, scene.add("bufferViews", view))
     scene.tree["accessors"][0] |= bounds_of(positions.astype(np.float32))
     scene.add("buffers", {"byteLength": room, "extensions": {EXTENSION: {"fallback": True}}})
     metadata: Metadata = sequence.metadata
