@@ -69,10 +69,15 @@ def row_numbers(rows: npt.NDArray[Any]) -> Indices:
 
 def split_by_attributes(mesh: TriangleMesh) -> TriangleMesh:
     """Split vertices where their corners differ in an attribute, so that every attribute is of vertices or of faces."""
+    return split_with_origin(mesh)[0]
+
+
+def split_with_origin(mesh: TriangleMesh) -> tuple[TriangleMesh, Indices]:
+    """Split vertices as `split_by_attributes`; return also which vertex each was."""
     of_corners = [attribute for attribute in mesh.attributes if attribute.indices is not None]
-    if not of_corners:
-        return mesh
     size = len(mesh.positions)
+    if not of_corners:
+        return mesh, np.arange(size, dtype=np.int32)
     rows = [np.concatenate([mesh.faces.ravel(), np.arange(size, dtype=np.int32)])]
     for attribute in of_corners:
         assert attribute.indices is not None
@@ -95,4 +100,5 @@ def split_by_attributes(mesh: TriangleMesh) -> TriangleMesh:
         return replace(attribute, values=attribute.values[vertices]) if attribute.domain == "vertex" else attribute
 
     attributes = tuple(map(split, mesh.attributes))
-    return replace(mesh, positions=mesh.positions[vertices], faces=corners.reshape(-1, 3), attributes=attributes)
+    faces = corners.reshape(-1, 3)
+    return replace(mesh, positions=mesh.positions[vertices], faces=faces, attributes=attributes), vertices

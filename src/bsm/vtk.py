@@ -11,6 +11,7 @@ True
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes, split_with_origin
 from bsm.files.motion.frames import USUAL_RATE
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream, decode_through, decode_whole, peek_header
@@ -43,10 +44,8 @@ class Playback:
             return
         self.count = header.frames or decode_through(read_chunks(path))
         self._stream, self._frames = self._opened(0)
-        self._next, self._shown = 0, -1
-        self._here: Positions = np.empty((0, 3))
+        self._shown, self._here = next(self._frames)
         self._faces: Faces | None = None  # of the frame that was split last
-        self.positions(0)
         rate = self._stream.metadata.get("frame_rate")
         self.rate = float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else USUAL_RATE
 
@@ -58,11 +57,10 @@ class Playback:
         """Positions of a frame of a sequence, shape (n, 3), in the stream's order."""
         if not 0 <= number < self.count:
             raise OptionError(f"frame {number} does not exist; the stream has {self.count}")
+        if number < self._shown:
+            self._stream, self._frames = self._opened(number)
         if number != self._shown:
-            if number < self._next:
-                self._stream, self._frames = self._opened(number)
-            self._here = next(frame for found, frame in self._frames if found == number)
-            self._shown, self._next = number, number + 1
+            self._shown, self._here = next(frame for frame in self._frames if frame[0] == number)
         return self._here
 
     def mesh(self, number: int) -> TriangleMesh:
@@ -71,12 +69,10 @@ class Playback:
             return self._mesh
         positions, stream = self.positions(number), self._stream
         if stream.faces is not self._faces:
-            rows = np.arange(len(positions), dtype=np.float64)[:, None].repeat(3, axis=1)
-            split = split_by_attributes(TriangleMesh(rows, stream.faces, stream.attributes, stream.metadata))
-            self._split, self._of_split = split, split.positions[:, 0].astype(np.int64)
             self._faces = stream.faces
-        shown = positions[self._of_split]
-        return TriangleMesh(shown, self._split.faces, self._split.attributes, self._split.metadata)
+            mesh = TriangleMesh(positions, stream.faces, stream.attributes, stream.metadata)
+            self._split, self._origin = split_with_origin(mesh)
+        return replace(self._split, positions=positions[self._origin])
 
     @property
     def times(self) -> tuple[float, ...]:

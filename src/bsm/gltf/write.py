@@ -15,11 +15,11 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
-from bsm.codec.geometry.welding import split_by_attributes
+from bsm.codec.geometry.welding import split_with_origin
 from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import Doubles, Ints, single_suffices
-from bsm.files.stream import SequenceStream, numbered, numbers_of
+from bsm.files.stream import SequenceStream
 from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn
 from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
@@ -64,9 +64,7 @@ class _Scene(Growing):
         """Place a mesh; its `primitives` come with the vertices of the mesh that theirs are."""
         if not single_suffices(mesh.positions):
             raise MeshError("the coordinates need double precision, which GLB does not have; write PLY, OBJ or OFF")
-        split = split_by_attributes(replace(mesh, positions=numbered(mesh.faces, len(mesh.positions)).positions))
-        origin = numbers_of(split.positions)
-        split = replace(split, positions=mesh.positions[origin])
+        split, origin = split_with_origin(mesh)
         material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
