@@ -251,17 +251,15 @@ class SequenceEncoder:
             carried, coders = self._carried(run, prepared, options, group, more=more)
             resting = tuple(attribute for attribute in carried if not attribute.declaration.moves)
             gops = encoder.first(group, meshes.kept, [coder.start for coder in coders])
-            self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
-            yield from self._opened(run, index, prepared, gops.first_frame, carried)
+            begun = self._opened(run, index, prepared, gops.first_frame, carried)
         else:
             coders, before, resting = opened.coders, opened.gops, opened.resting
             fresh = GopEncoder(before.first_frame.setting, replace(options, step=before.encoder.step))
             gops = encoder.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
-            mesh = before.first_frame.header
-            self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
-            yield Header(
-                vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=(index, opened.run)
-            )
+            mesh, again = before.first_frame.header, (index, opened.run)
+            begun = iter([Header(vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=again)])
+        self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
+        yield from begun
         first_frame = gops.first_frame
         for track, coder in enumerate(coders, 1):
             coder.begin(gops.encoder, first_frame.setting, track)

@@ -26,9 +26,6 @@ LARGEST_LEVEL = (1 << 23) - 1
 
 
 WEIGHT = 0.1  # squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones
-ROUNDS = 1
-"""How often levels are chosen before those that stay: prices depend on the neighbors, which depend on prices. 3 save
-0.7 % at coarse steps, nothing at fine ones, and take twice the time."""
 
 
 class Loop:
@@ -89,13 +86,12 @@ class LevelWriter:
         reference: Levels | None = None,
         lead: Lead | None = None,
     ) -> Matrix:
-        """Choose and note the levels of a matrix."""
+        """Choose and note the levels of a matrix, twice: prices depend on the neighbors, which depend on prices."""
         if reference is None:
             reference = self.levels[-1] if self.levels else self._none
         prices = first_prices(len(targets), self._columns, lead)
-        for _ in range(ROUNDS):
-            levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
-            prices = price_levels(self._ahead, levels, reference, lead)
+        levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
+        prices = price_levels(self._ahead, levels, reference, lead)
         levels, decoded = loop.search(known, targets, step, prices, WEIGHT)
         self._coder = write_levels(self._coder, self._ahead, levels, reference, lead)
         self.levels.append(levels)

@@ -81,11 +81,9 @@ def report_error(error: BaseException, *, as_json: bool = False) -> None:
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    elif isinstance(error, _SIGNALS):
-        meaning = exit_of(error).meaning
-        say(meaning if as_json else f"bsm: {meaning}", "error" if as_json else None)
-    else:
-        say(worded(error) if as_json else f"bsm: {worded(error)}", "error" if as_json else None)
+        return
+    text = exit_of(error).meaning if isinstance(error, _SIGNALS) else worded(error)
+    say(text if as_json else f"bsm: {text}", "error" if as_json else None)
 
 
 def worded(error: BaseException) -> str:

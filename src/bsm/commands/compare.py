@@ -119,10 +119,13 @@ def run(args: argparse.Namespace, console: Console) -> None:
         shown = {"look": asdict(seen) | more} if seen else {}
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
-    lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if "max_error" in compared else []
     looks = {"look": seen.distance, **{f"look_{name}": value for name, value in more.items()}} if seen else {}
-    lines += [f"{line}\n" for line in explained(compared | looks)]
-    print("".join(lines + [f"{line}\n" for line in _of_attributes(attributes)]), end="")
+    for line in (
+        *([sentence(compared, unit_of(original.metadata))] if "max_error" in compared else []),
+        *explained(compared | looks),
+        *_of_attributes(attributes),
+    ):
+        print(line)
 
 
 def _of_attributes(attributes: dict[str, dict[str, float] | None]) -> Iterator[str]:
@@ -198,9 +201,9 @@ def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
                 console.note("the scenes have different primitives; each is compared as one mesh")
             return False
         rows: list[dict[str, Any]] = []
-        for number, primitives in enumerate(zip(*(side.primitives() for side in sides), strict=True)):
-            place = int(np.searchsorted(np.cumsum(listed[0]), number, side="right"))
-            row: dict[str, Any] = {"mesh": place, "primitive": number - sum(listed[0][:place])}
+        names = [(mesh, primitive) for mesh, count in enumerate(listed[0]) for primitive in range(count)]
+        for (mesh, number), *primitives in zip(names, *(side.primitives() for side in sides), strict=True):
+            row: dict[str, Any] = {"mesh": mesh, "primitive": number}
             try:
                 first, second = (as_shares(side, primitive) for side, primitive in zip(sides, primitives, strict=True))
                 rows.append(row | _compared(first, second, pair(first, second, by_place=True), args, console))

@@ -23,12 +23,10 @@ class Setting:
 
     def add(self, group: argparse._ActionsContainer) -> None:
         """Add it as a flag. Without a value the namespace has no such name: defaults are elsewhere."""
-        typed = {"type": self.type, "metavar": self.metavar}
-        if "|" in self.metavar:
-            typed["choices"] = self.metavar.split("|")
-        how: dict[str, Any] = {"action": argparse.BooleanOptionalAction} if self.type is bool else typed
-        how |= {"dest": self.field, "default": argparse.SUPPRESS, "help": self.help}
-        group.add_argument(f"--{self.field.replace('_', '-')}", **how)
+        how: dict[str, Any] = {"action": argparse.BooleanOptionalAction} if self.type is bool else {"type": self.type}
+        how |= {"choices": self.metavar.split("|")} if "|" in self.metavar else {}
+        add = adder(group)
+        add(f"--{self.field.replace('_', '-')}", self.metavar, self.help, default=argparse.SUPPRESS, **how)
 
 
 def adder(parser: argparse._ActionsContainer) -> Callable[..., argparse.Action]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
+from graphlib import TopologicalSorter
 from heapq import heappop, heappush
 
 from bsm.bitstream.errors import OptionError, counted
@@ -96,11 +97,9 @@ def run_many(
     sizes, finished = sizes_of(jobs), 0
     waiting: dict[int, Outcome] = {}
     following = 0
-    needs, users = [len(job.after) for job in jobs], dict[int, list[int]]()
-    for number, job in enumerate(jobs):
-        for needed in job.after:
-            users.setdefault(needed, []).append(number)
-    ready = [number for number, missing in enumerate(needs) if not missing]
+    order = TopologicalSorter({number: job.after for number, job in enumerate(jobs)})
+    order.prepare()
+    ready = sorted(order.get_ready())
 
     def given() -> Tasks:
         while True:
@@ -120,10 +119,9 @@ def run_many(
                     failed = {"error": worded(outcome.error), "exit": exit_of(outcome.error).code}
                     done[number] = {"input": jobs[number].input, "output": jobs[number].output, **failed}
                 else:
-                    for user in users.get(number, ()):
-                        needs[user] -= 1
-                        if not needs[user]:
-                            heappush(ready, user)
+                    order.done(number)
+                    for user in order.get_ready():
+                        heappush(ready, user)
                 if report:
                     report.take(number, done[number])
                 waiting[number] = outcome
