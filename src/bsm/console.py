@@ -73,11 +73,11 @@ class Progress:
         if heard is not None and not callable(heard):
             raise ArgumentError(f"progress must be a function, not {heard!r}")
         self._shown, self._lines, self._heard = shown, lines, heard
-        self._begun = self._reported_at = time.monotonic()
+        self._begun = self._said_at = time.monotonic()
+        self._said_at += 0.0 if lines else _PATIENCE - _OFTEN
         self._share, self._when = 0.0, 0.0  # as reported, and after how many seconds
         self._reported = 0
         self.stopped: BaseException | None = None
-        self._drawn_at = 0.0
         self._over = threading.Event()
         self._clock: threading.Thread | None = None
 
@@ -91,7 +91,7 @@ class Progress:
         self._over.set()
         if self._clock is not None:
             self._clock.join()
-        if self._drawn_at:
+        if self._shown:
             _write("")
         if kind is None:
             self._tell_listener(1.0)
@@ -123,10 +123,7 @@ class Progress:
     def _at(self, share: float) -> None:
         self._share, self._when = share, time.monotonic() - self._begun
         self._tell_listener(share)
-        if self._lines and time.monotonic() - self._reported_at >= _SECOND:
-            self._report()
-        if self._shown and self._when >= _PATIENCE and time.monotonic() - self._drawn_at >= _OFTEN:
-            self._draw()
+        self._say(_SECOND if self._lines else _OFTEN)
 
     def _tell_listener(self, share: float) -> None:
         """Tell a listener, to whom nothing goes back."""
@@ -138,10 +135,6 @@ class Progress:
         except BaseException as error:
             self.stopped = error
             raise
-
-    @property
-    def _what(self) -> str:
-        return ": ".join(what for what, _, _ in self._parts if what)
 
     def _now(self) -> tuple[float, float, float | None]:
         """The share that is done, as far as time tells; seconds since the beginning, and to the end if known."""
@@ -155,27 +148,25 @@ class Progress:
         left = since / share * (1.0 - share)
         return min(share, _MOST_SHARE), since, max(left, _LEAST_LEFT)
 
-    def _report(self) -> None:
-        self._reported_at = time.monotonic()
+    def _say(self, interval: float) -> None:
+        """Say what goes on, unless that was said less than so many seconds ago."""
+        if not (self._shown or self._lines) or time.monotonic() - self._said_at < interval:
+            return
+        self._said_at = time.monotonic()
         share, since, left = self._now()
-        line = {"stage": self._what, "share": share, "seconds": since, "seconds_left": left}
-        _say_json(line)
-
-    def _draw(self) -> None:
-        self._drawn_at = time.monotonic()
-        share, since, left = self._now()
+        what = ": ".join(what for what, _, _ in self._parts if what)
+        if self._lines:
+            _say_json({"stage": what, "share": share, "seconds": since, "seconds_left": left})
+            return
         done = "" if left is None else f"{100 * share:3.0f}%|{'█' * int(_BAR * share):{_BAR}}| "
         rest = "" if left is None else f"<{int(left) // 60:02d}:{int(left) % 60:02d}"
-        line = f"{printable(self._what)}: {done}{int(since) // 60:02d}:{int(since) % 60:02d}{rest}"
+        line = f"{printable(what)}: {done}{int(since) // 60:02d}:{int(since) % 60:02d}{rest}"
         _write("", line[: shutil.get_terminal_size().columns - 1])
 
     def _tick(self) -> None:
-        """Draw again each second, so that silence does not look like the end."""
+        """Say it again each second, so that silence does not look like the end."""
         while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
-            if self._lines and time.monotonic() - self._reported_at >= _SECOND / 2:
-                self._report()
-            if self._shown:
-                self._draw()
+            self._say(_SECOND / 2 if self._lines else 0.0)
 
 
 def printable(text: str) -> str:
