@@ -170,7 +170,7 @@ class StreamDecoder:
                 loose = Changes(*engine.loose())
                 return ConnectivityEvent(engine.faces(faces), vertices, loose)
             case 4:
-                return BlockEvent(index, Changes(*engine.changes()))
+                return BlockEvent(*engine.changes(), index)
             case 5:
                 moved, positions, _ = engine.changes()
                 return RefinementEvent(moved, positions)

@@ -68,7 +68,7 @@ class Changes:
     final: Mask
 
     def __repr__(self) -> str:
-        return f"Changes({len(self.vertices)} vertices, {int(self.final.sum())} final)"
+        return f"{type(self).__name__}({len(self.vertices)} vertices, {int(self.final.sum())} final)"
 
 
 @public
@@ -105,17 +105,20 @@ class ConnectivityEvent:
 
 
 @public
-@dataclass(frozen=True, eq=False)
-class BlockEvent:
+@dataclass(frozen=True, eq=False, repr=False)
+class BlockEvent(Changes):
     """A block, or a chunk of a mesh on a grid, has been decoded: layer 0.
 
     Parameters
     ----------
+    vertices : int32 array, shape (v,)
+        Vertices that this block moved or finished.
+    positions : float64 array, shape (v, 3)
+        Their new positions, in the mesh's unit.
+    final : bool array, shape (v,)
+        Which of them no later block will move (the layer of refinement may).
     index : int
         Of the block or chunk.
-    changes : Changes
-        Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
-        block will move (the layer of refinement may).
 
     Examples
     --------
@@ -128,22 +131,6 @@ class BlockEvent:
     layer: ClassVar[int] = 0
 
     index: int
-    changes: Changes
-
-    @property
-    def vertices(self) -> Indices:
-        """Vertices that this block moved or finished, shape (v,)."""
-        return self.changes.vertices
-
-    @property
-    def positions(self) -> Positions:
-        """Their new positions, in the mesh's unit, shape (v, 3)."""
-        return self.changes.positions
-
-    @property
-    def final(self) -> Mask:
-        """Which of them no later block will move, shape (v,)."""
-        return self.changes.final
 
 
 @public
