@@ -18,7 +18,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.metadata import without_materials
+from bsm.files.formats.metadata import plain_fields, without_materials
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact, named_column
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.mesh import read_mesh
@@ -33,7 +33,7 @@ _POINTS = ("vertices", "points", "positions")
 _FACES = ("faces", "triangles")
 _SURFACES = ("triangle", "quad", "polygon")
 _NO_SURFACES = ("vertex", "line")
-_NOTHING: Metadata = MappingProxyType({})
+_NOTHING: Mapping[str, Any] = MappingProxyType({})
 _WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
 
@@ -162,7 +162,7 @@ def _of_meshio(mesh: Any) -> MeshFile:
     ]
     data = {name: [np.asarray(values[place]) for place in surfaces] for name, values in mesh.cell_data.items()}
     whole = {name: np.concatenate(tables) for name, tables in data.items() if len({t.shape[1:] for t in tables}) == 1}
-    columns = [*_of_points(mesh.point_data, left, ""), *_columns(whole, "face", left)]
+    columns = [*_columns(mesh.point_data, "vertex", left), *_columns(whole, "face", left)]
     left += [name for name in data if name not in whole]
     sizes = np.array([len(corners) for table in tables for corners in table], np.int64)
     corners = np.concatenate([np.empty(0, np.int64), *(row.reshape(-1) for row in rows)])
@@ -208,8 +208,9 @@ def columns_of(mesh: Any, left: list[str]) -> list[Column]:
         left += [name for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")]
         first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
         cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
-        names = (mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name)
-        return [*_of_points(mesh.point_data, left, *names), *_columns(cells, "face", left)]
+        normals, texcoords = mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name
+        active: dict[str, Semantic] = {normals: "normal", texcoords: "texcoord"}
+        return [*_columns(mesh.point_data, "vertex", left, active), *_columns(cells, "face", left)]
     if hasattr(mesh, "triangle_uvs") and hasattr(mesh, "vertex_colors"):
         left += ["textures"] if len(getattr(mesh, "textures", ())) else []
         return list(_of_open3d(mesh))
@@ -217,36 +218,23 @@ def columns_of(mesh: Any, left: list[str]) -> list[Column]:
 
 
 def metadata_of(mesh: Any, left: list[str]) -> Metadata:
-    """The field data of pyvista: one text, one number, or bytes each."""
-    found: dict[str, str | int | float | bytes] = {}
-    for name, given in getattr(mesh, "field_data", {}).items() if hasattr(mesh, "n_lines") else ():
-        values = np.asarray(given)
-        if values.dtype == np.uint8:
-            found[name] = values.tobytes()
-        elif values.size == 1 and isinstance(value := values.reshape(-1)[0].item(), str | int | float):
-            found[name] = value
-        else:
-            left.append(f"field data {name}")
+    """The field data of pyvista."""
+    found, others = plain_fields(mesh.field_data) if hasattr(mesh, "n_lines") else ({}, [])
+    left += [f"field data {name}" for name in others]
     return found
 
 
-def _of_points(
-    data: Mapping[str, Any], left: list[str], normals: str | None, texcoords: str | None = None
+def _columns(
+    data: Mapping[str, Any], domain: Domain, left: list[str], active: Mapping[str, Semantic] = _NOTHING
 ) -> Iterator[Column]:
-    active: dict[str | None, Semantic] = {normals: "normal", texcoords: "texcoord"}
-    for column in _columns(data, "vertex", left):
-        yield Column(column.name, column.values, "vertex", active.get(column.name, column.semantic))
-
-
-def _columns(data: Mapping[str, Any], domain: Domain, left: list[str]) -> Iterator[Column]:
-    """Arrays of numbers by name."""
+    """Arrays of numbers by name, some of which are known to mean something."""
     for name, given in data.items():
         values = np.array(given)
         values = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
         if values.dtype.kind not in "biuf":
             left.append(f"{name} ({values.dtype.name} values)")
             continue
-        yield named_column(name, values, domain)
+        yield named_column(name, values, domain, active.get(name))
 
 
 def _of_open3d(mesh: Any) -> Iterator[Column]:

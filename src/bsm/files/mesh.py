@@ -94,19 +94,18 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
         document = by_name("bsm.gltf.document", "Document")(data, Path(path).parent if path else None, limits)
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
+    polygons: Polygons
     if kind == "dae":
-        collada: Polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
-        return collada.checked(limits, len(data))
-    if kind not in MESH_FORMATS:
-        from bsm.files.formats.with_trimesh import read_with_trimesh
-
+        polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
+    elif kind not in MESH_FORMATS:
         if data.startswith(b"PK\x03\x04"):
             require_archive(data, limits)
-        return read_with_trimesh(data, path, kind, limits).checked(limits, len(data))
-    if kind in _PLAIN:
+        polygons = by_name("bsm.files.formats.with_trimesh", "read_with_trimesh")(data, path, kind, limits)
+    elif kind not in _PLAIN:
+        polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
+    else:
         require_room(kind, data, limits)
-    polygons: Polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
-    if kind in _PLAIN:
+        polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
         beside = Beside(Path(path).parent if path else None, limits.metadata_bytes)
         metadata, notes = fetched(polygons.metadata, beside.read)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))

@@ -4,6 +4,7 @@ Like a stream, a file may take the memory that limits grant for its bytes and ve
 """
 
 import codecs
+import gzip
 import io
 import re
 import zipfile
@@ -142,7 +143,6 @@ AS_NUMBERS = 8  # bytes of a coordinate or an index as readers make it, however 
 TREE = 32  # bytes that a byte of JSON may become
 TAG = 150  # bytes that a tag of XML becomes in the tree of a library
 _PIECE = 1 << 18
-_OTHER = re.compile(rb"[^\0]")
 _COUNTED = {b"vertex": "vertices", b"face": "faces"}
 _PLY_COUNTS = re.compile(rb"[\r\n][ \t]*element[ \t]+(vertex|face)[ \t]+(\d{1,18})\b")
 _OFF_COUNTS = re.compile(rb"\s*[A-Zn4]{3,9}\s+(\d{1,18})\s+(\d{1,18})\b")
@@ -197,25 +197,17 @@ def require_archive(data: bytes, limits: Limits) -> None:
 
 def gunzipped(data: bytes, limits: Limits) -> bytes:
     """What gzip has compressed, in one member or several."""
-    pieces, size, begin = [], 0, 0
+    found = bytearray()
     try:
-        while begin < len(data):
-            # What is given beyond the end of a member is copied: begin with little, since members may be short.
-            member, at, most = zlib.decompressobj(wbits=31), begin, 64
-            while not member.eof:
-                given = member.unconsumed_tail or data[at : at + most]
-                if not given:
-                    raise TruncatedError("the file is cut short: what gzip has compressed does not end")
-                if not member.unconsumed_tail:
-                    at, most = at + len(given), min(2 * most, _PIECE)
-                pieces.append(member.decompress(given, _PIECE))
-                size += len(pieces[-1])
-                require_inflated(2 * size, len(data), limits)  # pieces, and all of it
-            rest = _OTHER.search(data, at - len(member.unused_data))  # zeros may follow
-            begin = rest.start() if rest else len(data)
-    except zlib.error as error:
+        with gzip.open(io.BytesIO(data)) as file:
+            while piece := file.read(_PIECE):
+                found += piece
+                require_inflated(2 * len(found), len(data), limits)  # these, and a copy of them
+    except EOFError as error:
+        raise TruncatedError("the file is cut short: what gzip has compressed does not end") from error
+    except (OSError, zlib.error) as error:
         raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
-    return b"".join(pieces)
+    return bytes(found)
 
 
 def require_room(kind: str, data: bytes, limits: Limits) -> None:

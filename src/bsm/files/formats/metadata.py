@@ -277,6 +277,21 @@ def _add_libraries(found: dict[str, Value], libraries: Iterable[bytes]) -> None:
     found |= {f"image.{number}.name": name for name, number in images.items()}
 
 
+def plain_fields(fields: Mapping[str, Any]) -> tuple[dict[str, Value], list[str]]:
+    """Return the field data of VTK that are one text, one number, or bytes each, and the names of all others."""
+    found: dict[str, Value] = {}
+    left: list[str] = []
+    for name, given in fields.items():
+        values = np.asarray(given)
+        if values.dtype == np.uint8:
+            found[name] = values.tobytes()
+        elif values.size == 1 and isinstance(value := values.reshape(-1)[0].item(), str | int | float):
+            found[name] = value
+        else:
+            left.append(name)
+    return found, left
+
+
 _READ = 4  # times the bytes that metadata may have that are read before the largest images are left out
 
 

@@ -20,7 +20,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.metadata import Written, first
+from bsm.files.formats.metadata import Written, first, plain_fields
 from bsm.files.formats.polygons import Array, Column, Polygons, named_column
 from bsm.files.room import AS_NUMBERS, TAG, Ints, require_count, require_inflated, single_suffices
 
@@ -200,7 +200,8 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     if (sizes < 0).any() or (sizes > corners.size).any() or sizes.sum() != corners.size:
         raise CorruptError("the polygons of this VTP file do not begin where others end")
     columns, dropped = _columns(document, numbers, piece)
-    metadata, omitted = _metadata(document, numbers)
+    fields = {array.get("Name", ""): array for around, array in document.arrays if around == "FieldData"}
+    metadata, omitted = plain_fields({name: _field(numbers.of(array), array) for name, array in fields.items()})
     others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
     flat: Ints = corners.reshape(-1).astype(np.int64)
     with np.errstate(invalid="ignore"):  # as above
@@ -225,22 +226,10 @@ def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> t
     return tuple(found), dropped
 
 
-def _metadata(document: _Document, numbers: _Numbers) -> tuple[Metadata, list[str]]:
-    """Field data: one text, one number, or bytes each; and the names of all others."""
-    found: dict[str, str | int | float | bytes] = {}
-    dropped = []
-    for array in (array for around, array in document.arrays if around == "FieldData"):
-        name, kind = array.get("Name", ""), array.get("type")
-        values = numbers.of(array)
-        if kind == "String" and values.size and values[-1] == 0 and np.count_nonzero(values == 0) == 1:
-            found[name] = values[:-1].tobytes().decode(errors="replace")
-        elif kind == "UInt8":
-            found[name] = values.tobytes()
-        elif values.size == 1 and kind != "String":
-            found[name] = values.reshape(-1)[0].item()
-        else:
-            dropped.append(name)
-    return found, dropped
+def _field(values: Array, array: ElementTree.Element) -> Array:
+    """Numbers, or the texts that they are the letters of."""
+    is_text = array.get("type") == "String"
+    return np.array(values.tobytes().decode(errors="replace").removesuffix("\0").split("\0")) if is_text else values
 
 
 def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
