@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeAlias
 
 import numpy as np
 
@@ -331,10 +331,23 @@ class _Instancer:
         self._instancer = pxr.UsdGeom.PointInstancer(prim)
         self._placed: tuple[float, Doubles] = (np.nan, np.empty((0, 4, 4)))
         first = pxr.Usd.TimeCode.EarliestTime()
-        self.kinds: Ints = np.array(self._instancer.GetProtoIndicesAttr().Get(first) or [], np.int64)
+        self._kinds: Ints = np.array(self._instancer.GetProtoIndicesAttr().Get(first) or [], np.int64)
         mask = self._instancer.ComputeMaskAtTime(first)
-        self.numbers = np.flatnonzero(np.array(mask, np.bool_)) if mask else np.arange(len(self.kinds))
-        self.roots = [prim.GetStage().GetPrimAtPath(path) for path in self._instancer.GetPrototypesRel().GetTargets()]
+        self._numbers = np.flatnonzero(np.array(mask, np.bool_)) if mask else np.arange(len(self._kinds))
+        self._roots = [prim.GetStage().GetPrimAtPath(path) for path in self._instancer.GetPrototypesRel().GetTargets()]
+        below = [list(pxr.Usd.PrimRange.AllPrims(root)) if root else [] for root in self._roots]
+        self._meshes = [[one for one in prims if one.IsA(pxr.UsdGeom.Mesh)] for prims in below]
+        inner = (one for prims in below for one in prims if one.IsA(pxr.UsdGeom.PointInstancer))
+        self.inner = [str(one.GetPath()) for one in inner]
+
+    def instances(self) -> Iterator[tuple[Any, _Instance]]:
+        """The meshes of each instance, and which one that is."""
+        for number in self._numbers.tolist():
+            kind = int(self._kinds[number])
+            if not 0 <= kind < len(self._roots):
+                raise FormatError(f"{self.prim.GetPath()} names prototype {kind} of {len(self._roots)}")
+            for mesh in self._meshes[kind]:
+                yield mesh, (self, number, self._roots[kind])
 
     @property
     def times(self) -> list[float]:
@@ -356,10 +369,14 @@ class _Instancer:
         return placed
 
 
+_Instance: TypeAlias = tuple[_Instancer, int, Any]
+"""An instance by its number, and the root of its prototype."""
+
+
 class _Part:
     """A mesh of a stage at its place: its faces once, its points at any time."""
 
-    def __init__(self, shape: _Shape, prim: Any, instance: tuple[_Instancer, int, Any] | None = None) -> None:
+    def __init__(self, shape: _Shape, prim: Any, instance: _Instance | None = None) -> None:
         self.shape, self.prim, self._instance = shape, prim, instance
         self.name = str(prim.GetPath()) if instance is None else f"{instance[0].prim.GetPath()}[{instance[1]}]"
 
@@ -452,24 +469,23 @@ class _Stage:
 
     def _parts(self) -> Iterator[_Part]:
         """Yield the visible meshes, once for each instance; their total size is checked before they are made."""
-        pxr, left = self.pxr, dict[str, list[str]]()
-        shapes_of = dict[str, _Shape]()
-        totals = dict.fromkeys(("vertices", "faces", "parts"), 0)
-
-        def part(prim: Any, instance: tuple[_Instancer, int, Any] | None = None) -> Iterator[_Part]:
+        known: dict[str, _Shape] = {}
+        vertices = triangles = 0
+        for count, (prim, instance) in enumerate(self._placed(), 1):
             key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
-            if key not in shapes_of:
-                shapes_of[key] = _Shape(pxr, prim, pxr.Usd.TimeCode.EarliestTime())
-            shape = shapes_of[key]
-            totals["vertices"] += shape.vertices
-            totals["faces"] += shape.triangles
-            totals["parts"] += 1
-            for name in ("vertices", "faces"):
-                require_count(name, totals[name], self._limits)
-            self._limits.check_memory(PER_PART * totals["parts"], totals["vertices"], self._size)
+            if key not in known:
+                known[key] = _Shape(self.pxr, prim, self.pxr.Usd.TimeCode.EarliestTime())
+            shape = known[key]
+            vertices, triangles = vertices + shape.vertices, triangles + shape.triangles
+            require_count("vertices", vertices, self._limits)
+            require_count("faces", triangles, self._limits)
+            self._limits.check_memory(PER_PART * count, vertices, self._size)
             if shape.rows["face"] or shape.rows["corner"]:
                 yield _Part(shape, prim, instance)
 
+    def _placed(self) -> Iterator[tuple[Any, _Instance | None]]:
+        """Yield the visible meshes, and the instances of instancers."""
+        pxr, left = self.pxr, dict[str, list[str]]()
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
         for count, prim in enumerate(every):
             if count == MOST_PRIMS:
@@ -480,29 +496,13 @@ class _Stage:
                 left.setdefault(hidden, []).append(str(prim.GetPath()))
             elif prim.IsA(pxr.UsdGeom.PointInstancer):
                 every.PruneChildren()
-                yield from self._instances(_Instancer(pxr, prim), part, left)
+                instancer = _Instancer(pxr, prim)
+                if instancer.inner:
+                    left.setdefault("instancers in prototypes", []).extend(instancer.inner)
+                yield from instancer.instances()
             elif prim.IsA(pxr.UsdGeom.Mesh):
-                yield from part(prim)
+                yield prim, None
         self.notes += [f"left out, {why}: {', '.join(paths[:MOST_NAMED])}" for why, paths in left.items()]
-
-    def _instances(
-        self,
-        instancer: _Instancer,
-        part: Callable[[Any, tuple[_Instancer, int, Any]], Iterator[_Part]],
-        left: dict[str, list[str]],
-    ) -> Iterator[_Part]:
-        of_roots: list[list[Any]] = []
-        for root in instancer.roots:
-            prims = list(self.pxr.Usd.PrimRange.AllPrims(root)) if root else []
-            of_roots.append([prim for prim in prims if prim.IsA(self.pxr.UsdGeom.Mesh)])
-            inner = [str(prim.GetPath()) for prim in prims if prim.IsA(self.pxr.UsdGeom.PointInstancer)]
-            left.setdefault("instancers in prototypes", []).extend(inner) if inner else None
-        for number in instancer.numbers.tolist():
-            kind = int(instancer.kinds[number])
-            if not 0 <= kind < len(of_roots):
-                raise FormatError(f"{instancer.prim.GetPath()} names prototype {kind} of {len(of_roots)}")
-            for prim in of_roots[kind]:
-                yield from part(prim, (instancer, number, instancer.roots[kind]))
 
     def _hidden(self, prim: Any) -> str:
         """Why a mesh or an instancer is not seen; nothing if it is."""
