@@ -16,16 +16,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
-from bsm.files.motion.frames import (
-    LIKELY_RATES,
-    START,
-    Frames,
-    Wanted,
-    between,
-    checked_frames,
-    painted_like,
-    rate_of_times,
-)
+from bsm.files.motion.frames import LIKELY_RATES, START, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document, triangles_of
@@ -509,7 +500,7 @@ USUAL_RATE = 30.0
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
     document = read_document(path, limits)
     with as_format_error(), np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
-        return _frames(path, document, wanted, limits)
+        return _frames(document, wanted, limits)
 
 
 def read_gltf_mesh(document: Document) -> shapes.MeshFile:
@@ -560,7 +551,7 @@ def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Frames:
+def _frames(document: Document, wanted: Wanted, limits: Limits) -> Frames:
     number, animation = _chosen(document, wanted.animation)
     scene = Scene(document, animation, limits)
     if not scene.moves:
@@ -584,7 +575,7 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     notes += [f"left out: {', '.join(unread)}"] if (unread := _unread(document, still=False)) else []
     notes += between("key times", (keys - keys[0]) * rate, rate)
     mesh = replace(still.mesh, metadata={**still.mesh.metadata, **({START: keys[0] * rate} if keys[0] else {})})
-    frames = checked_frames(path, map(scene.at, times.tolist()), len(mesh.positions))
+    frames = map(scene.at, times.tolist())
     shared = mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata
     meshes = (painted_like(mesh, _painted(scene, mesh, time)) for time in times.tolist())
     return Frames(mesh.faces, count, frames, *shared, meshes if len(scene.colors(0.0)) else None)

@@ -628,8 +628,12 @@ def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
     head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), 0, 1, 20)
     (tmp_path / "a.pc2").write_bytes(head + frames.tobytes())
     assert bsm("encode", tmp_path / "a.pc2", "-o", tmp_path / "a.bsm", "--gop", 4, "--set", "step=0.01") == 3
-    assert "vertex 3 of frame 17 of" in capsys.readouterr().err
+    assert "vertex 3 of frame 17 has" in capsys.readouterr().err
     assert sorted(file.name for file in tmp_path.iterdir()) == ["a.obj", "a.pc2"]
+    np.savez(tmp_path / "a.npz", positions=frames, faces=mesh.faces)
+    for name in ("a.npz", "a.pc2"):
+        assert bsm("compare", tmp_path / name, tmp_path / name) == 3
+        assert "vertex 3 of frame 17 has" in capsys.readouterr().err
 
 
 # ---------------------------------------------------------------------------------------------------------------- glTF

@@ -19,7 +19,7 @@ from bsm.bitstream.errors import CorruptError, FormatError, MeshError, Truncated
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.files.mesh import read_mesh
-from bsm.files.motion.frames import START, STEP, USUAL_RATE, Frames, Wanted, checked_frames, timing_of
+from bsm.files.motion.frames import START, STEP, USUAL_RATE, Frames, Wanted, timing_of
 from bsm.files.pipes import about
 from bsm.files.room import Doubles, require_count
 
@@ -57,10 +57,9 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
     kept, normals = mesh.moved(mesh.positions)
     notes = [f"faces and attributes are those of {beside}"]
     notes += [f"left out, for they move: {', '.join(normals)}"] if normals else []
-    frames = checked_frames(path, _samples(path, cache), cache.points)
     notes += ["the times of frames are not numbers that grow, and are left out"] if cache.timing is None else []
     shared = kept.attributes, tuple(notes), cache.rate, {**mesh.metadata, **(cache.timing or {})}
-    return Frames(mesh.faces, cache.frames, frames, *shared, rigged=cache.points)
+    return Frames(mesh.faces, cache.frames, _samples(path, cache), *shared, rigged=cache.points)
 
 
 def read_head(path: str, kind: str, rate: float = 0.0) -> Cache:

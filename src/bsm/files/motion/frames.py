@@ -36,6 +36,21 @@ class Frames:
     meshes: Iterator[TriangleMesh] | None = None
     rigged: int = 0  # vertices of the mesh that plays them, whose number and order count, of a cache of points
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "frames", self._checked(self.frames))
+
+    @staticmethod
+    def _checked(frames: Iterator[Positions]) -> Iterator[Positions]:
+        vertices = 0
+        for number, frame in enumerate(frames):
+            vertices = vertices or len(frame)
+            if len(frame) != vertices:
+                raise MeshError(f"frame {number} has {len(frame)} vertices, and the first one has {vertices}")
+            if not (finite := np.isfinite(frame)).all():
+                row = int(np.argmin(finite.all(axis=1)))
+                raise MeshError(f"vertex {row} of frame {number} has a coordinate that is not finite; repair it")
+            yield frame
+
     def on_sorted_faces(self) -> Frames:
         """These frames where the order of faces costs nothing, and each vertex in no face has one without area."""
         loose = np.setdiff1d(np.arange(self.rigged), self.faces)
@@ -116,17 +131,6 @@ def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
         return replace(attribute, values=(np.rint(255.0 * shades) if kind == np.uint8 else shades).astype(kind))
 
     return replace(mesh, attributes=tuple(map(same, mesh.attributes)))
-
-
-def checked_frames(name: str, frames: Iterable[Positions], vertices: int) -> Iterator[Positions]:
-    """The frames of one file, as float64."""
-    for number, frame in enumerate(frames):
-        if frame.shape != (vertices, 3):
-            raise MeshError(f"frame {number} of {name} has {len(frame)} vertices, and the mesh has {vertices}")
-        if not (finite := np.isfinite(frame)).all():
-            row = int(np.argmin(finite.all(axis=1)))
-            raise MeshError(f"vertex {row} of frame {number} of {name} has a coordinate that is not finite")
-        yield np.asarray(frame, np.float64)
 
 
 def timing_of(times: Positions, rate: float = 0.0) -> tuple[float, dict[str, float | str] | None]:

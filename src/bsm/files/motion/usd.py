@@ -24,18 +24,7 @@ from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, empty_frame, is_empty
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
-from bsm.files.motion.frames import (
-    START,
-    STEP,
-    TIMES,
-    USUAL_RATE,
-    Frames,
-    Shared,
-    Wanted,
-    between,
-    checked_frames,
-    painted_like,
-)
+from bsm.files.motion.frames import START, STEP, TIMES, USUAL_RATE, Frames, Shared, Wanted, between, painted_like
 from bsm.files.room import Doubles, Ints, require_count, single_suffices
 from bsm.lengths import metres
 
@@ -377,16 +366,13 @@ class _Part:
     """A mesh of a stage at its place: its faces once, its points at any time."""
 
     def __init__(self, shape: _Shape, prim: Any, instance: _Instance | None = None) -> None:
-        self.shape, self.prim, self._instance = shape, prim, instance
+        self.shape, self.prim, self.instance = shape, prim, instance
         self.name = str(prim.GetPath()) if instance is None else f"{instance[0].prim.GetPath()}[{instance[1]}]"
-
-    def renewed(self, pxr: Any, time: float) -> _Part:
-        return _Part(_Shape(pxr, self.prim, pxr.Usd.TimeCode(time)), self.prim, self._instance)
 
     def times(self, geom: Any) -> list[float]:
         found = [time for attr in (self.shape.points, *self.shape.painted) for time in attr.GetTimeSamples()]
-        found += self._instance[0].times if self._instance else []
-        for prim in (self.prim, self._instance[0].prim) if self._instance else (self.prim,):
+        found += self.instance[0].times if self.instance else []
+        for prim in (self.prim, self.instance[0].prim) if self.instance else (self.prim,):
             while prim and not prim.IsPseudoRoot():
                 found += geom.Xformable(prim).GetTimeSamples() if prim.IsA(geom.Xformable) else []
                 prim = prim.GetParent()
@@ -395,9 +381,9 @@ class _Part:
     def matrix(self, time: Any, cache: Any) -> Doubles:
         """Return the matrix that places the points in the world, from the right."""
         found: Doubles = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
-        if self._instance is None:
+        if self.instance is None:
             return found
-        instancer, number, root = self._instance
+        instancer, number, root = self.instance
         base = np.array(cache.GetLocalToWorldTransform(root), np.float64)
         placed: Doubles = found @ np.linalg.pinv(base) @ instancer.place(number, time, cache)
         return placed
@@ -525,7 +511,8 @@ class _Stage:
 
     def renew(self, time: float) -> None:
         """Give the parts the faces and primvars that they have at a time."""
-        self.parts = [part.renewed(self.pxr, time) for part in self.parts]
+        code = self.pxr.Usd.TimeCode(time)
+        self.parts = [_Part(_Shape(self.pxr, part.prim, code), part.prim, part.instance) for part in self.parts]
 
     @property
     def changes(self) -> bool:
@@ -579,7 +566,6 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
     off = between("time samples", samples, rate)
     mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *off, *still.notes)
-    checked = checked_frames(path, map(stage.at, every), len(mesh.positions))
     meshes = None
     if (wanted.runs and stage.changes) or any(part.shape.painted for part in stage.parts):
 
@@ -596,7 +582,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
 
         meshes = changing()
     metadata = {**mesh.metadata, **({START: first * rate / codes} if first else {})}
-    return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, metadata, meshes)
+    return Frames(mesh.faces, count, map(stage.at, every), mesh.attributes, notes, rate, metadata, meshes)
 
 
 def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile:
