@@ -152,7 +152,8 @@ def attributes_of(data: Any, corners: Array) -> tuple[Attribute, ...]:
     data.polygons.foreach_get("material_index", slots)
     if slots.any() and "material" not in found:
         found["material"] = Attribute("material", slots[owner], "face")
-    warn([f"left out: {', '.join(left)}"] if left else [])
+    if left:
+        warn([f"left out: {', '.join(left)}"])
     return tuple(found.values())
 
 
@@ -194,11 +195,8 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
         image = links[0].from_node.image if links and links[0].from_node.type == "TEX_IMAGE" else None
         packed = bytes(image.packed_file.data) if image is not None and image.packed_file else b""
         shown += ["Base Color"] if links and not kind_of_image(packed) else []
-        warn(
-            [f"material {material.name}: left out, only packed images of colors are kept: {', '.join(shown)}"]
-            if shown
-            else []
-        )
+        if shown:
+            warn([f"material {material.name}: left out, only packed images of colors are kept: {', '.join(shown)}"])
         if kind_of_image(packed):
             found[f"material.{number}.baseColorTexture"] = images
             found[f"image.{images}.data"] = packed

@@ -132,10 +132,8 @@ class StreamSource(VTKPythonAlgorithmBase):  # type: ignore[misc]
         for key in (executive.TIME_STEPS(), executive.TIME_RANGE()):
             about.Remove(key)
         if times := self.GetTimestepValues():
-            for time in times:
-                about.Append(executive.TIME_STEPS(), time)
-            about.Append(executive.TIME_RANGE(), times[0])
-            about.Append(executive.TIME_RANGE(), times[-1])
+            about.Set(executive.TIME_STEPS(), times, len(times))
+            about.Set(executive.TIME_RANGE(), (times[0], times[-1]), 2)
         return 1
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:

@@ -75,7 +75,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     for note, count in found.notes.items():
         console.note(f"{args.input}: {note}{f' ({count} times)' if count > 1 else ''}")
     numbers = range(len(document.items("images")))
-    images = sum(len(document.bytes_of_image(number) or b"") for number in numbers)
+    images = sum(len(document.image(number)[1] or b"") for number in numbers)
     if not rule and 2 * images > len(found.data):
         console.note(f"{args.input}: {images} bytes are unchanged images; --images webp:85 makes them smaller")
     for reason, count in found.left.items():

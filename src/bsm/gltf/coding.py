@@ -58,11 +58,15 @@ def drawn(mesh: TriangleMesh) -> Drawn:
     return Drawn(rows.ravel().astype(np.uint32), arrays, np.repeat(labels[order], 3))
 
 
+def shares(values: Array) -> Array:
+    """Floats as they are, and what part of their largest number unsigned integers are; float64."""
+    return values / np.float64(1 if values.dtype.kind == "f" else np.iinfo(values.dtype).max)
+
+
 def stored(name: str, values: Array, component: int) -> Array:
     """The numbers of an array of a stream in a component type of accessors; integers of colors are shares."""
-    if name == "COLOR_0" and component == FLOAT and values.dtype.kind == "u":
-        return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
-    return values.astype(KINDS[component])
+    of_color = name == "COLOR_0" and component == FLOAT and values.dtype.kind == "u"
+    return (shares(values) if of_color else values).astype(KINDS[component])
 
 
 def array_of(found: tuple[TriangleMesh, Drawn], name: str, component: int | None) -> Array:

@@ -40,6 +40,7 @@ from bsm.gltf.coding import (
     Drawn,
     Tree,
     drawn,
+    shares,
     stored,
 )
 from bsm.gltf.scene import parents_of, places_of
@@ -119,8 +120,8 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
         arrays |= _levels({name: array for name, array in arrays.items() if name.startswith("WEIGHTS_")})
     attributes, accessors, qualities = [], {"POSITION": (FLOAT, False)}, dict[str, str]()
     for name, array in arrays.items():
-        shares = bool(entries[name].get("normalized")) or (name.startswith("WEIGHTS_") and not exact)
-        carried = _carried(name, array, shares)
+        normalized = bool(entries[name].get("normalized")) or (name.startswith("WEIGHTS_") and not exact)
+        carried = _carried(name, array, normalized)
         if isinstance(carried, str):
             return carried
         attributes.append(carried[0])
@@ -141,11 +142,11 @@ def as_shares(document: gltf.Document, primitive: Tree) -> TriangleMesh:
     found = as_mesh(document, [[primitive]], exact=True)
     if isinstance(found, str):
         raise MeshError(found)
-    shares = [
+    plain = [
         replace(a, values=_floats(a.values, True)) if found.accessors[a.name][1] or a.name == "COLOR_0" else a
         for a in found.mesh.attributes
     ]
-    return replace(found.mesh, attributes=tuple(shares))
+    return replace(found.mesh, attributes=tuple(plain))
 
 
 def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | str:
@@ -154,8 +155,8 @@ def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | st
     for name, index in arrays_of(primitive).items():
         array, normalized = document.array(index), bool(document.item("accessors", index).get("normalized"))
         geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
-        shares = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
-        arrays[name] = _floats(array, normalized) if geometry or shares else array
+        narrow = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
+        arrays[name] = _floats(array, normalized) if geometry or narrow else array
     positions = arrays.get("POSITION")
     if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
         return "positions that are not finite floats"
@@ -188,14 +189,13 @@ def _levels(weights: Mapping[str, Array]) -> dict[str, Array]:
     """Weights of all sets as bytes whose sum is 255, as that of the weights is 1."""
     if not weights:
         return {}
-    shares = [a / np.float64(1 if a.dtype.kind == "f" else np.iinfo(a.dtype).max) for a in weights.values()]
-    table = np.hstack(shares)
+    table = np.hstack([shares(array) for array in weights.values()])
     total = table.sum(axis=1, keepdims=True)
     exact = np.where(total > 0, table / np.maximum(total, 1e-30) * 255, 0)
     levels = np.floor(exact)
     ranks = np.argsort(np.argsort(levels - exact, axis=1, kind="stable"), axis=1)
     levels += ranks < np.where(total > 0, 255, 0) - levels.sum(axis=1, keepdims=True)  # the largest remainders go up
-    ends = np.cumsum([share.shape[1] for share in shares])[:-1]
+    ends = np.cumsum([array.shape[1] for array in weights.values()])[:-1]
     return dict(zip(weights, np.split(levels.astype(np.uint8), ends, axis=1), strict=True))
 
 
@@ -621,7 +621,7 @@ class _Rewritten(gltf.Growing):
     def rewrite_images(self, rule: ImageRule) -> None:
         """Write images by a rule where that makes them smaller."""
         for number, image in enumerate(self.tree.get("images", [])):
-            data = self._document.bytes_of_image(number)
+            data = self._document.image(number)[1]
             found = data and smaller(data, rule)
             if not found:
                 continue
@@ -643,7 +643,7 @@ class _Rewritten(gltf.Growing):
         """Return the .glb without replaced data, with external images inside, and with plain geometry elsewhere."""
         tree = self.tree
         for number, image in enumerate(tree.get("images", [])):
-            data = self._document.bytes_of_image(number) if "uri" in image else None
+            data = self._document.image(number)[1] if "uri" in image else None
             kind = image.get("mimeType") or (data and gltf.mime_of(data))
             if data and kind:
                 image.pop("uri")

@@ -210,25 +210,23 @@ class Document:
         """How many numbers an accessor claims; those without a buffer are zeros, for which no byte pays."""
         return self.count(index) * _WIDTHS.get(str(self.item("accessors", index).get("type")), 16)
 
-    def image(self, index: object) -> tuple[str, bytes]:
-        image = self.item("images", index)
-        if "bufferView" in image:
-            return str(image.get("name", "")), self.view(image["bufferView"])
-        uri = str(image.get("uri", ""))
-        name = "" if uri.startswith("data:") else Path(unquote(uri)).name
-        return str(image.get("name") or name), self._behind(uri)
-
     def why_absent(self, image: Tree) -> str:
         """Why the file of an image cannot be read: it lies at an address, or nowhere."""
-        if "bufferView" not in image and not (uri := str(image.get("uri"))).startswith("data:"):
+        if "bufferView" not in image and not (uri := str(image.get("uri", ""))).startswith("data:"):
             try:
                 self.file(uri)
             except FormatError as error:
                 return "it lies at an address" if is_url(uri) else str(error)
         return ""
 
-    def bytes_of_image(self, index: object) -> bytes | None:
-        return None if self.why_absent(self.item("images", index)) else self.image(index)[1]
+    def image(self, index: object) -> tuple[str, bytes | None]:
+        """The name of an image, and its bytes where they are there."""
+        image = self.item("images", index)
+        uri = str(image.get("uri", ""))
+        name = image.get("name") or ("" if uri.startswith("data:") else Path(unquote(uri)).name)
+        if self.why_absent(image):
+            return str(name), None
+        return str(name), self.view(image["bufferView"]) if "bufferView" in image else self._behind(uri)
 
     def source_of(self, texture: object) -> int | None:
         """The image of a texture."""
@@ -240,7 +238,7 @@ class Document:
         """The longer side of the image of a texture, in pixels."""
         if index not in self._sides:
             source = self.source_of(index)
-            data = None if source is None else self.bytes_of_image(source)
+            data = None if source is None else self.image(source)[1]
             try:
                 self._sides[index] = max(importlib.import_module("PIL.Image").open(io.BytesIO(data or b"")).size)
             except Exception:  # without Pillow, and of what it does not know

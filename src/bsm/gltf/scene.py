@@ -1,7 +1,7 @@
 """The scene of a glTF: curves, nodes, skins and morph targets, at rest or at any time of an animation."""
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
 from types import MappingProxyType
@@ -632,14 +632,13 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
     )
     counts = [(len(part.base), len(part.faces)) for part in parts]
     whole = shapes.joined_parts(made, counts, limits, document.received)
-    absent = _absent_images(document)
     metadata: dict[str, Value] = {"up": "y", "unit": "meters", **_extras(document)}
     if any(number >= 0 for number in used):
-        words, images = _materials(document, used, absent)
+        words, images = _materials(document, used)
         metadata |= described(words) | images
     colors = scene.colors(time)
     columns = (*whole.columns, *([shapes.color_column(colors, "vertex")] if len(colors) else []))
-    notes = (*whole.notes, *absent.values())
+    notes = (*whole.notes, *_absent_images(document))
     return replace(whole, notes=notes, columns=columns, metadata={**metadata, **whole.metadata})
 
 
@@ -661,15 +660,13 @@ def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:
     yield from [("copyright", asset["copyright"])] if "copyright" in asset else []
 
 
-def _absent_images(document: Document) -> dict[str, str]:
-    """Notes about images that a document names, and that do not lie in its folder or below, by their addresses."""
-    absent = {str(image["uri"]): document.why_absent(image) for image in document.items("images") if "uri" in image}
-    return {uri: f"the image {unquote(uri)[:80]} was left out: {why}" for uri, why in absent.items() if why}
+def _absent_images(document: Document) -> list[str]:
+    """Notes about images that a document names, and that do not lie in its folder or below."""
+    absent = {str(image.get("uri", "")): document.why_absent(image) for image in document.items("images")}
+    return [f"the image {unquote(uri)[:80]} was left out: {why}" for uri, why in absent.items() if why]
 
 
-def _materials(
-    document: Document, used: list[int], absent: Collection[str]
-) -> tuple[dict[int, Material], dict[str, Value]]:
+def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material], dict[str, Value]]:
     """Materials by their places among those used, in the words of glTF, and their images as metadata."""
     words: dict[int, Material] = {}
     numbers: dict[str, int] = {}
@@ -689,9 +686,9 @@ def _materials(
                 key = str(image.get("bufferView", image.get("uri")))
                 if key not in numbers:
                     numbers[key] = len(numbers)
-                    if str(image.get("uri")) in absent:
-                        continue
                     called, data = document.image(source)
+                    if data is None:
+                        continue
                     taken += len(data)
                     document.limits.check_memory(taken, 0, document.received)
                     images[f"image.{numbers[key]}.data"] = data

@@ -20,7 +20,7 @@ from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
-from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn
+from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn, shares
 from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
@@ -235,10 +235,7 @@ class _Moving(_Scene):
 
     def _painted(self, mesh: TriangleMesh) -> list[Array]:
         self.painted = formats.shown_at_vertices(mesh)[1]
-        if self.painted is None:
-            return []
-        values = self.painted.values
-        return [values / np.float64(1 if values.dtype.kind == "f" else np.iinfo(values.dtype).max)]
+        return [] if self.painted is None else [shares(self.painted.values)]
 
     def add_frame(self, mesh: TriangleMesh) -> None:
         run, frame = self._runs[-1], mesh.positions
