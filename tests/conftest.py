@@ -1,7 +1,5 @@
 """Where the tests find real meshes, and which of them they skip without."""
 
-from __future__ import annotations
-
 import os
 import signal
 from pathlib import Path

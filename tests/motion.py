@@ -1,7 +1,5 @@
 """Small sequences with known properties."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small meshes with known properties."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,6 +46,11 @@ def torus(rows: int = 40, columns: int = 24, bumps: float = 0.05) -> TriangleMes
     x, y, z = (1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v)
     faces = grid_faces(rows, columns, close_rows=True, close_columns=True)
     return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), faces)
+
+
+def soup(mesh: TriangleMesh) -> TriangleMesh:
+    """Every face with vertices of its own."""
+    return TriangleMesh(mesh.positions[mesh.faces].reshape(-1, 3), np.arange(mesh.faces.size).reshape(-1, 3))
 
 
 def tetrahedron() -> TriangleMesh:

@@ -1,7 +1,5 @@
 """What readers and decoders say of streams."""
 
-from __future__ import annotations
-
 import gc
 import tracemalloc
 from collections.abc import Callable, Iterator, Sequence
@@ -40,14 +38,14 @@ def frames_in(events: Sequence[Any]) -> dict[int, FrameEvent]:
     return {event.index: event for event in events if isinstance(event, FrameEvent)}
 
 
-def packets_of(data: bytes) -> list[tuple[Any, int, int]]:
-    """The packets of a stream, with offset and length of the frame of each."""
-    return [(packet, span.offset, span.length) for packet, span in scan(data)]
+def packets_of(data: bytes, kind: type = object) -> list[tuple[Any, int, int]]:
+    """The packets of a kind in a stream, with offset and length of the frame of each."""
+    return [(packet, span.offset, span.length) for packet, span in scan(data) if isinstance(packet, kind)]
 
 
 def without(data: bytes, packet: type, index: int, how: str) -> bytes:
     """A stream whose packet number `index` of a kind is "removed" or "changed"."""
-    _, offset, length = [kept_packet for kept_packet in packets_of(data) if isinstance(kept_packet[0], packet)][index]
+    _, offset, length = packets_of(data, packet)[index]
     middle = offset + length // 2
     if how == "removed":
         return data[:offset] + data[offset + length :]

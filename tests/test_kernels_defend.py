@@ -1,7 +1,5 @@
 """Kernels that are given an array too short, or indices beyond others, refuse them, or do not need them."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Streams that the tests of the framing share."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from bsm.bitstream.container.packets import (

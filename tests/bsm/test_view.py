@@ -32,7 +32,7 @@ from bsm.viewer.contents import DRACO_LEVEL, Content, Layer, compared, uploaded
 from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Tiled, written_to
 from tests.bitstream.streams import frame_ends
 from tests.shapes import curved, torus
-from tests.streams import moving_events_of
+from tests.streams import all_events, moving_events_of
 from tools.pictures import pages
 
 needs_packages = pytest.mark.skipif(
@@ -501,17 +501,14 @@ def test_original_of_a_sequence_is_refused(tmp_path, capsys):
 
 def events_of_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -> dict[str, Any]:
     """Events of a tolerant decoder, as far as it comes, and the name of the error that it ends with."""
-    events: list[list[Any]] = []
+    found: dict[str, Any] = {"events": [], "error": None}
     with kind(bsm.Limits(work=1e10), tolerant=True) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
         try:
-            while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-                if not isinstance(event, bsm.AttributeEvent):
-                    events.append(essence(event))
+            for event in all_events(decoder, [data]):
+                found["events"] += [] if isinstance(event, bsm.AttributeEvent) else [essence(event)]
         except bsm.BsmError as error:
-            return {"events": events, "error": type(error).__name__}
-    return {"events": events, "error": None}
+            found["error"] = type(error).__name__
+    return found
 
 
 def essence(event: Any) -> list[Any]:

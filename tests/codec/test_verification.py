@@ -1,7 +1,5 @@
 """Every stream is decoded before it is handed out: a writer that is broken, in any of its parts, is caught."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """bsmdec by ctypes: what a stream decodes to, or the status of its error."""
 
-from __future__ import annotations
-
 import ctypes
 import fcntl
 import hashlib

@@ -1,7 +1,5 @@
 """Vertices as graphics draw them: one call from a stream to buffers, and the calls that it is made of."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """The header and the library as others compile and find them: without warnings, by pkg-config and by CMake."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Sequences in C: frames from a start on, what pieces and losses change, and the example in C++."""
 
-from __future__ import annotations
-
 import ctypes
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The product and the decoder written from the law treat the same payloads alike, damaged ones too."""
 
-from __future__ import annotations
-
 import ctypes
 import hashlib
 import re

@@ -13,9 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import END_OF_STREAM, AttributeEvent, Decoder, decode, decode_sequence
+from bsm import AttributeEvent, Decoder, decode, decode_sequence
 from bsm.api import decode_frames
 from bsm.bitstream import errors
+from tests.streams import all_events, events_of
 from tools.vectors.__main__ import try_product
 from tools.vectors.large import LARGE
 from tools.vectors.made import BADS, GOODS
@@ -131,17 +132,14 @@ def test_threads_and_events_change_nothing(vector):
     assert np.array_equal(decode(data, threads=2).positions, whole.positions)
     positions = np.full_like(whole.positions, np.nan)
     arrays, places = arrays_of(whole.attributes), {attribute.name: i for i, attribute in enumerate(whole.attributes)}
-    with Decoder(threads=2) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        while (event := decoder.next_event()) is not END_OF_STREAM:
-            if isinstance(event, AttributeEvent):
-                name = f"attribute {places[event.name]} {event.semantic} {event.domain} {event.name}"
-                assert (arrays[name][event.rows] == event.values).all()
-            elif hasattr(event, "loose"):
-                positions[event.loose.vertices] = event.loose.positions
-            elif hasattr(event, "positions"):
-                positions[event.vertices] = event.positions
+    for event in events_of(data, threads=2):
+        if isinstance(event, AttributeEvent):
+            name = f"attribute {places[event.name]} {event.semantic} {event.domain} {event.name}"
+            assert (arrays[name][event.rows] == event.values).all()
+        elif hasattr(event, "loose"):
+            positions[event.loose.vertices] = event.loose.positions
+        elif hasattr(event, "positions"):
+            positions[event.vertices] = event.positions
     assert vector.complaint(positions, whole.faces, arrays) is None
 
 
@@ -179,11 +177,8 @@ def test_no_thread_is_left_behind(vector):
 @named([vector for vector in VECTORS if vector.error])
 def test_errors_stay(vector):
     with Decoder(threads=1) as decoder:
-        decoder.receive_data(vector.stream.read_bytes())
-        decoder.receive_eof()
         with pytest.raises(errors.BsmError) as first:
-            while decoder.next_event() is not END_OF_STREAM:
-                pass
+            list(all_events(decoder, [vector.stream.read_bytes()]))
         with pytest.raises(errors.BsmError) as second:
             decoder.next_event()
         assert second.value is first.value

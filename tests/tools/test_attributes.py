@@ -1,7 +1,5 @@
 """The comparison of attributes with Draco's: normals that it computes, and figures that stay what they are."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

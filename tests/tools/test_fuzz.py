@@ -5,9 +5,10 @@ from collections import Counter
 
 import pytest
 
-from bsm import END_OF_STREAM, BsmError, CorruptError, Decoder, FormatError
+from bsm import BsmError, CorruptError, FormatError
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh, written_mesh
+from tests.streams import events_of
 from tools.attack.mutate import mutate_stream
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import patch
@@ -49,11 +50,8 @@ def test_damage_that_looks_like_a_block_before_the_faces_is_refused():
     header = next(iter(frames_of(stream)))
     start = len(stream_of([header])) - 10
     kind_of_block = bytes([stream[start] & 0xF0 | 6]) + stream[start + 1 :]
-    with Decoder(tolerant=True) as decoder, pytest.raises(CorruptError):
-        decoder.receive_data(stream[:start] + kind_of_block)
-        decoder.receive_eof()
-        while decoder.next_event() is not END_OF_STREAM:
-            pass
+    with pytest.raises(CorruptError):
+        events_of(stream[:start] + kind_of_block, tolerant=True)
 
 
 def test_an_npz_whose_compression_is_damaged_is_refused(tmp_path):

@@ -1,7 +1,5 @@
 """Normals as levels, rings of vertices at one place, and how small values of real meshes are."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

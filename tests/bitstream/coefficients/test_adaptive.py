@@ -1,7 +1,5 @@
 """The coefficient coder: exact round trips, independence of chains, no harm from damaged payloads, learnt numbers."""
 
-from __future__ import annotations
-
 import hashlib
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Choosing levels: what is chosen costs least by the coder's own account, and the trellis saves error."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Faces to bytes and back: exact for any triangles, small, stable, and safe on damaged payloads."""
 
-from __future__ import annotations
-
 import contextlib
 import dataclasses
 from pathlib import Path

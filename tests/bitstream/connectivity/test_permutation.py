@@ -1,7 +1,5 @@
 """Permutations, rotations and partitions: what they cost, and what cannot be written."""
 
-from __future__ import annotations
-
 from math import lgamma, log
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The entropy coder: exact round trips, sizes near the entropy, and no harm from damaged payloads."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

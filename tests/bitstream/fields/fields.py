@@ -1,7 +1,5 @@
 """Meshes, values and all kinds of fields, for the tests of these."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

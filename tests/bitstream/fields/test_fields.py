@@ -1,7 +1,5 @@
 """Integers on meshes to bytes and back, of all kinds: exact for any faces and values, safe on damage."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

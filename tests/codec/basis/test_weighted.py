@@ -1,7 +1,5 @@
 """Cotangent weights and held parts, on triangles whose angles are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

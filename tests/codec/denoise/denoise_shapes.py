@@ -1,14 +1,29 @@
 """Small meshes with known normals, and noise for them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
 
 from bsm import TriangleMesh
+from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.surface import Topology
+from bsm.codec.geometry.graph import Rows
 
 Partners = Callable[[str, str], tuple[TriangleMesh, TriangleMesh]]
+
+
+def probe_of(positions: np.ndarray, faces: np.ndarray) -> Probe:
+    return Probe(Topology(faces, len(positions)))
+
+
+def find(positions: np.ndarray, faces: np.ndarray) -> Finding:
+    return find_noise(positions, probe_of(positions, faces))
+
+
+def members(rows: Rows, i: int) -> list[int]:
+    return rows.members[rows.starts[i] : rows.starts[i + 1]].tolist()
 
 
 def grid(size: int) -> tuple[np.ndarray, np.ndarray]:

@@ -6,12 +6,10 @@ import pytest
 from bsm import OptionError
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.automatic import CANDIDATES
-from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import estimate_noise
 from bsm.codec.denoise.normals import guided_normal_filtering
-from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import mean_edge_length, rms_over_edge, theta
-from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
 from tools.noise import gaussian_along_normals, gaussian_isotropic
 
 
@@ -19,7 +17,7 @@ from tools.noise import gaussian_along_normals, gaussian_isotropic
 @pytest.mark.parametrize("shape", [cube, sphere])
 def test_the_estimate_tells_noise_along_the_normals_from_isotropic_noise(sigma: float, shape) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(20)
-    probe, edge = Probe(Topology(faces, len(clean))), mean_edge_length(clean, faces)
+    probe, edge = probe_of(clean, faces), mean_edge_length(clean, faces)
     along = estimate_noise(gaussian_along_normals(clean, faces, sigma, seed=3), clean, probe)
     assert along.normal / edge == pytest.approx(sigma, rel=0.2)
     assert along.tangential < 0.5 * along.normal

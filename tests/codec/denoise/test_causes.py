@@ -6,19 +6,12 @@ import pytest
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.causes import find_cells
-from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.denoise.surface import Floats
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tools.noise import gaussian_along_axis
 from tools.sampled import THICK, ball, box, in_steps, torus, voxelized
 from tools.scans import turning
-
-
-def find(positions: Positions, faces: Faces) -> Finding:
-    return find_noise(positions, Probe(Topology(faces, len(positions))))
 
 
 def volume(positions: Positions, faces: Faces) -> float:

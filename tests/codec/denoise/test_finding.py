@@ -5,16 +5,14 @@ import pytest
 
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.causes import find_grid
-from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import Outliers, put_strays_back
 from bsm.codec.denoise.noise.outliers import find_outliers as outliers_given
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.safety import judge, keep_good
-from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
-from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
+from tests.codec.denoise.denoise_shapes import Partners, cube, find, grid, probe_of, sphere
 from tools.noise import (
     correlated_along_normals,
     gaussian_along_axis,
@@ -36,10 +34,6 @@ KINDS = {
     "impulses": lambda positions, faces, sigma, seed: impulsive(positions, faces, 2.0 * sigma, 0.5, seed),
     "local": lambda positions, faces, sigma, seed: gaussian_in_part(positions, faces, sigma, 0.5, seed),
 }
-
-
-def find(positions: np.ndarray, faces: np.ndarray) -> Finding:
-    return find_noise(positions, Probe(Topology(faces, len(positions))))
 
 
 def find_outliers(positions: np.ndarray, probe: Probe) -> Outliers:
@@ -143,7 +137,7 @@ def test_faint_noise_differs_from_fine_detail_by_its_whiteness(partners: Partner
 def test_noise_may_go_and_shape_may_not() -> None:
     clean, faces = sphere(20)
     noisy = gaussian_along_normals(clean, faces, 0.25, seed=3)
-    probe = Probe(Topology(faces, len(clean)))
+    probe = probe_of(clean, faces)
     finding = find_noise(noisy, probe)
     good = judge(noisy, clean, finding, probe)
     assert good.holds and good.good.all()
@@ -165,7 +159,7 @@ def test_noise_may_go_and_shape_may_not() -> None:
 def test_single_vertices_that_stand_out_are_put_back_and_no_others_move(shape) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(30)
     noisy = impulsive(clean, faces, 0.5, 0.05, seed=3)
-    probe = Probe(Topology(faces, len(clean)))
+    probe = probe_of(clean, faces)
     outliers = find_outliers(noisy, probe)
     result = outliers.put_back(noisy)
     off = np.linalg.norm(noisy - clean, axis=1)
@@ -181,7 +175,7 @@ def test_single_vertices_that_stand_out_are_put_back_and_no_others_move(shape) -
 def test_far_ones_are_put_back_beside_other_noise(shape, noise) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(30)
     edge, random = mean_edge_length(clean, faces), np.random.default_rng(3)
-    probe = Probe(Topology(faces, len(clean)))
+    probe = probe_of(clean, faces)
     noisy = noise(clean, faces, 0.25, 3)
     assert len(find_outliers(noisy, probe).vertices) == 0
     chosen = random.choice(len(clean), 100, replace=False)
@@ -189,7 +183,7 @@ def test_far_ones_are_put_back_beside_other_noise(shape, noise) -> None:  # type
     outliers = find_outliers(noisy, probe)
     assert np.linalg.norm((outliers.put_back(noisy) - clean)[chosen], axis=1).mean() < 0.2 * edge
     assert len(np.setdiff1d(outliers.vertices, chosen)) < 15
-    alone = np.zeros((3, 3)), Probe(Topology(np.zeros((0, 3), np.int32), 3))
+    alone = np.zeros((3, 3)), probe_of(np.zeros((3, 3)), np.zeros((0, 3), np.int32))
     assert (put_strays_back(*alone) == alone[0]).all()
     few = np.array(clean)
     few[chosen[:10]] = noisy[chosen[:10]]
@@ -198,7 +192,7 @@ def test_far_ones_are_put_back_beside_other_noise(shape, noise) -> None:  # type
 
 def test_small_pins_of_a_part_are_not_outliers() -> None:
     clean, faces = sphere(30)
-    edge, probe = mean_edge_length(clean, faces), Probe(Topology(faces, len(clean)))
+    edge, probe = mean_edge_length(clean, faces), probe_of(clean, faces)
     starts, members = probe.topology.neighbors
     for tip in range(0, len(clean), 90):
         ring = members[starts[tip] : starts[tip + 1]]
@@ -210,7 +204,7 @@ def test_small_pins_of_a_part_are_not_outliers() -> None:
 @pytest.mark.parametrize("shape", [cube, sphere])
 def test_faint_ones_are_put_back_as_well_and_there_are_none_in_white_noise(shape) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(30)
-    probe = Probe(Topology(faces, len(clean)))
+    probe = probe_of(clean, faces)
     noisy = impulsive(clean, faces, 0.12, 0.1, seed=3)
     assert theta(clean, find_outliers(noisy, probe).put_back(noisy), faces) < 0.7 * theta(clean, noisy, faces)
     for positions in (clean, gaussian_along_normals(clean, faces, 0.2, 3)):
@@ -221,7 +215,7 @@ def test_faint_ones_are_put_back_as_well_and_there_are_none_in_white_noise(shape
 def test_waves_are_taken_away(length: float) -> None:
     clean, faces = sphere(24)
     noisy = ripples_along_normals(clean, faces, 0.2, 3, length)
-    ripples = find_ripples(noisy, Probe(Topology(faces, len(clean))))
+    ripples = find_ripples(noisy, probe_of(clean, faces))
     assert ripples.lengths == pytest.approx(np.full(3, length), rel=0.1)
     assert ripples.level == pytest.approx(0.2, rel=0.1)
     reference = Reference(clean, faces)
@@ -242,11 +236,11 @@ def test_neither_clean_shapes_nor_white_noise_nor_corrugated_sheets_have_waves()
     for shape in (cube, sphere):
         clean, faces = shape(24)
         for positions in (clean, gaussian_along_normals(clean, faces, 0.2, 3)):
-            assert len(find_ripples(positions, Probe(Topology(faces, len(clean)))).lengths) == 0
+            assert len(find_ripples(positions, probe_of(clean, faces)).lengths) == 0
     for patterned, faces in (bumpy(60, 6, 0.05), bumpy(90, 6, 0.03), knobbly(20, 8), knobbly(26, 13)):
         result, choice = denoise_automatically(patterned, faces)
         assert not choice.ripples and (result == patterned).all()
     sheet, faces = grid(40)
     sheet[:, 2] = 0.2 * np.sin(2.0 * np.pi * sheet[:, 0] / 4.0)
-    ripples = find_ripples(sheet, Probe(Topology(faces, len(sheet))))
+    ripples = find_ripples(sheet, probe_of(sheet, faces))
     assert (ripples.put_back(sheet) == sheet).all()

@@ -6,7 +6,7 @@ import pytest
 from bsm.codec.denoise.normals import FINE_STEPS, FineStep, bilateral_normal_filtering, filter_normals, patch_guidance
 from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import theta
-from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid, members, sphere
 from tools.noise import gaussian_along_normals
 
 every_step = pytest.mark.parametrize("step", FINE_STEPS.values(), ids=FINE_STEPS.keys())
@@ -62,10 +62,6 @@ def test_the_boundary_stays_where_the_method_says_so() -> None:
 def noisy_cube() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     positions, faces = cube(6)
     return positions, gaussian_along_normals(positions, faces, 0.2, seed=3), faces
-
-
-def members(rows, i: int) -> list[int]:  # type: ignore[no-untyped-def]
-    return rows.members[rows.starts[i] : rows.starts[i + 1]].tolist()
 
 
 def test_the_bilateral_sum_is_the_printed_one() -> None:

@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise.surface import Topology, face_geometry, follow_normals, without_first
-from bsm.codec.geometry.graph import Rows
-from tests.codec.denoise.denoise_shapes import cube, grid
-
-
-def row(rows: Rows, i: int) -> list[int]:
-    return rows.members[rows.starts[i] : rows.starts[i + 1]].tolist()
+from tests.codec.denoise.denoise_shapes import cube, grid, members
 
 
 def test_patches_hold_the_faces_that_share_a_vertex() -> None:
@@ -17,10 +12,10 @@ def test_patches_hold_the_faces_that_share_a_vertex() -> None:
     topology = Topology(faces, len(positions))
     sets = [set(face) for face in faces.tolist()]
     for f in range(0, len(faces), 7):
-        members = row(topology.patches, f)
-        assert members[0] == f
-        assert sorted(members) == [g for g in range(len(faces)) if sets[f] & sets[g]]
-        assert row(without_first(topology.patches), f) == members[1:]
+        around = members(topology.patches, f)
+        assert around[0] == f
+        assert sorted(around) == [g for g in range(len(faces)) if sets[f] & sets[g]]
+        assert members(without_first(topology.patches), f) == around[1:]
     expected = [(f, g) for f in range(len(faces)) for g in range(f + 1, len(faces)) if len(sets[f] & sets[g]) == 2]
     assert sorted(map(tuple, topology.pairs.tolist())) == expected
 
@@ -30,8 +25,8 @@ def test_the_hub_of_a_wheel_does_not_make_everybody_a_neighbor() -> None:
     faces = np.stack([spokes, (spokes + 1) % 200, np.full(200, 200)], axis=1).astype(np.int32)
     topology = Topology(faces, 201)
     assert np.diff(topology.patches.starts).max() == 65
-    assert sorted(row(topology.patches, 100)) == list(range(68, 133))
-    assert {1, 199} < set(row(topology.patches, 0))
+    assert sorted(members(topology.patches, 100)) == list(range(68, 133))
+    assert {1, 199} < set(members(topology.patches, 0))
 
 
 def test_vertices_follow_the_true_normals_to_the_plane() -> None:
@@ -44,7 +39,7 @@ def test_vertices_follow_the_true_normals_to_the_plane() -> None:
     assert (moved[:, :2] == flat[:, :2]).all()
     # One update by hand: the mean height of the centroids around.
     once = follow_normals(noisy, topology, up, 1)
-    heights = face_geometry(noisy, faces).centroids[row(topology.around, 60), 2]
+    heights = face_geometry(noisy, faces).centroids[members(topology.around, 60), 2]
     assert once[60, 2] == pytest.approx(heights.mean())
     free = ~topology.boundary
     held = follow_normals(noisy, topology, up, 3, free)

@@ -7,13 +7,11 @@ import pytest
 
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.finding import lattice_step
-from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.view import View, find_view
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import theta
 from bsm.files.mesh import read_mesh
-from tests.codec.denoise.denoise_shapes import cube, grid, sphere
+from tests.codec.denoise.denoise_shapes import cube, find, grid, probe_of, sphere
 from tools.scans import CAMERAS, Scan, fused, turning, view
 
 AWAY = turning(5)
@@ -68,17 +66,17 @@ def test_a_lattice_is_known_by_its_lines_and_not_when_it_is_turned() -> None:
 @pytest.mark.parametrize("shape", [cube, sphere])
 def test_the_eye_is_found_wherever_the_scan_is_put(shape, camera: str) -> None:  # type: ignore[no-untyped-def]
     made = scan(shape, camera)
-    found = find_view(7.0 * made.positions @ AWAY.T + [3.0, 4.0, 5.0], Probe(Topology(made.faces, len(made.positions))))
+    found = find_view(7.0 * made.positions @ AWAY.T + [3.0, 4.0, 5.0], probe_of(made.positions, made.faces))
     assert found is not None and np.linalg.norm(found.eye - [3.0, 4.0, 5.0]) < 7.0 * 0.03 * CAMERAS[camera].far
 
 
 def test_closed_meshes_and_grids_that_fold_are_no_views() -> None:
     for shape in (cube, sphere):
         clean, faces = shape(20)
-        assert find_view(clean, Probe(Topology(faces, len(clean)))) is None
+        assert find_view(clean, probe_of(clean, faces)) is None
     sheet, faces = grid(30)
     sheet[:, 0] = np.abs(sheet[:, 0] - sheet[:, 0].mean())
-    assert find_view(sheet, Probe(Topology(faces, len(sheet)))) is None
+    assert find_view(sheet, probe_of(sheet, faces)) is None
 
 
 def test_flattening_moves_along_the_rays_and_keeps_creases() -> None:
@@ -103,5 +101,5 @@ def test_noise_of_a_camera_is_taken_away_and_what_it_saw_without_noise_stays(sha
     assert made.angle(result) < 0.35 * made.angle(made.positions)
     assert made.rms(result) < 0.9 * made.rms(made.positions)
     clean = scan(shape, camera, noisy=False)
-    assert not find_noise(clean.positions, Probe(Topology(clean.faces, len(clean.positions)))).noisy
+    assert not find(clean.positions, clean.faces).noisy
     assert (denoise_automatically(clean.positions, clean.faces)[0] == clean.positions).all()

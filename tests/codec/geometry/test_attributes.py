@@ -1,7 +1,5 @@
 """Attributes of a mesh: what they may be, and what becomes of them with their mesh."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -86,5 +84,4 @@ def test_follows_its_mesh():
     assert vertex.values.ravel().tolist() == [0, 1, 2, 3]
     assert face.values.ravel().tolist() == [7, 8]
     assert corner.values.ravel().tolist() == [0, 1, 2, 3]
-    assert corner.indices is not None
     assert corner.taken(kept, np.array([1])).values.ravel().tolist() == [0, 2, 3]

@@ -10,7 +10,7 @@ from bsm import Attribute, MeshError, TriangleMesh
 from bsm.codec.look.measure import LookMetric, judged, look
 from bsm.codec.look.pictures import CREASE, LEAST_PIXELS, Canvas, Shape, Size, axes, cameras, difference
 from bsm.files.mesh import read_mesh
-from tests.shapes import patch, tetrahedron, together, torus
+from tests.shapes import patch, soup, tetrahedron, together, torus
 
 MESH = torus(60, 40)
 
@@ -62,10 +62,8 @@ def test_order_of_vertices_and_faces_does_not_count():
 
 
 def test_splitting_vertices_and_faces_does_not_count():
-    corners = MESH.positions[MESH.faces]
-    soup = TriangleMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
-    assert look(MESH, soup).distance < 1e-3
-    assert look(soup, MESH).distance < 1e-3
+    assert look(MESH, soup(MESH)).distance < 1e-3
+    assert look(soup(MESH), MESH).distance < 1e-3
     flat = plane(12)
     halves = (flat.positions[flat.faces[:, 0]] + flat.positions[flat.faces[:, 1]]) / 2
     first, second, third = flat.faces.T

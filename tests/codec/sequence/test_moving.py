@@ -1,7 +1,5 @@
 """Attributes that move: every value in every frame is as near as is asked, whatever the way of the frames."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -167,7 +165,7 @@ def test_runs_have_attributes_that_move() -> None:
         color, own = given.attributes[0].values, event.attributes[0].values
         off = np.sort(color, axis=0).astype(float) - np.sort(own, axis=0)  # no farther than in any other order
         assert np.sqrt(np.square(off).mean()) <= 0.01 * extent("color")
-    declared = [packet for packet, *_ in packets_of(data) if isinstance(packet, packets.Attribute)]
+    declared = packets_of(data, packets.Attribute)
     assert len(declared) == 8  # the first mesh returns
 
 

@@ -1,7 +1,5 @@
 """Promises that hold in every frame, on what is decoded."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

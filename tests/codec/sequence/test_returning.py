@@ -1,7 +1,5 @@
 """Frames that come again are coded once."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -65,7 +65,7 @@ def test_faces_change_and_return(way):
 @pytest.mark.parametrize("way", WAYS)
 def test_a_mesh_that_returns_is_not_sent_again(way):
     data = b"".join(encoded(meshes(*PIECES), **way)[1])
-    headers = [packet for packet, *_ in packets_of(data) if isinstance(packet, Header)]
+    headers = [packet for packet, *_ in packets_of(data, Header)]
     assert [(header.run_number, header.mesh_of) for header in headers] == [
         (0, None),
         (1, None),
@@ -73,9 +73,9 @@ def test_a_mesh_that_returns_is_not_sent_again(way):
         (3, None),
         (4, 1),
     ]
-    assert sum(isinstance(packet, Connectivity) for packet, *_ in packets_of(data)) == 3
+    assert len(packets_of(data, Connectivity)) == 3
     assert all(header.frames == 15 for header in headers)
-    gops = [packet.index for packet, *_ in packets_of(data) if isinstance(packet, Gop)]
+    gops = [packet.index for packet, *_ in packets_of(data, Gop)]
     assert gops[0] == 0 and sorted(gops) == gops and {5, 8, 12, 13} <= set(gops)
 
 

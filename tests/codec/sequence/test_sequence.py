@@ -12,7 +12,7 @@ from bsm.codec.sequence.gop import LearntGop
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
-from tests.streams import frames_in, moving_events_of, packets_of, peak_of, without
+from tests.streams import all_events, frames_in, moving_events_of, packets_of, peak_of, without
 
 SMALL = {"block_size": 100, "step": 0.002, "gop": 8}
 WAYS: list[dict[str, int]] = [{}, {"low_delay": 1}, {"low_delay": 3}]
@@ -27,11 +27,6 @@ def encoded(positions, faces, **changes):
     encoder = bsm.SequenceEncoder(faces, options(**changes), len(positions))
     data = b"".join(encoder.chunks(positions))
     return data, positions[:, encoder.vertex_order]
-
-
-def gops_of(data):
-    """GOPs, and offset and length of the frame of each."""
-    return [packet for packet in packets_of(data) if isinstance(packet[0], Gop)]
 
 
 def diagonal(frame):
@@ -104,7 +99,7 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
 def test_frames_that_return_cost_next_to_nothing(together):
     positions, faces = bending(12)
     data, original = encoded(np.concatenate([positions, positions]), faces, low_delay=together, gop=24)
-    sizes = np.array([size for _, _, size in gops_of(data)])
+    sizes = np.array([size for _, _, size in packets_of(data, Gop)])
     half = len(sizes) // 2
     assert sizes[half + 1 :].sum() < 0.3 * sizes[1:half].sum()
     assert np.abs(bsm.decode_sequence(data)[0] - original).max() < 0.02
@@ -155,7 +150,7 @@ def test_the_order_can_be_kept(way):
 def test_a_lost_gop_costs_what_refers_to_it(how, index, behind):
     positions, faces = bending(45)
     data, _ = encoded(positions, faces)
-    assert [gop.data[0] for gop, *_ in gops_of(data)] == [0, 3, 3, 3, 0, 3]
+    assert [gop.data[0] for gop, *_ in packets_of(data, Gop)] == [0, 3, 3, 3, 0, 3]
     events = moving_events_of(without(data, Gop, index, how), tolerant=True)
     lost = [event for event in events if isinstance(event, bsm.LossEvent)]
     missing = range(8 * index, min(8 * behind, 45))
@@ -185,7 +180,7 @@ def test_losses_at_the_end_of_a_sequence_of_unknown_length():
 def test_the_beginning_must_be_whole():
     positions, faces = bending(4)
     data, _ = encoded(positions, faces)
-    for offset in (40, 700, gops_of(data)[0][1] - 30):
+    for offset in (40, 700, packets_of(data, Gop)[0][1] - 30):
         broken = bytearray(data)
         broken[offset] ^= 0xFF
         with pytest.raises(bsm.BsmError):
@@ -203,8 +198,9 @@ def test_a_frame_of_another_shape_or_not_finite_is_named():
         encode_sequence(positions[:0], faces, options())
     with pytest.raises(bsm.MeshError):
         encode_sequence(positions[0], faces, options())
-    with pytest.raises(bsm.OptionError, match="announced"):
-        list(bsm.SequenceEncoder(faces, options(), 7).chunks(bending(5)[0]))
+    for announced in (4, 6, 7):
+        with pytest.raises(bsm.OptionError, match="announced"):
+            list(bsm.SequenceEncoder(faces, options(), announced).chunks(bending(5)[0]))
 
 
 @pytest.mark.parametrize(("kind", "value"), [("kg", 0.2), ("theta_deg", 1.0), ("nmsve_db", -45.0), ("bpvf", 1.0)])
@@ -271,7 +267,7 @@ def test_gops_end_earlier_where_decoders_lack_the_memory(monkeypatch):
     granted = least_memory(short)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
     data, wanted = encoded(positions, faces, gop=32, step=1e-3)
-    assert 1 < len(gops_of(data)) < 32
+    assert 1 < len(packets_of(data, Gop)) < 32
     decoded, _ = bsm.decode_sequence(data, limits=granted)
     np.testing.assert_allclose(decoded, wanted, atol=0.05)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: memory_of(granted.memory - 3e6))
@@ -296,7 +292,7 @@ def test_gops_begin_where_motion_changes(changes, monkeypatch):
     positions, faces = shots(96, *changes)
     data, wanted = encoded(positions, faces, gop=None, step=0.005)
     np.testing.assert_allclose(bsm.decode_sequence(data)[0], wanted, atol=0.05)
-    assert [gop.index for gop, _, _ in gops_of(data)] == [0, *changes]
+    assert [gop.index for gop, _, _ in packets_of(data, Gop)] == [0, *changes]
     monkeypatch.setattr(LearntGop, "lengths", lambda *_: [96])
     whole = len(encoded(positions, faces, gop=None, step=0.005)[0])
     assert len(data) < 0.95 * whole if changes else len(data) == whole
@@ -307,10 +303,7 @@ def test_gops_begin_where_motion_changes(changes, monkeypatch):
 def test_frames_that_are_shown_grant_work():
     data, _ = encoded(*bending(16), gop=16)
     with bsm.SequenceDecoder(bsm.Limits(work_per_byte=0)) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        while decoder.next_event() is not bsm.END_OF_STREAM:
-            pass
+        list(all_events(decoder, [data]))
         work = decoder.work
     per_vertex = 0.3 * work / (480 * 17)
     granted = bsm.Limits(work=0.71 * work, work_per_vertex=per_vertex, work_per_byte=0)

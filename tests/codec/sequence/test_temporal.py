@@ -1,7 +1,5 @@
 """The choice of a temporal basis, on motion whose components are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

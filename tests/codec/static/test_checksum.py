@@ -1,8 +1,11 @@
 """The checksum of decoded positions: who has them all compares it, who has not does without."""
 
+from contextlib import suppress
+
 import pytest
 
-from bsm import END_OF_STREAM, CorruptError, Decoder, EndEvent, FrameEvent, LossEvent, SequenceDecoder, decode
+from bsm import CorruptError, Decoder, EndEvent, FrameEvent, LossEvent, SequenceDecoder, decode, decode_frames
+from tests.streams import all_events
 from tools.surgery import frames_of, stream_of
 from tools.vectors.store import FOLDER
 
@@ -21,36 +24,27 @@ def unlike(stream):
 
 def events_of(decoder, data):
     events = []
-    with decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        try:
-            while (event := decoder.next_event()) is not END_OF_STREAM:
-                events.append(event)
-        except CorruptError as error:
-            events.append(error)
+    with decoder, suppress(CorruptError):
+        events.extend(all_events(decoder, [data]))
     return events
 
 
-@pytest.mark.parametrize("name", STATIC)
-def test_other_positions_than_the_encoders_are_an_error(name):
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [*((name, Decoder) for name in STATIC), *((f"sequence-{name}", SequenceDecoder) for name in SEQUENCES)],
+)
+def test_other_positions_than_the_encoders_are_an_error(name, kind):
     data = unlike(good(name))
     with pytest.raises(CorruptError, match="encoder saw"):
-        decode(data)
-    *events, last = events_of(Decoder(), data)
-    assert "encoder saw" in str(last) and len(events) == len(events_of(Decoder(), good(name))) - 1
-    *_, loss, end = events_of(Decoder(tolerant=True), data)
+        decode(data) if kind is Decoder else list(decode_frames(data))
+    assert len(events_of(kind(), data)) == len(events_of(kind(), good(name))) - 1
+    *_, loss, end = events_of(kind(tolerant=True), data)
     assert isinstance(loss, LossEvent) and "encoder saw" in str(loss.error) and isinstance(end, EndEvent)
 
 
 @pytest.mark.parametrize("name", SEQUENCES)
-def test_other_frames_than_the_encoders_are_an_error(name):
-    data = unlike(good(f"sequence-{name}"))
-    *events, last = events_of(SequenceDecoder(), data)
-    assert "encoder saw" in str(last) and len(events) == len(events_of(SequenceDecoder(), good(f"sequence-{name}"))) - 1
-    *_, loss, end = events_of(SequenceDecoder(tolerant=True), data)
-    assert isinstance(loss, LossEvent) and "encoder saw" in str(loss.error) and isinstance(end, EndEvent)
-    later = events_of(SequenceDecoder(start=2), data)
+def test_who_has_not_all_frames_does_without(name):
+    later = events_of(SequenceDecoder(start=2), unlike(good(f"sequence-{name}")))
     assert isinstance(later[-1], EndEvent) and any(isinstance(event, FrameEvent) for event in later)
 
 

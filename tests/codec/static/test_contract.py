@@ -1,7 +1,5 @@
 """Contracts: kept on what is decoded, on any mesh, or refused."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 
@@ -41,7 +39,6 @@ def looks(encoder: bsm.Encoder, data: bytes) -> float:
 def assert_kept(mesh: bsm.TriangleMesh, options: bsm.EncodeOptions) -> bsm.Encoder:
     """Encode a mesh; all bounds of its contract hold."""
     contract, encoder = options.contract, bsm.Encoder(mesh, options)
-    assert contract is not None
     data = encoder.encode()
     farthest, angle = kept(encoder, data)
     assert farthest <= contract.farthest * (1 + 1e-9) and angle <= contract.angle + 1e-9
@@ -58,7 +55,6 @@ def patterned(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
 @pytest.mark.parametrize("preset", ["balanced", "small"])
 def test_a_look_holds_by_the_normals_that_are_sent(preset):
     mesh, options = patterned(torus(60, 40)), bsm.PRESETS[preset]
-    assert options.contract is not None
     assert look(mesh, bsm.decode(bsm.encode(mesh, options))).distance <= options.contract.look
 
 
@@ -133,7 +129,6 @@ def test_a_bound_wider_than_a_tenth_of_the_mesh_is_refused() -> None:
     with pytest.raises(bsm.OptionError, match=r"0\.05 mm is \d+% of this mesh's size \(0\.\d+ mm\): is its unit mm\?"):
         bsm.Encoder(mesh, bsm.EncodeOptions(contract=bsm.Contract(0.05, absolute=True))).encode()
     promise = bsm.PRESETS["balanced"].contract
-    assert promise is not None
     encoder = bsm.Encoder(mesh, bsm.EncodeOptions(contract=replace(promise, farthest=0.05, absolute=True)))
     assert encoder.encode() == bsm.Encoder(mesh).encode() and "is its unit mm?" in encoder.notes[-1]
 
@@ -225,7 +220,6 @@ def test_a_promise_holds_beside_a_target() -> None:
 
 def test_a_target_beside_the_look_takes_little_more_than_either() -> None:
     mesh, promise = knot(1500), bsm.PRESETS["balanced"].contract
-    assert promise is not None
     contracts = promise, bsm.Contract(0.1, visual=1e-5), replace(promise, visual=1e-5)
     look, alone, both = (bsm.Encoder(mesh, bsm.EncodeOptions(contract=contract)) for contract in contracts)
     sizes = [len(encoder.encode()) for encoder in (look, alone, both)]

@@ -1,7 +1,5 @@
 """Positions to the bit: every float of single precision comes back, wherever it is."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Grids: what tells which is smallest, and that it is found."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

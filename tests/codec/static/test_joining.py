@@ -1,19 +1,12 @@
 """Vertices at one position become one, and come back where their order is kept."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import EncodeOptions, Encoder, TriangleMesh, decode
 from bsm.codec.static.preamble_encoding import join
-from tests.shapes import patch, torus
-
-
-def soup(mesh: TriangleMesh) -> TriangleMesh:
-    """Every face with vertices of its own."""
-    return TriangleMesh(mesh.positions[mesh.faces].reshape(-1, 3), np.arange(mesh.faces.size).reshape(-1, 3))
+from tests.shapes import patch, soup, torus
 
 
 def test_soup_becomes_the_surface_that_it_is() -> None:

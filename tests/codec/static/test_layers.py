@@ -1,7 +1,5 @@
 """Grids and refinement in the decoder: chunk by chunk, cut, damaged, stopped early."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

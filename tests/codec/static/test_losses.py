@@ -14,11 +14,6 @@ def stream(**options):
     return encode(torus(48, 32), EncodeOptions(**{**SMALL, "key_interval": KEY_INTERVAL, **options}))
 
 
-def blocks_of(data):
-    """Blocks, and offset and length of the frame of each."""
-    return [packet for packet in packets_of(data) if isinstance(packet[0], Block)]
-
-
 def lost_blocks(events):
     return sorted({event.block for event in events if isinstance(event, LossEvent) and event.block is not None})
 
@@ -28,7 +23,7 @@ def lost_blocks(events):
 def test_a_lost_block_costs_its_chain_at_the_most(index, how):
     data = stream()
     events = events_of(without(data, Block, index, how), tolerant=True)
-    chain_end = min((index // KEY_INTERVAL + 1) * KEY_INTERVAL, len(blocks_of(data)))
+    chain_end = min((index // KEY_INTERVAL + 1) * KEY_INTERVAL, len(packets_of(data, Block)))
     assert lost_blocks(events) == list(range(index, chain_end))
     assert isinstance(events[-1], EndEvent)
 
@@ -54,16 +49,16 @@ def test_an_independent_stream_loses_the_block_alone_and_says_what_is_missing(sm
 
 def test_a_stream_cut_short_gives_the_blocks_that_came():
     data = stream()
-    _, offset, length = blocks_of(data)[9]
+    _, offset, length = packets_of(data, Block)[9]
     events = events_of(data[: offset + length], tolerant=True)
     assert [event.index for event in events if isinstance(event, BlockEvent)] == list(range(10))
-    assert lost_blocks(events) == list(range(10, len(blocks_of(data))))
+    assert lost_blocks(events) == list(range(10, len(packets_of(data, Block))))
     assert isinstance(events[-1], EndEvent) and len(events[-1].losses.missing) > 0
 
 
 def test_damage_before_the_first_block_is_raised():
     data = stream(paper=Paper(partition="metis"))
-    first = blocks_of(data)[0][1]
+    first = packets_of(data, Block)[0][1]
     for place in range(5, first, 11):
         broken = bytearray(data)
         broken[place] ^= 0x55

@@ -28,7 +28,6 @@ def encoded(mesh: TriangleMesh, preset: str) -> tuple[int, float]:
     encoder, contract = Encoder(mesh, replace(PRESETS[preset], threads=1)), PRESETS[preset].contract
     data, coded = encoder.encode(), encoder.mesh
     decoded = decode(data, threads=1).positions
-    assert contract is not None
     assert np.linalg.norm(decoded - coded.positions, axis=1).max() <= (contract.farthest + 1e-9) * coded.diagonal
     try:
         seen = look(coded, replace(coded, positions=decoded)).distance

@@ -78,10 +78,8 @@ def test_the_look_holds_with_normals_of_no_length(preset: str, zero: int) -> Non
     mesh, options = shaded(MESH, zero), replace(PRESETS[preset], threads=1)
     made = Encoder(mesh, options)
     decoded = bsm.decode(made.encode())
-    assert options.promise is not None
     assert LookMetric(mesh).compare(decoded).distance <= options.promise.look * 1.001
     own = own_normals(decoded)
-    assert own is not None
     lengths = np.square(own.reshape(-1, 3)).sum(axis=1)
     assert (lengths < 0.5).sum() == np.isin(mesh.faces, np.arange(zero)).sum()
 
@@ -89,7 +87,6 @@ def test_the_look_holds_with_normals_of_no_length(preset: str, zero: int) -> Non
 def test_a_draft_is_judged_by_what_is_decoded(tmp_path: Path) -> None:
     made = Encoder(shaded(MESH), EncodeOptions(threads=1))
     draft, promise = made.draft(), made.options.promise
-    assert promise is not None
     assert made._input.measured(draft, promise)[0] == ""
     assert "look" in made._input.measured(draft, replace(promise, look=promise.look / 50.0))[0]
     assert "vertex" in made._input.measured(draft, replace(promise, farthest=1e-7))[0]

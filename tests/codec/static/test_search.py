@@ -69,7 +69,6 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, lis
 
 def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, Gridded]:
     encoder, contract = Encoder(mesh, options), options.promise
-    assert contract is not None
     search = encoder._input.search(contract, None)
     bounds = Bounds(search._measures, contract)
     return search, bounds, Gridded(search._prepared, bounds)

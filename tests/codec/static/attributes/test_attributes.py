@@ -14,7 +14,7 @@ from bsm.bitstream.container.header import RECOMPUTED
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.look.measure import AttributeLook, look, look_values
 from tests.shapes import curved, patch, tetrahedron, torus
-from tests.streams import packets_of, without
+from tests.streams import events_of, packets_of, without
 from tools.surgery import frames_of, stream_of
 
 QUICK = bsm.EncodeOptions(grid=12)
@@ -250,9 +250,8 @@ def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
     encoder = bsm.Encoder(mesh, bsm.PRESETS[preset])
     decoded = bsm.decode(encoder.encode())
     places = look_values(mesh, "texcoord")
-    assert places is not None
     seen = AttributeLook(mesh, "texcoord", places).compare(decoded)
-    assert seen is not None and seen <= bsm.PRESETS[preset].contract.look + 1e-3
+    assert seen <= bsm.PRESETS[preset].contract.look + 1e-3
     requested = bsm.encode(mesh, replace(bsm.PRESETS[preset], attributes={"uv": "14bits"}))
     assert np.ptp(bsm.decode(requested).attributes[0].values) > 0.0 and len(encoder.encode()) < len(requested)
 
@@ -267,9 +266,9 @@ def test_colors_and_shapes_keep_the_look_in_colors(kind, domain):
     mesh = replace(mesh, attributes=(colors,))
     data, requested = bsm.encode(mesh), bsm.encode(mesh, bsm.EncodeOptions(attributes={"color": "exact"}))
     values = look_values(mesh, "color")
-    assert values is not None and np.ptp(values) > 0.8
+    assert np.ptp(values) > 0.8
     seen = AttributeLook(mesh, "color", values).compare(bsm.decode(data))
-    assert seen is not None and 0.0 < seen <= 1.0 + 1e-3
+    assert 0.0 < seen <= 1.0 + 1e-3
     assert len(data) < 0.8 * len(requested)
 
 
@@ -320,23 +319,14 @@ def test_what_makes_no_sense_is_refused(asked, error):
 
 
 def of_kind(stream: bytes, kind: type) -> list[Any]:
-    return [packet for packet, *_ in packets_of(stream) if isinstance(packet, kind)]
+    return [packet for packet, *_ in packets_of(stream, kind)]
 
 
 def tolerated(stream: bytes) -> tuple[set[str], int, int]:
     """Names of attributes that were decoded, losses, and how many vertices are missing."""
-    names, losses = set(), 0
-    with bsm.Decoder(tolerant=True) as decoder:
-        decoder.receive_data(stream)
-        decoder.receive_eof()
-        while True:
-            match decoder.next_event():
-                case bsm.AttributeEvent(name):
-                    names.add(name)
-                case bsm.LossEvent():
-                    losses += 1
-                case bsm.EndEvent(lost):
-                    return names, losses, len(lost.missing)
+    *events, end = events_of(stream, tolerant=True)
+    names = {event.name for event in events if isinstance(event, bsm.AttributeEvent)}
+    return names, sum(isinstance(event, bsm.LossEvent) for event in events), len(end.losses.missing)
 
 
 def test_what_is_lost_of_one_attribute_spoils_none_before_it():
