@@ -18,6 +18,7 @@ import pytest
 
 import bsm
 from bsm.evaluation.sample import knot
+from bsm.files.mesh import written_mesh
 from tools.noise import gaussian_along_normals
 
 ROOT = Path(__file__).parents[1]
@@ -102,10 +103,7 @@ def test_a_corpus_behind_urls(capsys, monkeypatch):
 
 
 def off(mesh):
-    lines = ["OFF", f"{len(mesh.positions)} {len(mesh.faces)} 0"]
-    lines += [" ".join(map(str, row)) for row in mesh.positions.tolist()]
-    lines += [" ".join(map(str, (3, *row))) for row in mesh.faces.tolist()]
-    return "\n".join(lines).encode()
+    return written_mesh(mesh, "off").data
 
 
 SECONDS = 10.0

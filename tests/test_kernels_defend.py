@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm import SequenceEncoder, SequenceOptions, TriangleMesh, decode, decode_sequence, encode
+from bsm import TriangleMesh, decode, decode_sequence, encode, encode_sequence
 from bsm.bitstream import _kernels as of_bytes
 from bsm.bitstream.entropy.range_coder import make_bank, start_writing
 from bsm.codec import _kernels as of_arrays
@@ -104,8 +104,7 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
         decode(encode(shape, encode_options(threads=1, **options)), threads=1)
     decode(refined(bare, LAYER, (size,)), threads=1)
     positions, faces = bending(3, 12, 8)
-    encoder = SequenceEncoder(faces, SequenceOptions(threads=1, step=0.01), len(positions))
-    decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
+    decode_sequence(encode_sequence(positions, faces, threads=1, step=0.01), threads=1)
     frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
     seen = Settler(bare.positions, bare.faces, graph_of_faces(bare.faces, size))
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))

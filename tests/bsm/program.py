@@ -29,10 +29,25 @@ def bsm(*arguments, input=b"", text=False):
     return subprocess.CompletedProcess(words, code, *([line.decode() for line in found] if text else found))
 
 
+def run(*arguments):
+    """The exit code of `bsm` in this process; what it prints stays for `capsys`."""
+    return main(list(map(str, arguments)))
+
+
+def python(*words, **keywords):
+    """A Python in a process of its own."""
+    command = [sys.executable, *map(str, words)]
+    return subprocess.run(command, capture_output=True, timeout=120, cwd=ROOT, check=False, **keywords)
+
+
 def process(*arguments, **keywords):
-    """The same in a process of its own."""
-    words = [sys.executable, "-m", "bsm", *map(str, arguments)]
-    return subprocess.run(words, capture_output=True, timeout=120, cwd=ROOT, check=False, **keywords)
+    """The program in a process of its own."""
+    return python("-m", "bsm", *arguments, **keywords)
+
+
+def contents(folder):
+    """The bytes of the files in a folder, by name."""
+    return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
 
 
 def run_json(*arguments):

@@ -201,13 +201,7 @@ run()
 )
 def test_an_interrupt_in_the_first_moments(module, meshes):
     """Wherever it hits the imports, it is an interrupt and no traceback."""
-    done = subprocess.run(
-        [sys.executable, "-c", INTERRUPTED, module, "encode", meshes / "a.npz", "-o", "-"],
-        cwd=ROOT,
-        capture_output=True,
-        timeout=60,
-        check=False,
-    )
+    done = program.python("-c", INTERRUPTED, module, "encode", meshes / "a.npz", "-o", "-")
     assert (done.returncode, done.stderr) == (130, b"bsm: interrupted\n")
 
 

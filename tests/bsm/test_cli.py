@@ -13,7 +13,7 @@ from bsm.commands.flags import ENCODE_FLAGS, SETTINGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
-from tests.bsm.program import ROOT, bsm, process, run_json
+from tests.bsm.program import ROOT, bsm, process, python, run_json
 from tests.shapes import torus
 
 SMALL = ["--set", "block-size=150", "--threads", "1", "--set", "step=0.004"]
@@ -230,13 +230,7 @@ def test_a_missing_package_has_its_code(folder, tmp_path, monkeypatch, capsys):
 def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
     hidden = "import sys; sys.modules['scipy'] = None; from bsm.__main__ import run; run()"
     words = [str(folder / word) if word == "sample.ply" else word for word in words]
-    done = subprocess.run(
-        [sys.executable, "-c", hidden, *words, "-o", str(tmp_path / "out.ply")],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = python("-c", hidden, *words, "-o", tmp_path / "out.ply", text=True)
     assert done.returncode == 8 and "pip install " in done.stderr and done.stderr.count("\n") == 1
 
 
@@ -267,8 +261,7 @@ def test_the_help_prints_the_table_of_codes_and_starts_fast(folder):
     assert all(f"{row.code:>3}  {row.meaning}" in text for row in EXITS)
     assert all(f"    {name}" in text for name in COMMANDS)
     program = "import sys; from bsm.cli import main; main(['info', sys.argv[1]]); sys.exit('codec' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", program, folder / "sample.bsm"], cwd=ROOT, timeout=60, check=False)
-    assert done.returncode == 0, "bsm info needs no mathematics"
+    assert python("-c", program, folder / "sample.bsm").returncode == 0, "bsm info needs no mathematics"
 
 
 def test_the_flags_are_fields_and_show_their_defaults():

@@ -33,6 +33,7 @@ from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
 from bsm.pictures import render, view_matrix
 from tests.shapes import patch, torus
+from tools.vectors.meshes import shuffled
 
 POINT_KEYS = {
     "settings",
@@ -242,13 +243,6 @@ def test_latex_escapes_what_it_must():
     lines = latex(("a_b", "θ"), [("50 %", "3°")]).splitlines()
     assert lines[2] == r"a\_b & $\theta$ \\"
     assert lines[4] == r"50 \% & 3$^\circ$ \\"
-
-
-def shuffled(mesh: TriangleMesh) -> TriangleMesh:
-    """The same surface with its vertices and faces in another order."""
-    random = np.random.default_rng(3)
-    order = random.permutation(len(mesh.positions))
-    return TriangleMesh(mesh.positions[order], random.permutation(np.argsort(order)[mesh.faces]))
 
 
 def test_the_sample_is_a_closed_oriented_torus():

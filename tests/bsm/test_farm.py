@@ -23,7 +23,7 @@ from bsm.files.output import open_output
 from bsm.jobs.run import Run, run_many
 from bsm.jobs.task import Job, Task
 from tests.bsm.deadly import deadly
-from tests.bsm.program import ROOT
+from tests.bsm.program import ROOT, contents
 from tests.bsm.program import bsm as program
 from tests.shapes import torus
 
@@ -37,10 +37,6 @@ def sources(tmp_path_factory):
     for number in range(12):
         write_mesh(folder / f"{number:02}.ply", torus(30 + number, 20))
     return sorted(map(str, folder.iterdir()))
-
-
-def contents(folder):
-    return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
 def started(*words):

@@ -10,6 +10,7 @@ import bsm
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.gltf.document import read_document
+from tests.bsm.files.test_file_attributes import attribute
 from tests.gltf import Built, scene
 from tests.shapes import torus
 
@@ -25,10 +26,6 @@ def one(attributes=None, node=None, **primitive):
         {"mesh": built.mesh({"attributes": given, "indices": built.array(CORNERS), **primitive}), **(node or {})}
     )
     return built
-
-
-def attribute(mesh, name):
-    return next(a for a in mesh.attributes if a.name == name)
 
 
 def test_normalized_integers_are_shares():

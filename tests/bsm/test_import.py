@@ -3,25 +3,18 @@
 import ast
 import importlib
 import inspect
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 import bsm
-
-ROOT = Path(__file__).parents[2]
-
-
-def run(program):
-    return subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, cwd=ROOT, check=True
-    ).stdout
+from tests.bsm.program import ROOT, python
 
 
 def test_it_loads_nothing_that_takes_time():
-    loaded = set(run("import sys, bsm; bsm.__version__; dir(bsm); print(*sys.modules)").split())
+    printed = python("-c", "import sys, bsm; bsm.__version__; dir(bsm); print(*sys.modules)", text=True).stdout
+    loaded = set(printed.split())
+    assert "bsm" in loaded
     assert not {"numpy", "scipy", "codec", "bsm.codec.denoise", "bsm.bitstream.container"} & loaded
 
 
@@ -36,7 +29,7 @@ def test_a_command_loads_nothing_that_speaks_http(tmp_path):
     stream = ROOT / "spec" / "vectors" / "1.0" / "good-sequence-learnt.bsm"
     words = ["decode", "-q", str(stream), "-o", str(tmp_path / "decoded.npz")]
     program = f"import sys; from bsm.cli import main; code = main({words}); print(code, *sys.modules)"
-    code, *loaded = run(program).split()
+    code, *loaded = python("-c", program, text=True).stdout.split()
     assert code == "0" and "bsm.codec.decoding" in loaded
     assert not {"urllib.request", "http.client", "ssl", "scipy"} & set(loaded)
 

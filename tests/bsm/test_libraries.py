@@ -2,7 +2,6 @@
 
 import importlib
 import os
-import subprocess
 import sys
 
 import numpy as np
@@ -12,6 +11,7 @@ import bsm
 from bsm import Attribute, TriangleMesh
 from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed, png
+from tests.bsm.program import python
 from tests.plugins import declare_entry_points
 from tests.shapes import torus
 
@@ -209,14 +209,8 @@ def test_pyvista_by_its_entry_points(pyvista, tmp_path):
     site = declare_entry_points(tmp_path / "site")
     bsm.save(painted(), tmp_path / "a.bsm", **EXACT)
     (tmp_path / "c.bsm").write_bytes(b"nothing")
-    done = subprocess.run(
-        [sys.executable, "-c", SCRIPT, *(str(tmp_path / f"{name}.bsm") for name in "abc")],
-        env={**os.environ, "PYTHONPATH": str(site)},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    streams = (tmp_path / f"{name}.bsm" for name in "abc")
+    done = python("-c", SCRIPT, *streams, env={**os.environ, "PYTHONPATH": str(site)}, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip() == "FormatError"
     assert bsm.load(tmp_path / "b.bsm").metadata["unit"] == "mm"

@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 
 from bsm import BsmError, CorruptError, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
 from bsm.files.mesh import MESH_FORMATS, read_mesh, write_mesh, written_mesh
+from tests.shapes import tetrahedron
 
-TETRAHEDRON = TriangleMesh(
-    np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-)
+TETRAHEDRON = tetrahedron()
 PLY_HEADER = (
     "ply\nformat {order} 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n"
     "element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"

@@ -9,10 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from bsm.files.output import open_output
-
-
-def contents(folder):
-    return {path.name: path.read_bytes() for path in folder.iterdir()}
+from tests.bsm.program import contents
 
 
 def test_a_file_is_written(tmp_path):

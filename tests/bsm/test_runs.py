@@ -8,18 +8,14 @@ import pytest
 
 import bsm
 from bsm import Attribute
-from bsm.cli import main
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
+from tests.bsm.program import run
 from tools.vectors.meshes import torus
 
 RUNS = ("--runs", "--set", "step=0.002")
 PIECES = ((10, 4), (7, 3), (10, 2))
-
-
-def run(*words):
-    return main([str(word) for word in words])
 
 
 def capture(pieces=PIECES):

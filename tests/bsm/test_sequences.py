@@ -8,11 +8,11 @@ import pytest
 
 from bsm import Attribute, FormatError, MeshError, OptionError, TriangleMesh, TruncatedError
 from bsm.api import decode_frames
-from bsm.cli import main
 from bsm.files.formats.npz import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from tests.bsm.program import run as bsm
 from tests.bsm.program import run_json
 from tests.motion import bending
 from tests.shapes import torus
@@ -28,10 +28,6 @@ def npz(tmp_path):
     path = tmp_path / "torus.npz"
     np.savez(path, positions=positions.astype(np.float32), faces=faces)
     return path
-
-
-def bsm(*words):
-    return main([str(word) for word in words])
 
 
 @pytest.mark.parametrize("kind", ["npz", "npy", "obj", "ply"])
@@ -200,10 +196,9 @@ def test_permutation_restores_the_order(npz, tmp_path):
 def test_what_only_wide_limits_allow_is_written_for_them(tmp_path, more):
     positions, faces = bending(2, 60, 40)
     np.savez(tmp_path / "large.npz", positions=positions, faces=faces)
-    words = ["encode", str(tmp_path / "large.npz"), "-o", str(tmp_path / "a.bsm"), "--quick", *more]
-    words += ["--set", "block_size=2300"]
-    assert main(words) == 2 and not (tmp_path / "a.bsm").exists()
-    assert main([*words, "--set", "limits=wide"]) == 0
+    words = ["encode", tmp_path / "large.npz", "-o", tmp_path / "a.bsm", "--quick", *more, "--set", "block_size=2300"]
+    assert bsm(*words) == 2 and not (tmp_path / "a.bsm").exists()
+    assert bsm(*words, "--set", "limits=wide") == 0
 
 
 @pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--set", "doi=1,2"], ["--bpv", 2], ["--gop", 0]])
@@ -327,15 +322,15 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
         color = Attribute("color", np.full((len(mesh.positions), 3), 7, np.uint8), "vertex", "color")
         (tmp_path / "ply").mkdir(exist_ok=True)
         write_mesh(tmp_path / "ply" / f"{number}.ply", TriangleMesh(frame.positions, mesh.faces, (heat, color)))
-    assert main(["encode", str(tmp_path / "run"), "-o", str(tmp_path / "run.bsm"), "--keep-order", *QUICK]) == 0
+    assert bsm("encode", tmp_path / "run", "-o", tmp_path / "run.bsm", "--keep-order", *QUICK) == 0
     assert "normal" in capsys.readouterr().err
-    assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out"), "--format", "obj", "-q"]) == 0
+    assert bsm("decode", tmp_path / "run.bsm", "-o", tmp_path / "out", "--format", "obj", "-q") == 0
     for number in range(4):
         found = read_mesh(tmp_path / "out" / f"{number:05}.obj").mesh
         assert [attribute.name for attribute in found.attributes] == ["texcoord"]
         again = found.attributes[0]
         assert np.abs(again.values[again.indices].reshape(-1, 2) - corners).max() < 2e-4
-    assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out.npz")]) == 0
+    assert bsm("decode", tmp_path / "run.bsm", "-o", tmp_path / "out.npz") == 0
     with np.load(tmp_path / "out.npz") as arrays:
         shown = arrays["corner/texcoord"][arrays["corner/texcoord/indices"]]
         assert np.abs(shown.reshape(-1, 2) - corners).max() < 2e-4
@@ -350,12 +345,12 @@ def test_the_program_says_errors_of_frames(tmp_path, capsys):
     # A face without area once vertices at one position are one: its third vertex is left out.
     n, walk = walk.shape[1], np.concatenate([walk, walk[:, :1], walk[:, :1] + 3.0], axis=1)
     np.savez(tmp_path / "a.npz", positions=np.concatenate([walk, walk]), faces=[*faces, (0, n, n + 1)])
-    assert main(["encode", str(tmp_path / "a.npz"), "--set", "step=0.002"]) == 0
+    assert bsm("encode", tmp_path / "a.npz", "--set", "step=0.002") == 0
     assert "10 frames of " in capsys.readouterr().err
-    assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "a.bsm"), "--json"]) == 0
+    assert bsm("compare", tmp_path / "a.npz", tmp_path / "a.bsm", "--json") == 0
     found = json.loads(capsys.readouterr().out)
     each = [frame["max_error_relative"] for frame in found["frames"]]
     assert len(each) == 10 and max(each) == pytest.approx(found["max_error_relative"]) and max(each) < 0.01
-    assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "a.bsm")]) == 0
+    assert bsm("compare", tmp_path / "a.npz", tmp_path / "a.bsm") == 0
     printed = capsys.readouterr().out
     assert f"worst_frame        {each.index(max(each))} " in printed

@@ -4,7 +4,6 @@ import json
 import resource
 import shutil
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from bsm.gltf.document import read_document
 from bsm.tiles.cutting import Lattice
 from bsm.tiles.making import simplified, welded
 from tests.bsm.program import bsm as program
+from tests.bsm.program import contents
 from tests.shapes import curved, torus
 
 CELL = 2.0**-14
@@ -62,10 +62,6 @@ def same(first, second):
 def edges(faces):
     found = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     return np.unique(found, axis=0, return_counts=True)
-
-
-def contents(folder):
-    return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
 
 
 def test_a_grid_too_coarse_makes_tiles_that_are_read(mesh, tmp_path):

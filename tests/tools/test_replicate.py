@@ -9,21 +9,12 @@ import pytest
 
 from bsm import TriangleMesh
 from bsm.files.mesh import write_mesh
+from tests.codec.denoise.denoise_shapes import grid
 from tests.shapes import torus
 from tools.replicate import ablation, denoising, fetch, outside, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
 from tools.replicate.pictures import photograph
-
-
-def flat(count=8):
-    """A square in the plane z = 0."""
-    y, x = np.mgrid[0:count, 0:count]
-    corner = (count * y + x)[:-1, :-1].reshape(-1)
-    faces = [np.column_stack([corner, corner + 1, corner + count])]
-    faces += [np.column_stack([corner + 1, corner + count + 1, corner + count])]
-    positions = np.stack([x, y, np.zeros_like(x)], axis=-1).reshape(-1, 3) / (count - 1)
-    return TriangleMesh(positions.astype(np.float64), np.concatenate(faces).astype(np.int32))
 
 
 def hinge(angle):
@@ -35,7 +26,8 @@ def hinge(angle):
 class TestMeasures:
     def test_a_surface_that_is_shifted_along_its_normal(self):
         pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
-        mesh = flat()
+        positions, faces = grid(7)
+        mesh = TriangleMesh(positions / 7, faces)
         farthest, rms = surface_distance(mesh, TriangleMesh(mesh.positions + np.array([0, 0, 0.1]), mesh.faces), 2000)
         assert farthest == pytest.approx(0.1, abs=1e-6) and rms == pytest.approx(0.1, abs=1e-6)
 

@@ -259,31 +259,25 @@ def test_a_binary_ply(order, ragged):
 
 
 @pytest.mark.parametrize(
-    ("head", "behind", "of_face", "expected"),
+    ("head", "behind", "of_face", "expected", "dropped"),
     [
-        ("COFF", " 255 0 7 9", "", {"color": [255, 0, 7, 9]}),
-        ("COFF", " 0.5 0.25 0", "", {"color": [0.5, 0.25, 0]}),
-        ("COFF", " 1 0 0", "", {"color": [1, 0, 0]}),
-        ("COFF", " 1.0 0.0 0.0", "", {"color": [255, 0, 0]}),
-        ("NOFF", " 0 0 1", "", {"normal": [0, 0, 1]}),
-        ("STCNOFF", " 0 0 1 9 9 9 0.5 0.75", "", {"normal": [0, 0, 1], "color": [9, 9, 9], "texcoord": [0.5, 0.75]}),
-        ("OFF", "", " 1.0 0.5 0.0", {"color": [1, 0.5, 0]}),
-        ("OFF", "", " 30 20 10 255", {"color": [30, 20, 10, 255]}),
+        ("COFF", " 255 0 7 9", "", {"color": [255, 0, 7, 9]}, ()),
+        ("COFF", " 0.5 0.25 0", "", {"color": [0.5, 0.25, 0]}, ()),
+        ("COFF", " 1 0 0", "", {"color": [1, 0, 0]}, ()),
+        ("COFF", " 1.0 0.0 0.0", "", {"color": [255, 0, 0]}, ()),
+        ("NOFF", " 0 0 1", "", {"normal": [0, 0, 1]}, ()),
+        ("STCNOFF", " 0 0 1 9 9 9 0.5 1", "", {"normal": [0, 0, 1], "color": [9, 9, 9], "texcoord": [0.5, 1]}, ()),
+        ("OFF", "", " 1.0 0.5 0.0", {"color": [1, 0.5, 0]}, ()),
+        ("OFF", "", " 30 20 10 255", {"color": [30, 20, 10, 255]}, ()),
+        ("OFF", " 7 8 9", "", {}, ("numbers after the coordinates",)),
+        ("OFF", "", " 5", {}, ("colors of faces",)),
     ],
 )
-def test_an_off(head, behind, of_face, expected):
+def test_an_off(head, behind, of_face, expected, dropped):
     rows = "".join(f"{row}{behind}\n" for row in ("0 0 0", "1 0 0", "1 1 0", "0 1 0"))
     source = read_mesh(f"{head}\n4 1 0\n{rows}4 0 1 2 3{of_face}\n".encode())
     assert {a.name: a.values[0].tolist() for a in source.mesh.attributes} == expected
-    assert source.dropped == ()
-
-
-@pytest.mark.parametrize(
-    ("behind", "of_face", "dropped"), [(" 7 8 9", "", "numbers after the coordinates"), ("", " 5", "colors of faces")]
-)
-def test_what_an_off_loses(behind, of_face, dropped):
-    rows = "".join(f"{row}{behind}\n" for row in ("0 0 0", "1 0 0", "1 1 0"))
-    assert read_mesh(f"OFF\n3 1 0\n{rows}3 0 1 2{of_face}\n".encode()).dropped == (dropped,)
+    assert source.dropped == dropped
 
 
 def test_the_arrays_of_an_npz(tmp_path):
@@ -348,21 +342,22 @@ def by_material(mesh):
     return TriangleMesh(mesh.positions, mesh.faces[order], taken, mesh.metadata)
 
 
+def obj_of(*values):
+    """Texture coordinates and faces in an OBJ of two triangles with these values at their corners."""
+    uv = Attribute("uv", np.array(values, np.float32), "corner", "texcoord")
+    mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [uv])
+    return [line for line in written_mesh(mesh, "obj").data.decode().splitlines() if line.startswith(("v", "f"))]
+
+
 def test_texture_coordinates_of_an_obj_are_written_once():
     """As they are first needed, and 0.0 apart from -0.0."""
-    values = np.array([[1, 1], [0, 0.5], [1, 1], [-0.0, 0.5], [0, 0.5], [1, 1]], np.float32)
-    mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [Attribute("uv", values, "corner", "texcoord")])
-    lines = written_mesh(mesh, "obj").data.decode().splitlines()
-    assert [line for line in lines if line.startswith("vt")] == ["vt 1 1", "vt 0 0.5", "vt -0 0.5"]
-    assert lines[-2:] == ["f 1/1 2/2 3/1", "f 2/3 4/2 3/1"]
+    lines = obj_of([1, 1], [0, 0.5], [1, 1], [-0.0, 0.5], [0, 0.5], [1, 1])
+    assert lines[4:] == ["vt 1 1", "vt 0 0.5", "vt -0 0.5", "f 1/1 2/2 3/1", "f 2/3 4/2 3/1"]
 
 
 def test_texture_coordinates_without_seams_have_the_numbers_of_vertices(tmp_path):
-    values = np.array([[1, 1], [0, 0.5], [1, 1], [0, 0.5], [0.5, 0], [1, 1]], np.float32)
-    mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [Attribute("uv", values, "corner", "texcoord")])
-    lines = written_mesh(mesh, "obj").data.decode().splitlines()
-    assert [line for line in lines if line.startswith("vt")] == ["vt 1 1", "vt 0 0.5", "vt 1 1", "vt 0.5 0"]
-    assert lines[-2:] == ["f 1/1 2/2 3/3", "f 2/2 4/4 3/3"]
+    lines = obj_of([1, 1], [0, 0.5], [1, 1], [0, 0.5], [0.5, 0], [1, 1])
+    assert lines[4:] == ["vt 1 1", "vt 0 0.5", "vt 1 1", "vt 0.5 0", "f 1/1 2/2 3/3", "f 2/2 4/4 3/3"]
     vtk = pytest.importorskip("vtkmodules.vtkIOGeometry")
     (tmp_path / "a.obj").write_text("\n".join(lines))
     reader = vtk.vtkOBJReader()

@@ -22,12 +22,12 @@ from bsm import (
     TruncatedError,
 )
 from bsm.api import decode_frames
-from bsm.cli import main
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted, painted_like
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
+from tests.bsm.program import run as bsm
 from tests.gltf import Built, glb
 from tests.motion import animators_own, bending
 from tests.shapes import torus
@@ -35,10 +35,6 @@ from tests.shapes import torus
 MOVING = Path(__file__).parent / "moving"
 """What Blender 5.0.1 wrote, and what it showed at each of the 25 frames."""
 COUNT = 6
-
-
-def bsm(*words):
-    return main([str(word) for word in words])
 
 
 def frames_of(path, **keywords):

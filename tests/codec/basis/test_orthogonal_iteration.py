@@ -16,14 +16,9 @@ from bsm.codec.basis.orthogonal_iteration import (
     orthogonal_iteration,
 )
 from bsm.codec.blocks.overlap import Block
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.options import encode_options
+from tests.codec.basis.test_fronts import unordered as whole
 from tests.shapes import patch, torus
-
-
-def whole(faces, size):
-    graph = graph_of_faces(faces, size)
-    return Block(np.arange(size, dtype=np.int32), graph.offsets, graph.neighbors)
 
 
 def span_distance(a, b):

@@ -2,18 +2,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from hypothesis.extra import numpy as hnp
 
 from bsm.codec.blocks.overlap import block_size, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import even_interval
+from tests.codec.geometry.test_graph import graph_of, soups
 from tests.shapes import patch, tetrahedron, together, torus
-
-soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
-
-
-def graph_of(mesh):
-    return graph_of_faces(mesh.faces, len(mesh.positions))
 
 
 def blocks_of(graph, parts, overlap):

@@ -6,13 +6,8 @@ from hypothesis.extra import numpy as hnp
 
 from bsm.codec.blocks.overlap import bisect, derive_partition, metis_partition, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
+from tests.codec.geometry.test_graph import graph_of, soups
 from tests.shapes import grid_faces, torus
-
-soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
-
-
-def graph_of(mesh):
-    return graph_of_faces(mesh.faces, len(mesh.positions))
 
 
 def cut(graph, partition):

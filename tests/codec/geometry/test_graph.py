@@ -13,6 +13,11 @@ from bsm.codec.geometry.graph import (
 )
 from bsm.codec.geometry.welding import weld
 
+
+def graph_of(mesh):
+    return graph_of_faces(mesh.faces, len(mesh.positions))
+
+
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
 
 
