@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from bsm.files.motion.caches import write_cache
+from bsm.files.motion.frames import Shared
+from bsm.files.sequence import sequence_writer
 from tests.shapes import torus
 
 
@@ -18,6 +20,13 @@ def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[np.ndarray,
         wave = 0.1 * np.sin(3 * x + 2 * t)
         result.append(np.stack([c * x - s * y, (s * x + c * y) * (1 + 0.2 * np.sin(t)), z + wave], axis=1))
     return np.array(result), mesh.faces
+
+
+def save_frames(path: Path, kind: str, positions: np.ndarray, faces: np.ndarray, shared: Shared | None = None) -> None:
+    """Write the frames of a sequence in the file or files of some program."""
+    with sequence_writer(str(path), kind, faces, len(positions), overwrite=True, shared=shared) as write:
+        for frame in positions:
+            write(frame)
 
 
 def turning(frames: int) -> tuple[np.ndarray, np.ndarray]:

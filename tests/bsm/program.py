@@ -34,10 +34,10 @@ def run(*arguments):
     return main(list(map(str, arguments)))
 
 
-def python(*words, **keywords):
+def python(*words, timeout=120, **keywords):
     """A Python in a process of its own."""
     command = [sys.executable, *map(str, words)]
-    return subprocess.run(command, capture_output=True, timeout=120, cwd=ROOT, check=False, **keywords)
+    return subprocess.run(command, capture_output=True, timeout=timeout, cwd=ROOT, check=False, **keywords)
 
 
 def process(*arguments, **keywords):

@@ -1,6 +1,5 @@
 """Scenes of glTF as meshes: what accessors, nodes, skins and compressed views hold, with known answers."""
 
-import subprocess
 import sys
 
 import numpy as np
@@ -11,6 +10,7 @@ from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.gltf.document import read_document
 from tests.bsm.files.test_file_attributes import attribute
+from tests.bsm.program import python
 from tests.gltf import Built, scene
 from tests.shapes import torus
 
@@ -423,9 +423,7 @@ try:
 except bsm.LimitError as error:
     print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) // 1024)
 """
-    command = [sys.executable, "-c", script, str(tmp_path / "a.glb"), str(animated)]
-    taken = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60).stdout
-    assert int(taken) < 60, "megabytes"
+    assert int(python("-c", script, tmp_path / "a.glb", animated).stdout) < 60, "megabytes"
 
 
 def test_skins_of_many_nodes_are_counted():

@@ -3,13 +3,12 @@
 import json
 import os
 import resource
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from bsm.bitstream import errors
+from tests.bsm.program import python
 
 SECONDS = 10
 BYTES = 1 << 30
@@ -65,15 +64,9 @@ def bound_memory():
 
 def read_all(paths):
     """Read each file in a process of its own, of limited time and memory: what came of it, by name."""
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, *map(str, paths)],
-        stdout=subprocess.PIPE,
-        timeout=20 * SECONDS,
-        preexec_fn=bound_memory,
-        env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
-        cwd=Path(__file__).parents[2],
-        check=True,
-    )
+    single = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    done = python("-c", PROGRAM, *paths, timeout=20 * SECONDS, preexec_fn=bound_memory, env=single)
+    assert done.returncode == 0, done.stderr
     return {Path(path).name: result for path, result in map(json.loads, done.stdout.splitlines())}
 
 
@@ -81,14 +74,7 @@ def test_the_helper_notices_a_file_that_kills_the_process(tmp_path):
     pipe = tmp_path / "never_written.obj"
     os.mkfifo(pipe)
     program = PROGRAM.replace(f"alarm({SECONDS})", "alarm(1)")
-    done = subprocess.run(
-        [sys.executable, "-c", program, str(pipe)],
-        stdout=subprocess.PIPE,
-        timeout=60,
-        cwd=Path(__file__).parents[2],
-        check=True,
-    )
-    assert b"died" in done.stdout
+    assert b"died" in python("-c", program, pipe).stdout
 
 
 @pytest.mark.real

@@ -11,10 +11,10 @@ from bsm.api import decode_frames
 from bsm.files.formats.npz import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
-from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from bsm.files.sequence import open_sequence, sequence_kind
 from tests.bsm.program import run as bsm
 from tests.bsm.program import run_json
-from tests.motion import bending
+from tests.motion import bending, save_frames
 from tests.shapes import torus
 
 FRAMES = 6
@@ -89,9 +89,7 @@ def test_tolerant_decoding_names_what_is_lost(npz, tmp_path, capsys):
 
 def test_folders_and_patterns_are_taken_in_the_order_of_numbers(tmp_path):
     positions, faces = bending(12)
-    with sequence_writer(str(tmp_path / "run"), "off", faces, 12, overwrite=False) as write:
-        for frame in positions:
-            write(frame)
+    save_frames(tmp_path / "run", "off", positions, faces)
     for number in range(12):
         (tmp_path / "run" / f"{number:05d}.off").rename(tmp_path / "run" / f"{number}.off")
     for path in (tmp_path / "run", tmp_path / "run" / "*.off"):

@@ -29,7 +29,7 @@ from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequen
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
 from tests.bsm.program import run as bsm
 from tests.gltf import Built, glb
-from tests.motion import animators_own, bending
+from tests.motion import animators_own, bending, save_frames
 from tests.shapes import torus
 
 MOVING = Path(__file__).parent / "moving"
@@ -89,9 +89,7 @@ def test_there_and_back(tmp_path, kind):
     one_file = sequence_kind(f"a.{kind}", None) if kind not in ("obj", "ply", "off", "stl") else None
     path = tmp_path / (f"a.{kind}" if one_file else f"%02d.{kind}")
     shared = Shared(lambda: attributes, lambda: {"unit": "cm", "up": "z", "frame_rate": 25.0})
-    with sequence_writer(str(path), kind, faces, COUNT, overwrite=False, shared=shared) as write:
-        for frame in positions:
-            write(frame)
+    save_frames(path, kind, positions, faces, shared)
     source, frames = frames_of(path)
     assert source.count == COUNT
     if kind == "stl":  # which has no vertices, but corners
@@ -122,9 +120,7 @@ def test_a_glb_grows_with_the_frames_and_not_with_their_square(tmp_path):
     sizes = []
     for count in (300, 1200):
         path = tmp_path / f"{count}.glb"
-        with sequence_writer(str(path), "glb", faces, count, overwrite=False) as write:
-            for frame in positions[:count]:
-                write(frame)
+        save_frames(path, "glb", positions[:count], faces)
         sizes.append(path.stat().st_size)
     assert sizes[1] < 4.2 * sizes[0]
     _, frames = frames_of(tmp_path / "1200.glb", rate=24.0)
@@ -171,9 +167,7 @@ def test_usd_core_reads_what_we_write(tmp_path):
 
     positions, faces, attributes = painted()
     shared = Shared(lambda: attributes, lambda: {"unit": "mm", "up": "z", "frame_rate": 30.0})
-    with sequence_writer(str(tmp_path / "a.usdc"), "usdc", faces, COUNT, overwrite=False, shared=shared) as write:
-        for frame in positions:
-            write(frame)
+    save_frames(tmp_path / "a.usdc", "usdc", positions, faces, shared)
     stage = pxr.Stage.Open(str(tmp_path / "a.usdc"))
     assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (0, COUNT - 1, 30)
     assert UsdGeom.GetStageUpAxis(stage) == "Z" and UsdGeom.GetStageMetersPerUnit(stage) == 0.001
@@ -502,9 +496,7 @@ def test_pc2_and_mdd_byte_by_byte(tmp_path):
     faces = np.array([[0, 1, 2], [3, 4, 5], [6, 7, 8]])
     for kind in ("pc2", "mdd"):
         shared = Shared(metadata=lambda: {"frame_rate": 4.0})
-        with sequence_writer(str(tmp_path / f"a.{kind}"), kind, faces, 2, overwrite=True, shared=shared) as write:
-            write(positions[0])
-            write(positions[1])
+        save_frames(tmp_path / f"a.{kind}", kind, positions, faces, shared)
     head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 9, 0.0, 1.0, 2)
     assert (tmp_path / "a.pc2").read_bytes() == head + positions.astype("<f4").tobytes()
     head = struct.pack(">iiff", 2, 9, 0.0, 0.25)

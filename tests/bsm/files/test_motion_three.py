@@ -9,8 +9,8 @@ import pytest
 from scipy.spatial import cKDTree
 
 from bsm.files.motion.frames import Shared, Wanted
-from bsm.files.sequence import open_sequence, sequence_writer
-from tests.motion import bending
+from bsm.files.sequence import open_sequence
+from tests.motion import bending, save_frames
 
 ROOT = Path(__file__).parents[3]
 MOVING = Path(__file__).parent / "moving"
@@ -41,8 +41,6 @@ def test_what_we_write(tmp_path):
     positions, faces = bending(9)
     positions = positions.astype(np.float32).astype(np.float64)
     shared = Shared(metadata=lambda: {"frame_rate": 25.0})
-    with sequence_writer(str(tmp_path / "a.glb"), "glb", faces, 9, overwrite=False, shared=shared) as write:
-        for frame in positions:
-            write(frame)
+    save_frames(tmp_path / "a.glb", "glb", positions, faces, shared)
     shown = shown_by_three(tmp_path / "a.glb", 25, 9)
     assert np.abs(shown - positions).max() < 1e-6

@@ -4,6 +4,7 @@ import gzip
 import io
 import sys
 import zipfile
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from bsm import CorruptError, LimitError, Limits, MeshError, TruncatedError
 from bsm.files.mesh import format_of_bytes, read_mesh, written_mesh
 from bsm.files.room import gunzipped
 from tests.bsm.program import bsm
-from tests.streams import peak_of
+from tests.streams import memory_below
 from tools.attack.readers import Case, _grown, chained_objects, problems, three_mf, warm_up
 from tools.vectors.meshes import torus
 
@@ -106,32 +107,23 @@ def test_texts_take_what_is_granted_or_are_refused(name):
     kind, piece = TEXTS[name]
     data = piece * max(1, 500_000 // len(piece))
 
-    def read():
-        with pytest.raises((LimitError, MeshError, TruncatedError, CorruptError, ValueError)):
-            read_mesh(data, kind, SMALL)
-
     granted = SMALL.memory_for(data.count(b"\n") // 3, len(data))
-    assert peak_of(read) < granted + 4 * MIB
+    refused = LimitError, MeshError, TruncatedError, CorruptError, ValueError
+    with memory_below(granted + 4 * MIB), pytest.raises(refused):
+        read_mesh(data, kind, SMALL)
 
 
 def test_more_vertices_than_granted_are_refused_before_they_are_numbers():
     data = b"v 0 0 0\n" * 100_000
-
-    def read():
-        with pytest.raises(LimitError, match="vertices"):
-            read_mesh(data, "obj", Limits(vertices=1000))
-
-    assert peak_of(read) < 4 * MIB
+    with memory_below(4 * MIB), pytest.raises(LimitError, match="vertices"):
+        read_mesh(data, "obj", Limits(vertices=1000))
 
 
 def test_what_gzip_has_compressed_is_bounded():
     bomb = gzip.compress(b"v 0 0 0\n" * 8_000_000)
-
-    def read():
-        with pytest.raises(LimitError, match="compressed bytes"):
-            read_mesh(bomb, limits=SMALL)
-
-    assert peak_of(read) < 2 * SMALL.memory_for(0, len(bomb)) + 4 * MIB
+    most = 2 * SMALL.memory_for(0, len(bomb)) + 4 * MIB
+    with memory_below(most), pytest.raises(LimitError, match="compressed bytes"):
+        read_mesh(bomb, limits=SMALL)
 
 
 def test_gzip_of_several_members():
@@ -157,15 +149,8 @@ def test_arrays_of_an_npz_are_bounded(name):
     arrays = {"positions": mesh.positions, "faces": mesh.faces}
     arrays[name] = np.zeros(30_000_000, np.uint8) if name == "metadata" else np.zeros((2_000_000, 3))
     data = archive_of(**arrays)
-
-    def read():
-        try:
-            found = read_mesh(data, "npz", SMALL)
-        except LimitError:
-            return
-        assert found.dropped == (name,)
-
-    assert peak_of(read) < SMALL.memory_for(0, len(data))
+    with memory_below(SMALL.memory_for(0, len(data))), suppress(LimitError):
+        assert read_mesh(data, "npz", SMALL).dropped == (name,)
 
 
 def test_archives_for_other_readers_are_bounded():
