@@ -3,9 +3,8 @@
 import types
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import fields
 from numbers import Integral, Real
-from typing import Any, TypeVar, Union, get_args, get_origin
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -27,8 +26,8 @@ def check_options(
     options: Any, choices: Mapping[str, tuple[str, ...]], ranges: Mapping[str, tuple[float, float]]
 ) -> None:
     """Give the fields of a dataclass their types, and check those with choices or a closed range; None is legal."""
-    for item in fields(options):
-        name, value = item.name, checked(item.name, getattr(options, item.name), item.type)
+    for name, hint in get_type_hints(type(options)).items():  # fields may have their annotations as text
+        value = checked(name, getattr(options, name), hint)
         object.__setattr__(options, name, value)
         if value is None:
             continue
