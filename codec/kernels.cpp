@@ -30,18 +30,15 @@ using namespace nb::literals;
 NB_MODULE(_kernels, m) {
     m.def("vertex_faces", &vertex_faces, "faces"_a, "starts"_a, "members"_a, Unlocked());
     m.def("normals_apart", &normals_apart, "original"_a, "decoded"_a, "faces"_a, "around"_a, Unlocked());
-    m.def("face_normals", &face_normals, "positions"_a, "faces"_a, "normals"_a, Unlocked());
     m.def("geometric_laplacian", &geometric_laplacian, "positions"_a, "starts"_a, "members"_a, "result"_a, Unlocked());
     m.def("build_tree", &build_tree, "lowest"_a, "highest"_a, "order"_a, "low"_a, "high"_a, "first"_a,
           "count"_a, Unlocked());
     m.def("nearest_distances", &nearest_distances, "points"_a, "triangles"_a, "low"_a, "high"_a, "first"_a, "count"_a,
           "distances"_a, Unlocked());
-    m.def("farthest_distance", &farthest_distance, "points"_a, "triangles"_a, "low"_a, "high"_a, "first"_a, "count"_a,
-          Unlocked());
     m.def("shown_normals", checked<&shown_normals>, "positions"_a, "faces"_a, "joined"_a, "starts"_a, "around"_a,
           "cosine"_a, "half"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
     m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,
-          "away"_a, "depth"_a, "lengths"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
+          "away"_a, "depth"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
     m.def("paint_colors", checked<&paint_colors>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "picture"_a,
           "painted"_a, Unlocked());
     m.def("paint_checker", checked<&paint_checker>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "steepness"_a,
@@ -122,7 +119,7 @@ NB_MODULE(_kernels, m) {
     m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,
         "moments"_a, "step"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, "values"_a, "ways"_a, "origins"_a,
         Unlocked());
-    m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbors"_a, "seen"_a, "waiting"_a, "sizes"_a,
+    m.def("label_components", checked<&label_components>, "offsets"_a, "neighbors"_a, "waiting"_a, "labels"_a,
           Unlocked());
     m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbors"_a, "scratch"_a, Unlocked());
     m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, "lost"_a, Unlocked());

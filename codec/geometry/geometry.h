@@ -24,10 +24,9 @@ INLINE void cross_of_face(const double *positions, const int32_t *face, double *
 }
 
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
-int64_t component_sizes(ConstInts offsets, ConstInts neighbors, Bytes seen, Ints waiting, Ints sizes);
+int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, Ints labels);
 int64_t reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
-void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals);
 double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around);
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);
 double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
@@ -35,10 +34,8 @@ double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2
 double farthest_apart(ConstDoubles2 original, ConstDoubles2 decoded);
 int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Doubles2 low,
                    Doubles2 high, Longs first, Longs count);
-void nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                       ConstLongs first, ConstLongs count, Doubles distances);
-double farthest_distance(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                         ConstLongs first, ConstLongs count);
+double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
+                         ConstLongs first, ConstLongs count, Doubles distances);
 
 /* Sort values that nearly always come nearly sorted: by insertion, and by a heap once that has moved too many of them,
  * so that none, however many and in whatever order, take more than n log n steps. */

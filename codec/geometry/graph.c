@@ -47,24 +47,25 @@ int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, In
     return kept;
 }
 
-/* Vertices of each connected component; `seen` is zero, all three arrays have an entry a vertex. Returns how many there
- * are. */
-int64_t component_sizes(ConstInts offsets, ConstInts neighbors, Bytes seen, Ints waiting, Ints sizes) {
+/* The connected component of each vertex, in the order of their first vertices; `waiting` has an entry a vertex, too.
+ * Returns how many there are. */
+int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, Ints labels) {
     int64_t n = offsets.size - 1, count = 0;
-    if (n < 0 || seen.size != n || waiting.size != n || sizes.size != n) return MISUSED;
+    if (n < 0 || waiting.size != n || labels.size != n) return MISUSED;
+    for (int64_t v = 0; v < n; v++) labels.data[v] = -1;
     for (int64_t first = 0; first < n; first++) {
-        if (seen.data[first]) continue;
+        if (labels.data[first] >= 0) continue;
         int64_t end = 0;
-        seen.data[first] = 1;
+        labels.data[first] = (int32_t)count;
         waiting.data[end++] = (int32_t)first;
         for (int64_t i = 0; i < end; i++)
             for (int32_t k = offsets.data[waiting.data[i]]; k < offsets.data[waiting.data[i] + 1]; k++) {
                 int32_t other = neighbors.data[k];
-                if (seen.data[other]) continue;
-                seen.data[other] = 1;
+                if (labels.data[other] >= 0) continue;
+                labels.data[other] = (int32_t)count;
                 waiting.data[end++] = other;
             }
-        sizes.data[count++] = (int32_t)end;
+        count++;
     }
     return count;
 }

@@ -33,11 +33,11 @@ def graph_of_faces(faces: Indices, size: int) -> Graph:
     return Graph(offsets, ends[:kept].copy())
 
 
-def component_sizes(graph: Graph) -> Indices:
-    """Vertices of each connected component, shape (k,), in the order of their first vertices."""
-    sizes, waiting = np.zeros(graph.size, np.int32), np.empty(graph.size, np.int32)
-    seen = np.zeros(graph.size, np.uint8)
-    return sizes[: _kernels.component_sizes(graph.offsets, graph.neighbors, seen, waiting, sizes)]
+def components(graph: Graph) -> Indices:
+    """The connected component of each vertex, shape (n,), numbered in the order of their first vertices."""
+    labels, waiting = np.empty(graph.size, np.int32), np.empty(graph.size, np.int32)
+    _kernels.label_components(graph.offsets, graph.neighbors, waiting, labels)
+    return labels
 
 
 def is_connected(graph: Graph) -> bool:

@@ -1,16 +1,6 @@
 /* Normals of faces, what those of vertices are made of, and the geometric Laplacian of NMSVE (paper, section 8). */
 #include "codec/geometry/geometry.h"
 
-/* Unit normals; zero where a face has no area. */
-void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals) {
-    for (int64_t f = 0; f < least(faces.rows, normals.rows); f++) {
-        double *normal = normals.data + 3 * f;
-        cross_of_face(positions.data, faces.data + 3 * f, normal);
-        double length = __builtin_sqrt(dot3(normal, normal));
-        for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? normal[d] / length : 0.0;
-    }
-}
-
 /* How far normals of vertices of `decoded` are off those of `original`, by the areas around: the mean of sqrt(1 - cos).
  * Where a normal is zero, the cosine is. `around`, which begins as zeros, has of each vertex the sums of the cross
  * products of the faces' edges, of both, and of the original's lengths: 7 numbers. */
@@ -236,23 +226,17 @@ static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 lo
     return best;
 }
 
-/* Distance of each point to the nearest triangle; `triangles` has nine numbers a row, in the order of the tree. */
-void nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                       ConstLongs first, ConstLongs count, Doubles distances) {
-    int64_t found = 0;
-    for (int64_t i = 0; i < least(points.rows, distances.size); i++)
-        distances.data[i] =
-            __builtin_sqrt(nearest(points.data + 3 * i, triangles, low, high, first, count, 0.0, &found));
-}
-
-/* The largest of these distances: what is nearer than the largest so far need not be known exactly. */
-double farthest_distance(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                         ConstLongs first, ConstLongs count) {
+/* The largest distance of a point to the nearest triangle, and all of them if `distances` has room: what is nearer than
+ * the largest so far need not be known exactly else. `triangles` has nine numbers a row, in the order of the tree. */
+double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
+                         ConstLongs first, ConstLongs count, Doubles distances) {
     int64_t found = 0;
     double most = 0.0;
     for (int64_t i = 0; i < points.rows; i++) {
-        double squared = nearest(points.data + 3 * i, triangles, low, high, first, count, most, &found);
+        double enough = i < distances.size ? 0.0 : most;
+        double squared = nearest(points.data + 3 * i, triangles, low, high, first, count, enough, &found);
         most = squared > most ? squared : most;
+        if (i < distances.size) distances.data[i] = __builtin_sqrt(squared);
     }
     return __builtin_sqrt(most);
 }

@@ -73,9 +73,7 @@ class Reference:
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self._neighbors = vertex_neighbors(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbors)
-        areas, centroids = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
-        self._normals = np.empty((len(self.faces), 3))
-        _kernels.face_geometry(self.positions, self.faces, centroids, areas, self._normals)
+        areas, self._normals = _areas_and_normals(self.positions, self.faces)
         self._areas: Floats = areas / (areas.sum() or 1.0)
         counted = self._normals.any(axis=1)
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
@@ -161,9 +159,14 @@ def decibel(value: float) -> float:
 
 def face_normals(positions: Positions, faces: Faces) -> Floats:
     """Unit normals, shape (m, 3); zero where a face has no area."""
-    normals = np.empty((len(faces), 3))
-    _kernels.face_normals(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), normals)
-    return normals
+    return _areas_and_normals(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32))[1]
+
+
+def _areas_and_normals(positions: Positions, faces: Faces) -> tuple[Floats, Floats]:
+    count = len(faces)
+    centroids, areas, normals = np.empty((count, 3)), np.empty(count), np.empty((count, 3))
+    _kernels.face_geometry(positions, faces, centroids, areas, normals)
+    return areas, normals
 
 
 def flat_faces(positions: Positions, faces: Faces) -> Mask:
@@ -209,8 +212,7 @@ class Original:
     def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
-        areas, self.normals = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
-        _kernels.face_geometry(self.positions, self.faces, np.empty((len(self.faces), 3)), areas, self.normals)
+        areas, self.normals = _areas_and_normals(self.positions, self.faces)
         counts = areas if by_area else (areas > 0.0).astype(np.float64)
         total = counts.sum()
         self.weights: Floats = counts / total if total > 0.0 else np.zeros(len(areas))
@@ -272,7 +274,7 @@ def distances_to_surface(points: Floats, positions: Positions, faces: Faces) -> 
 
 def farthest_from_surface(points: Floats, positions: Positions, faces: Faces) -> float:
     """The largest of these distances, much sooner; consecutive points should be near each other."""
-    return float(_kernels.farthest_distance(np.ascontiguousarray(points), *_tree(positions, faces)))
+    return _kernels.nearest_distances(np.ascontiguousarray(points), *_tree(positions, faces), np.empty(0))
 
 
 def _tree(positions: Positions, faces: Faces) -> tuple[Floats, Floats, Floats, Order, Order]:

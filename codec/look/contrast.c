@@ -4,26 +4,24 @@
 #define REACH 5 /* pixels to each side that the blur reaches */
 #define KEPT (2 * REACH + 1)
 #define BACKGROUND 1.0f
+#define SIDE 4 /* samples along each side of a pixel */
 #define COVERED 0.999f
 enum { FIRST, SECOND, SQUARES, PRODUCT, FIELDS, SUMS = 2, LANES = 8 /* sums side by side */ };
 
 /* Pixels of `small`: means of squares of samples. */
 KERNEL int64_t averaged(ConstSingles2 samples, Singles2 small) {
-    int64_t side = small.rows > 0 ? samples.rows / small.rows : 0;
-    if (side < 1 || samples.rows != side * small.rows || samples.columns != side * small.columns) return MISUSED;
-    float share = 1.0f / (float)(side * side);
+    if (samples.rows != SIDE * small.rows || samples.columns != SIDE * small.columns) return MISUSED;
     for (int64_t row = 0; row < small.rows; row++) {
+        const float *from = samples.data + SIDE * row * samples.columns;
         float *to = small.data + row * small.columns;
-        for (int64_t i = 0; i < small.columns; i++) to[i] = 0.0f;
-        for (int64_t y = 0; y < side; y++) {
-            const float *from = samples.data + (row * side + y) * samples.columns;
-            for (int64_t i = 0; i < small.columns; i++) {
-                float sum = 0.0f;
-                for (int64_t j = 0; j < side; j++) sum += from[side * i + j];
-                to[i] += sum;
+        for (int64_t i = 0; i < small.columns; i++) {
+            float total = 0.0f;
+            for (int64_t y = 0; y < SIDE; y++) {
+                const float *at = from + y * samples.columns + SIDE * i;
+                total += at[0] + at[1] + at[2] + at[3];
             }
+            to[i] = total * (1.0f / (SIDE * SIDE));
         }
-        for (int64_t i = 0; i < small.columns; i++) to[i] *= share;
     }
     return 0;
 }

@@ -30,6 +30,11 @@ INLINE void sum_around(const double *crosses, const int32_t *members, int64_t co
     }
 }
 
+INLINE void unit_of(const double *sum, float *unit) {
+    double length = __builtin_sqrt(dot3(sum, sum));
+    for (int d = 0; d < 3; d++) unit[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;
+}
+
 /* `joined` has the vertices of faces with those at one place as one, `starts` and `around` the faces of each. `normals`
  * has nine numbers a face, three of each corner: the sum of the cross products of those around the corner's vertex
  * whose angle to the face has a cosine above `cosine`, and of the face itself; of length 1, or zero. A vertex with more
@@ -59,15 +64,18 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
         const int32_t *members = around.data + from;
         double sum[3] = {0.0, 0.0, 0.0};
         bool smooth = to - from <= most && smoothly(crosses.data, members, to - from, half, sum);
-        for (int64_t i = 0; i < to - from; i++)
-            for (int k = 0; k < 3; k++) {
-                if (joined.data[3 * (int64_t)members[i] + k] != v) continue;
-                if (!smooth)
-                    sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], cosine, sum);
-                double length = __builtin_sqrt(dot3(sum, sum));
-                float *normal = normals.data + 9 * (int64_t)members[i] + 3 * k;
-                for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;
+        float normal[3] = {0.0f, 0.0f, 0.0f};
+        if (smooth) unit_of(sum, normal);
+        for (int64_t i = 0; i < to - from; i++) {
+            const int32_t *corners = joined.data + 3 * (int64_t)members[i];
+            if (!smooth) {
+                sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], cosine, sum);
+                unit_of(sum, normal);
             }
+            float *at = normals.data + 9 * (int64_t)members[i];
+            for (int k = 0; k < 3; k++)
+                for (int d = 0; d < 3 && corners[k] == v; d++) at[3 * k + d] = normal[d];
+        }
     }
     return 0;
 }

@@ -78,7 +78,7 @@ class Canvas:
     """Room for pictures, one after another: `samples` along each side, which make a quarter as many pixels."""
 
     def __init__(self, samples: int) -> None:
-        self.samples, self._depth, self._lengths = (np.empty((samples, samples), np.float32) for _ in "123")
+        self.samples, self._depth = (np.empty((samples, samples), np.float32) for _ in "12")
         self.owner = np.empty((samples, samples), np.int32)
         self._tiles = np.empty((-(-samples // _TILE),) * 2, np.float32)
         self._placed = np.empty((0, 3))
@@ -86,7 +86,7 @@ class Canvas:
     def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix) -> Picture:
         """Draw a mesh, lit alike on both sides of its faces; `owner` is the face that each sample shows, or -1."""
         self._placed = np.empty(positions.shape)
-        room = self._placed, np.empty(len(faces), np.int32), self._depth, self._lengths, self._tiles
+        room = self._placed, np.empty(len(faces), np.int32), self._depth, self._tiles
         _kernels.draw_shaded(positions, faces, normals, camera, *room, self.samples, self.owner)
         return averaged(self.samples)
 

@@ -30,10 +30,6 @@ INLINE double behind_center(double x, double size) { return floor_of(clamped(x +
 /* Depths are whole numbers, so that faces at one place are at one depth, whatever their corners. */
 INLINE float depth_of(double z) { return (float)((z + WHOLE) - WHOLE); }
 
-INLINE float shade_of(float facing, float length) {
-    return AMBIENT + DIFFUSE * (length > DARK ? __builtin_fabsf(facing) / __builtin_sqrtf(length) : 0.0f);
-}
-
 INLINE double within(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
 
 INLINE double lower(double a, double b) { return a < b ? a : b; }
@@ -78,35 +74,9 @@ INLINE bool hidden(Face face, ConstSingles2 farthest) {
 }
 
 typedef struct {
-    Singles2 depth, lengths, picture;
+    Singles2 depth, picture;
     Ints2 owner;
 } Canvas;
-
-INLINE void draw_pixel(Face face, double inverse, const double *n, const double *light, int32_t number, int64_t row,
-                       int64_t column, Canvas on) {
-    const double *a = face.a, *b = face.b, *c = face.c;
-    double across = (double)column + 0.5 - a[0], down = (double)row + 0.5 - a[1];
-    double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
-    double s = within((across * cy - down * cx) * inverse), r = within((bx * down - by * across) * inverse);
-    int64_t pixel = row * on.picture.columns + column;
-    float z = depth_of(a[2] + s * (b[2] - a[2]) + r * (c[2] - a[2])), before = on.depth.data[pixel];
-    if (!(z >= before)) return;
-    double q = 1.0 - s - r;
-    double nx = q * n[0] + s * n[3] + r * n[6];
-    double ny = q * n[1] + s * n[4] + r * n[7];
-    double nz = q * n[2] + s * n[5] + r * n[8];
-    float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
-    float length = (float)(nx * nx + ny * ny + nz * nz);
-    if (z == before) {
-        float facing_before = on.picture.data[pixel], length_before = on.lengths.data[pixel];
-        if (facing == facing_before && length == length_before) return; /* drawn again: skip */
-        if (!(shade_of(facing, length) > shade_of(facing_before, length_before))) return;
-    }
-    on.owner.data[pixel] = number;
-    on.depth.data[pixel] = z;
-    on.picture.data[pixel] = facing;
-    on.lengths.data[pixel] = length;
-}
 
 /* Faces side by side: their edges from the upper ends, so that faces on both sides of one cross each row at the same
  * place, and the rows and columns that they have pixels in. */
@@ -187,8 +157,61 @@ INLINE void cover(const Group *g, int rows, double size, uint64_t *inside) {
     for (int k = 0; k < LANES; k++) inside[k] = (uint64_t)(int64_t)found[0][k] | (uint64_t)(int64_t)found[1][k] << 32;
 }
 
+/* A face that is drawn: its first corner in the picture, the others from there on, and the normals of all. */
+typedef struct {
+    double at[3], second[3], third[3], inverse, normals[9], light[3];
+    int32_t number;
+} Plane;
+
+INLINE Plane plane_of(Model model, int32_t number, double inverse) {
+    Plane plane = {.inverse = inverse, .number = number};
+    Face face = face_at(model, number);
+    for (int i = 0; i < 3; i++) {
+        plane.at[i] = face.a[i];
+        plane.second[i] = face.b[i] - face.a[i];
+        plane.third[i] = face.c[i] - face.a[i];
+        plane.light[i] = model.light[i];
+    }
+    for (int i = 0; i < 9; i++) plane.normals[i] = (double)model.normals[9 * (int64_t)number + i];
+    return plane;
+}
+
+/* The depth at the center of a pixel, and the weights there of the second corner and the third. */
+INLINE float depth_at(const Plane *plane, double row, double column, double *s, double *r) {
+    const double *b = plane->second, *c = plane->third;
+    double across = column + 0.5 - plane->at[0], down = row + 0.5 - plane->at[1];
+    *s = within((across * c[1] - down * c[0]) * plane->inverse);
+    *r = within((b[0] * down - b[1] * across) * plane->inverse);
+    return depth_of(plane->at[2] + *s * b[2] + *r * c[2]);
+}
+
+INLINE float shade_at(const Plane *plane, double s, double r) {
+    const double *n = plane->normals, *light = plane->light;
+    double q = 1.0 - s - r;
+    double nx = q * n[0] + s * n[3] + r * n[6];
+    double ny = q * n[1] + s * n[4] + r * n[7];
+    double nz = q * n[2] + s * n[5] + r * n[8];
+    float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
+    float length = (float)(nx * nx + ny * ny + nz * nz);
+    return AMBIENT + DIFFUSE * (__builtin_fabsf(facing) / __builtin_sqrtf(length > DARK ? length : __builtin_inff()));
+}
+
+INLINE void draw_pixel(const Plane *plane, int64_t row, int64_t column, Canvas on) {
+    double s, r;
+    float *depth = on.depth.data + row * on.picture.columns + column;
+    float *picture = on.picture.data + row * on.picture.columns + column;
+    float z = depth_at(plane, (double)row, (double)column, &s, &r);
+    if (!(z >= *depth)) return;
+    float shade = shade_at(plane, s, r);
+    if (!(z > *depth || shade > *picture)) return;
+    on.owner.data[row * on.picture.columns + column] = plane->number;
+    *depth = z;
+    *picture = shade;
+}
+
 typedef double Eight __attribute__((vector_size(8 * LANES)));
 typedef int64_t EightLongs __attribute__((vector_size(8 * LANES)));
+typedef int64_t FourLongs __attribute__((vector_size(4 * LANES)));
 typedef float EightSingles __attribute__((vector_size(4 * LANES)));
 typedef int32_t EightInts __attribute__((vector_size(4 * LANES)));
 typedef EightSingles UnalignedSingles __attribute__((aligned(4), may_alias));
@@ -200,50 +223,46 @@ INLINE Eight all_within(Eight x) {
     return (Eight)(above & ((below & (EightLongs)x) | (~below & (EightLongs)one)));
 }
 
-INLINE bool any_of(EightInts lanes) {
-    int32_t any = 0;
-    for (int k = 0; k < LANES; k++) any |= lanes[k];
-    return any != 0;
-}
+INLINE EightInts chosen(EightInts mask, EightInts one, EightInts other) { return (mask & one) | (~mask & other); }
 
 INLINE void keep(EightInts mask, EightInts values, void *to) {
     UnalignedInts *at = to;
-    *at = (mask & values) | (~mask & *at);
+    *at = chosen(mask, values, *at);
 }
 
-/* As `draw_pixel`, for the pixels of `LANES` columns. */
-INLINE void draw_span(Face face, double inverse, const double *n, const double *light, int32_t number, int64_t row,
-                      int64_t column, Canvas on) {
-    const double *a = face.a, *b = face.b, *c = face.c;
+/* As `draw_pixel`, for those of `LANES` columns whose bits are set in `inside`. */
+INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t inside, Canvas on) {
+    const double *b = plane->second, *c = plane->third, *n = plane->normals, *light = plane->light;
     const Eight lanes = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5};
-    double down = (double)row + 0.5 - a[1];
-    double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
-    Eight across = ((double)column + lanes) - a[0];
-    Eight s = all_within((across * cy - down * cx) * inverse), r = all_within((bx * down - by * across) * inverse);
-    Eight depth = ((a[2] + s * (b[2] - a[2]) + r * (c[2] - a[2])) + WHOLE) - WHOLE;
-    EightSingles z = __builtin_convertvector(depth, EightSingles);
+    const EightInts bits = {1, 2, 4, 8, 16, 32, 64, 128};
+    Eight across = ((double)column + lanes) - plane->at[0];
+    double down = (double)row + 0.5 - plane->at[1];
+    Eight s = all_within((across * c[1] - down * c[0]) * plane->inverse);
+    Eight r = all_within((b[0] * down - b[1] * across) * plane->inverse);
+    EightSingles z = __builtin_convertvector((plane->at[2] + s * b[2] + r * c[2] + WHOLE) - WHOLE, EightSingles);
     int64_t pixel = row * on.picture.columns + column;
     EightSingles before = *(const UnalignedSingles *)(on.depth.data + pixel);
-    EightInts nearer = z > before, same = z == before;
-    if (any_of(nearer)) {
-        Eight q = 1.0 - s - r;
-        Eight nx = q * n[0] + s * n[3] + r * n[6];
-        Eight ny = q * n[1] + s * n[4] + r * n[7];
-        Eight nz = q * n[2] + s * n[5] + r * n[8];
-        EightSingles facing = __builtin_convertvector(nx * light[0] + ny * light[1] + nz * light[2], EightSingles);
-        EightSingles length = __builtin_convertvector(nx * nx + ny * ny + nz * nz, EightSingles);
-        keep(nearer, (EightInts){0} + number, on.owner.data + pixel);
-        keep(nearer, (EightInts)z, on.depth.data + pixel);
-        keep(nearer, (EightInts)facing, on.picture.data + pixel);
-        keep(nearer, (EightInts)length, on.lengths.data + pixel);
-    }
-    if (any_of(same))
-        for (int k = 0; k < LANES; k++)
-            if (same[k]) draw_pixel(face, inverse, n, light, number, row, column + k, on);
+    EightInts seen = (z >= before) & ((inside & bits) != 0);
+    FourLongs any = (FourLongs)seen;
+    if (!(any[0] | any[1] | any[2] | any[3])) return;
+    Eight q = 1.0 - s - r;
+    Eight nx = q * n[0] + s * n[3] + r * n[6];
+    Eight ny = q * n[1] + s * n[4] + r * n[7];
+    Eight nz = q * n[2] + s * n[5] + r * n[8];
+    EightSingles facing = __builtin_convertvector(nx * light[0] + ny * light[1] + nz * light[2], EightSingles);
+    EightSingles length = __builtin_convertvector(nx * nx + ny * ny + nz * nz, EightSingles);
+    EightSingles endless = (EightSingles){0.0f} + __builtin_inff();
+    length = (EightSingles)chosen(length > DARK, (EightInts)length, (EightInts)endless);
+    for (int k = 0; k < LANES; k++) length[k] = __builtin_sqrtf(length[k]);
+    facing = (EightSingles)((EightInts)facing & INT32_MAX);
+    EightSingles shades = AMBIENT + DIFFUSE * (facing / length);
+    seen &= (z > before) | (shades > *(const UnalignedSingles *)(on.picture.data + pixel));
+    keep(seen, (EightInts){0} + plane->number, on.owner.data + pixel);
+    keep(seen, (EightInts)z, on.depth.data + pixel);
+    keep(seen, (EightInts)shades, on.picture.data + pixel);
 }
 
-INLINE void draw_rows(const Group *g, int at, Face face, const double *n, const double *light, int32_t number,
-                      Canvas on) {
+INLINE void draw_rows(const Group *g, int at, const Plane *plane, Canvas on) {
     int64_t end = (int64_t)g->end[at];
     for (int64_t row = (int64_t)g->first[at]; row < end; row += LANES) {
         double from[LANES], to[LANES];
@@ -252,13 +271,11 @@ INLINE void draw_rows(const Group *g, int at, Face face, const double *n, const 
             from[k] = span.from;
             to[k] = span.to;
         }
-        for (int k = 0; k < LANES && row + k < end; k++) {
-            int64_t column = (int64_t)from[k];
-            for (; column + LANES <= (int64_t)to[k]; column += LANES)
-                draw_span(face, g->inverse[at], n, light, number, row + k, column, on);
-            for (; column < (int64_t)to[k]; column++)
-                draw_pixel(face, g->inverse[at], n, light, number, row + k, column, on);
-        }
+        for (int k = 0; k < LANES && row + k < end; k++)
+            for (int64_t column = (int64_t)from[k]; column < (int64_t)to[k]; column += LANES) {
+                int64_t at = least(column, on.picture.columns - LANES), last = least((int64_t)to[k] - at, LANES);
+                draw_span(plane, row + k, at, (1 << last) - (1 << (column - at)), on);
+            }
     }
 }
 
@@ -276,16 +293,13 @@ INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on
     cover(&g, (int)most, (double)on.picture.columns, inside);
     for (int k = 0; k < count; k++) {
         if (!(g.first[k] < g.end[k]) || !(g.left[k] < g.right[k])) continue;
-        Face face = face_at(model, numbers[k]);
-        double n[9];
-        for (int i = 0; i < 9; i++) n[i] = (double)model.normals[9 * (int64_t)numbers[k] + i];
+        Plane plane = plane_of(model, numbers[k], g.inverse[k]);
         if (!small[k])
-            draw_rows(&g, k, face, n, model.light, numbers[k], on);
+            draw_rows(&g, k, &plane, on);
         else
             for (uint64_t left = inside[k]; left; left &= left - 1) {
                 int at = __builtin_ctzll(left);
-                draw_pixel(face, g.inverse[k], n, model.light, numbers[k], (int64_t)g.first[k] + at / LANES,
-                           (int64_t)g.left[k] + at % LANES, on);
+                draw_pixel(&plane, (int64_t)g.first[k] + at / LANES, (int64_t)g.left[k] + at % LANES, on);
             }
     }
 }
@@ -294,32 +308,36 @@ INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on
 INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
     for (int64_t row = 0; row < farthest.rows; row++)
         for (int64_t column = 0; column < farthest.columns; column++) {
-            int64_t rows = least(TILE, depth.rows - TILE * row), columns = least(TILE, depth.columns - TILE * column);
-            const float *depths = depth.data + TILE * (row * depth.columns + column);
+            /* The last ones are whole, too, and so overlap. */
+            int64_t top = least(TILE * row, depth.rows - TILE), left = least(TILE * column, depth.columns - TILE);
+            const float *depths = depth.data + top * depth.columns + left;
             float found[TILE], *whole = farthest.data + row * farthest.columns + column;
-            for (int k = 0; k < TILE; k++) found[k] = __builtin_inff();
-            for (int64_t y = 0; y < rows; y++, depths += depth.columns)
-                for (int k = 0; k < TILE && k < columns; k++) found[k] = depths[k] < found[k] ? depths[k] : found[k];
+            for (int k = 0; k < TILE; k++) found[k] = depths[k];
+            for (int64_t y = 1; y < TILE; y++)
+                for (int k = 0; k < TILE; k++) {
+                    float other = depths[y * depth.columns + k];
+                    found[k] = other < found[k] ? other : found[k];
+                }
             *whole = found[0];
             for (int k = 1; k < TILE; k++) *whole = found[k] < *whole ? found[k] : *whole;
         }
 }
 
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of
- * what is at one depth the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` and
- * `lengths` for pictures, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1.
+ * what is at one depth the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` for a
+ * picture, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1.
  *
  * Of a closed surface one half faces the camera, and hides the other: that half comes first, and most of the other one
  * need not be drawn. */
 KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-                           Doubles2 placed, Ints away, Singles2 depth, Singles2 lengths, Singles2 farthest,
-                           Singles2 picture, Ints2 owner) {
+                           Doubles2 placed, Ints away, Singles2 depth, Singles2 farthest, Singles2 picture,
+                           Ints2 owner) {
     int64_t pixels = picture.rows * picture.columns;
     if (positions.columns != 3 || placed.columns != 3 || placed.rows < positions.rows || faces.columns != 3 ||
         away.size < faces.rows || normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA ||
         faces.rows > INT32_MAX ||
         owner.rows * owner.columns < pixels || depth.rows != picture.rows || depth.columns != picture.columns ||
-        lengths.rows * lengths.columns < pixels || farthest.rows * TILE < picture.rows ||
+        picture.rows < TILE || picture.columns < TILE || farthest.rows * TILE < picture.rows ||
         farthest.columns * TILE < picture.columns)
         return MISUSED;
     for (int64_t k = 0; k < 3 * faces.rows; k++)
@@ -332,6 +350,7 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
     }
     for (int64_t i = 0; i < pixels; i++) {
         depth.data[i] = -__FLT_MAX__;
+        picture.data[i] = BACKGROUND;
         owner.data[i] = -1;
     }
     Model model = {placed.data, faces.data, normals.data, m + 12};
@@ -341,7 +360,7 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
         ahead += face.area * (face.a[2] + face.b[2] + face.c[2]);
     }
     ConstSingles2 behind = {farthest.data, farthest.rows, farthest.columns};
-    Canvas on = {depth, lengths, picture, owner};
+    Canvas on = {depth, picture, owner};
     int32_t numbers[LANES] = {0};
     int64_t count = 0, others = 0;
     for (int pass = 0; pass < 2; pass++) {
@@ -362,15 +381,6 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
             draw_group(model, numbers, (int)count, on);
             count = 0;
         }
-    }
-    int64_t columns = picture.columns;
-    for (int64_t row = 0; row < picture.rows; row++) { /* as `shade_of`, in loops without branches */
-        float *squares = lengths.data + row * columns, *shades = picture.data + row * columns;
-        for (int64_t i = 0; i < columns; i++) {
-            float square = squares[i] > DARK ? squares[i] : __builtin_inff();
-            shades[i] = AMBIENT + DIFFUSE * (__builtin_fabsf(shades[i]) / __builtin_sqrtf(square));
-        }
-        for (int64_t i = 0; i < columns; i++) shades[i] = owner.data[row * columns + i] < 0 ? BACKGROUND : shades[i];
     }
     return 0;
 }

@@ -59,10 +59,6 @@ class Spectrum:
         _kernels.combine_powers(self.positions, self.terms.reshape(-1), filter_polynomial(amount), smoothed)
         return smoothed
 
-    def __post_init__(self) -> None:
-        if self.terms.shape != (DEGREE - 1, *self.positions.shape):
-            raise ValueError(f"terms of shape {self.terms.shape} for positions of shape {self.positions.shape}")
-
 
 def smoothing_spectrum(graph: Graph, positions: Matrix) -> Spectrum:
     """Spectrum of `positions`, shape (n, 3)."""

@@ -19,7 +19,7 @@ from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
-from bsm.codec.geometry.graph import Graph, component_sizes, graph_of_faces
+from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, weld
 from bsm.codec.signal.transform import MeasuredSpectrum
@@ -170,14 +170,15 @@ class Prepared:
         return self.units.into(self.mesh.positions)
 
     @cached_property
-    def component_sizes(self) -> Indices:
-        return component_sizes(self.graph)
+    def components(self) -> Indices:
+        """The connected component of each vertex, shape (n,)."""
+        return components(self.graph)
 
     @property
     def has_low_frequencies(self) -> bool:
         """Whether most vertices are in components that are large enough to have any."""
-        large = self.component_sizes >= SMALL_COMPONENT
-        return self.graph.size >= FEW_VERTICES and self.component_sizes[large].sum() >= 0.9 * self.graph.size
+        sizes = np.bincount(self.components)
+        return self.graph.size >= FEW_VERTICES and sizes[sizes >= SMALL_COMPONENT].sum() >= 0.9 * self.graph.size
 
     @cached_property
     def partition(self) -> Partition:

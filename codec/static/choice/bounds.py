@@ -10,7 +10,6 @@ from bsm.bitstream.errors import MeshError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Matrix
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.graph import component_sizes
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
 from bsm.codec.look.measure import LookMetric
@@ -200,9 +199,10 @@ def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     whole = contract.by_part * diagonal / unit
     if not whole < math.inf:
         return found
-    if len(component_sizes(prepared.graph)) == 1:
+    part = prepared.components
+    count = int(part.max()) + 1
+    if count == 1:
         return np.asarray(np.minimum(found, whole))
-    count, part = _parts(prepared)
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     np.minimum.at(low, part, prepared.positions)
     np.maximum.at(high, part, prepared.positions)
@@ -233,19 +233,3 @@ def _keep_apart(prepared: Prepared, part: Indices, low: Matrix, high: Matrix, fo
         if gap >= LEAST_GAP:
             for some in (mine, theirs):
                 found[some] = np.minimum(found[some], gap / 2.0)
-
-
-def _parts(prepared: Prepared) -> tuple[int, Indices]:
-    """How many connected parts there are, and the one of each vertex, shape (n,)."""
-    faces = prepared.mesh.faces
-    least = np.arange(prepared.graph.size)
-    while True:
-        # Every corner of a face hooks what it hangs on to the least that one of them hangs on.
-        hangs = least[faces]
-        np.minimum.at(least, hangs.ravel(), np.repeat(hangs.min(axis=1), 3))
-        while (least[least] != least).any():
-            least = least[least]
-        if (least[faces] == least[faces[:, :1]]).all():
-            break
-    names, part = np.unique(least, return_inverse=True)
-    return len(names), part.astype(np.int32)
