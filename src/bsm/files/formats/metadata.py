@@ -363,25 +363,20 @@ def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
     return found
 
 
-def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, str | int | float | bytes], dict[str, str]]:
+def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, Value], dict[str, str]]:
     """Drop the largest entries until metadata fits into `limit` bytes; return the rest, and why each is left out."""
-    sizes = {name: _size(name, value) for name, value in metadata.items()}
-    total = sum(sizes.values())
     refused: dict[str, str] = {}
-    images_first = sorted(sizes, key=lambda name: not isinstance(metadata[name], bytes))
+    images_first = sorted(metadata, key=lambda name: not isinstance(metadata[name], bytes))
     if beyond := images_first[_MOST_ENTRIES:]:
         refused[f"{len(beyond)} entries of metadata, {beyond[0]} and others"] = f"there can be {_MOST_ENTRIES}"
-    for name in beyond:
-        total -= sizes.pop(name)
-    for name in sorted(sizes, key=lambda name: -sizes[name]):
-        if total <= limit:
-            break
-        total -= sizes[name]
-        refused[name] = f"with its {sizes[name]} bytes the metadata would take more than {limit}"
-    return {name: metadata[name] for name in sizes if name not in refused}, refused
+    sizes = {name: _size(name, metadata[name]) for name in images_first[:_MOST_ENTRIES]}
+    rising = sorted(sizes, key=sizes.__getitem__)
+    for name in rising[int((np.cumsum([sizes[name] for name in rising]) <= limit).sum()) :]:
+        refused[name] = f"with its {sizes.pop(name)} bytes the metadata would take more than {limit}"
+    return {name: value for name, value in metadata.items() if name in sizes}, refused
 
 
-def _size(name: str, value: str | int | float | bytes) -> int:
+def _size(name: str, value: Value) -> int:
     content = value.encode(errors="replace") if isinstance(value, str) else value if isinstance(value, bytes) else b""
     return len(name.encode(errors="replace")) + len(content) + _ENTRY_BYTES
 

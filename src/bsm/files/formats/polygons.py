@@ -143,8 +143,8 @@ def compact(values: Array) -> Array:
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
     """Colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
     if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
-        bytes_ = np.rint(values) if written_whole or values.max() > 1 else np.rint(values * 255)
         exact = values if written_whole or values.max() > 1 else values * 255
+        bytes_ = np.rint(exact)
         if bytes_.min() >= 0 and bytes_.max() <= 255 and np.abs(bytes_ - exact).max() <= 255e-6:
             return Column("color", bytes_.astype(np.uint8), domain, "color")
         in_range = values.min() >= 0 and values.max() <= 1
