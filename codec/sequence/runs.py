@@ -160,14 +160,10 @@ def joined_runs(
         while (frame := next(frames, None)) is not None:
             first = frames.number - 1
             mesh = replace(run.mesh, positions=frame[:, :3])
-            beginning = _Beginning(frame)
-            while beginning.merges and len(beginning) < together(beginning.vertices):
-                if (frame := next(frames, None)) is None:
-                    break
-                beginning.add(frame)
-            joined_mesh = joined(mesh, beginning.index, keep=keep_order, keep_loose=False)
-            later = frames.while_together(joined_mesh, may_part=keep_order or allowed)
-            yield JoinedRun(mesh, joined_mesh, chain(beginning.taken(joined_mesh.first), later), first, run.moving)
+            index, begun = _begun(frame, frames, together)
+            one = joined(mesh, index, keep=keep_order, keep_loose=False)
+            later = frames.while_together(one, may_part=keep_order or allowed)
+            yield JoinedRun(mesh, one, chain(_taken(begun, one.first), later), first, run.moving)
 
 
 class _Frames:
@@ -227,36 +223,23 @@ class _Frames:
         return positions
 
 
-class _Beginning:
-    """The first frames of a run, and what each vertex is if those at one position in all of them are one."""
+def _begun(
+    first: Matrix, others: Iterator[Matrix], together: Callable[[int], int]
+) -> tuple[Indices, deque[tuple[Matrix, Indices]]]:
+    """Return what each vertex is if those at one position in all of the first frames are one, and these frames."""
+    index, begun = group_rows(first), deque[tuple[Matrix, Indices]]()
+    for frame in chain([first], others):
+        if (frame != frame[first_of(index)][index]).any():
+            index = group_rows(np.column_stack([index, frame]))
+        vertices = first_of(index)
+        begun.append((frame[vertices], index))
+        if len(vertices) == len(index) or len(begun) >= together(len(vertices)):
+            break
+    return index, begun
 
-    def __init__(self, frame: Matrix) -> None:
-        self.index = group_rows(frame)
-        self._frames: deque[tuple[Matrix, Indices]] = deque()  # of each vertex that was another one then
-        self._note(frame)
 
-    def __len__(self) -> int:
-        return len(self._frames)
-
-    @property
-    def vertices(self) -> int:
-        return len(self._frames[-1][0])
-
-    @property
-    def merges(self) -> bool:
-        return self.vertices < len(self.index)
-
-    def add(self, frame: Matrix) -> None:
-        """Take note of another frame, shape (n, 3)."""
-        if (frame != frame[first_of(self.index)][self.index]).any():
-            self.index = group_rows(np.column_stack([self.index, frame]))
-        self._note(frame)
-
-    def taken(self, vertices: Order) -> Iterator[Matrix]:
-        """Some vertices, shape (k,), in all frames, each of shape (k, 3); the frames are given up."""
-        while self._frames:
-            frame, index = self._frames.popleft()
-            yield frame[index[vertices]]
-
-    def _note(self, frame: Matrix) -> None:
-        self._frames.append((frame[first_of(self.index)], self.index))
+def _taken(begun: deque[tuple[Matrix, Indices]], vertices: Order) -> Iterator[Matrix]:
+    """Some vertices, shape (k,), in the first frames, each of shape (k, 3 + d); the frames are given up."""
+    while begun:
+        frame, index = begun.popleft()
+        yield frame[index[vertices]]
