@@ -1,12 +1,11 @@
 """Choices that go by a name, and options with a range."""
 
+import difflib
 import types
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from numbers import Integral, Real
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
-
-import numpy as np
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 
@@ -16,10 +15,17 @@ Entry = TypeVar("Entry")
 
 def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
     """The choice called `name`."""
-    try:
-        return choices[name]
-    except (KeyError, TypeError):
-        raise OptionError(f"there is no {kind} {name!r}; choose one of {', '.join(choices)}") from None
+    if not isinstance(name, str) or name not in choices:
+        raise OptionError(f"unknown {kind} {name!r}{suggestion(str(name), choices)} ({', '.join(choices)})")
+    return choices[name]
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """Return a question that suggests a similar name, or ""."""
+    names = list(known)
+    begun = [name for name in names if name.startswith(word)]
+    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
+    return f"; did you mean {found[0]}?" if found else ""
 
 
 def check_options(
@@ -50,6 +56,8 @@ def checked(name: str, value: Any, hint: Any) -> Any:
 
 def _as(kind: Any, value: Any) -> Any:
     """Return a value as one type; raise `TypeError` if it is of another."""
+    import numpy as np  # not for the errors of usage of the command line
+
     origin, parts = get_origin(kind), get_args(kind)
     usual = {float: Real, int: Integral, bool: (bool, np.bool_), tuple: (tuple, list)}
     expected: Any = usual.get(origin or kind, origin or kind)

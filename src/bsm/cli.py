@@ -11,10 +11,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NoReturn
 
 from bsm import __version__
+from bsm.codec.choices import suggestion
 from bsm.console import Console
 from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, report_error
 from bsm.files.output import Terminated, refuse_collisions
-from bsm.options import suggestion
 
 COMMANDS = {
     "encode": "compress meshes",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import types
 from collections.abc import Callable, Iterable, Mapping
@@ -10,7 +9,7 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from bsm.bitstream.errors import ArgumentError, OptionError
-from bsm.codec.choices import checked
+from bsm.codec.choices import checked, named, suggestion
 from bsm.lengths import parse_bytes, parse_length
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, changed
     from bsm.codec.static.targets import Target
 
-    base: EncodeOptions = EncodeOptions() if preset is None else _named("preset", PRESETS, preset)
+    base: EncodeOptions = EncodeOptions() if preset is None else named("preset", PRESETS, preset)
     asked = [name for name, value in keywords.items() if value is not None]
     bounds = [name for name in asked if name in (*BOUNDS, *TARGETS, "contract", "target")]
     grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
@@ -85,8 +84,8 @@ def sequence_options(
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, Target)
     together = checked("low_delay", low_delay, int)
-    base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), low_delay=together)
-    quick = bool(quick) or _named("effort", {"quick": True, "normal": False, "best": False}, effort)
+    base = SequenceOptions(step=named("preset", SEQUENCE_STEPS, name), low_delay=together)
+    quick = bool(quick) or named("effort", {"quick": True, "normal": False, "best": False}, effort)
     if quick and (bounds or given.get("target") is not None):
         raise OptionError("quick does not search for a step; it excludes bounds and targets")
     if preset is not None and (given.get("target") is not None or given.get("step") is not None):
@@ -140,12 +139,6 @@ def _fields(
     return given
 
 
-def _named(what: str, choices: Mapping[str, Any], name: str) -> Any:
-    if not isinstance(name, str) or name not in choices:
-        raise OptionError(f"unknown {what} {name!r}{suggestion(str(name), choices)} ({', '.join(choices)})")
-    return choices[name]
-
-
 def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.static.options import EncodeOptions, Paper
@@ -158,11 +151,3 @@ def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
     known = sorted(known)
     advice = suggestion(name, known) or f"; there are {', '.join(known)}"
     raise ArgumentError(f"unknown option {name} for {what}{advice}")
-
-
-def suggestion(word: str, known: Iterable[str]) -> str:
-    """Return a question that suggests a similar name, or ""."""
-    names = list(known)
-    begun = [name for name in names if name.startswith(word)]
-    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
-    return f"; did you mean {found[0]}?" if found else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
@@ -214,26 +215,25 @@ def _result(
     return {**dict(zip(("vertices", "faces", "frames"), shape, strict=True)), "seconds": seconds, **chosen}
 
 
-def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "") -> list[str]:
-    """Return lines about the noise and the chosen method; none if the options chose the method."""
+def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "") -> Iterator[str]:
+    """Yield lines about the noise and the chosen method; none if the options chose the method."""
     if choice is None:
-        return []
-    lines = []
+        return
     if choice.outliers:
-        lines.append(f"outliers   {counted(vertices=choice.outliers)} moved back")
+        yield f"outliers   {counted(vertices=choice.outliers)} moved back"
     if choice.ripples:
         waves = ", ".join(f"{length * edge:.2g}" for length in choice.ripples)
-        lines.append(f"removed    waves of {waves} {unit}".rstrip() + " across the whole mesh")
+        yield f"removed    waves of {waves} {unit}".rstrip() + " across the whole mesh"
     if not choice.steps:
         if not (choice.outliers or choice.ripples):
             line = "steadied   " if choice.kind == "unsteady" else "unchanged  "
-            lines.append(f"{line}{choice.reason}")
+            yield f"{line}{choice.reason}"
             if choice.kind != "unsteady":
                 ask = "--hand-over none --iterations 5 --force"
-                lines.append(f"           if you see noise, choose a filter: bsm denoise IN {ask}")
-        return lines
+                yield f"           if you see noise, choose a filter: bsm denoise IN {ask}"
+        return
     noise = choice.noise
-    lines.append(f"found      {choice.reason}")
+    yield f"found      {choice.reason}"
     line = f"noise      {noise.normal:.2f} edges ({length(noise.normal * edge, unit)})"
     if goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
@@ -244,7 +244,7 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         then = "below 2" if most < 2 else f"{least} to {most}" if least < most else f"{least}"
         line += f"; normals about {choice.untreated:.0f} -> {then} degrees off"
         line += ", more for finer detail" if least < most else ""
-    lines.append(line)
+    yield line
     for step, times in Counter(choice.steps).items():
         share = times / len(choice.steps) * (1.0 - choice.learnt)
         if share > 0.0:
@@ -253,7 +253,6 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
             along = "no hand-over" if recipe.hand_over == "none" else f"flattened along rays by {recipe.keep:g}"
             begun = coarse if recipe.needs_coarse else along
             way = f"{step.iterations} iterations of the {_GUIDES[recipe.guide]} normal filter"
-            lines.append(f"chosen     {100.0 * share:.0f} % {begun}; {way}, sigma_r {recipe.sigma_r:g}")
+            yield f"chosen     {100.0 * share:.0f} % {begun}; {way}, sigma_r {recipe.sigma_r:g}"
     if choice.learnt > 0.0:
-        lines.append(f"chosen     {100.0 * choice.learnt:.0f} % learnt normals")
-    return lines
+        yield f"chosen     {100.0 * choice.learnt:.0f} % learnt normals"

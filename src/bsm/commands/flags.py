@@ -8,8 +8,8 @@ from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.choices import suggestion
 from bsm.files.output import refuse_terminal
-from bsm.options import suggestion
 
 
 @dataclass(frozen=True)
