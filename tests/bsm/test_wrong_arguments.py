@@ -165,5 +165,5 @@ def test_frames_are_counted_from_0(start):
 
 
 def test_an_unknown_goal_of_denoising_is_refused():
-    with pytest.raises(bsm.OptionError, match="unknown goal 'typo'.*shading"):
+    with pytest.raises(bsm.OptionError, match=r"unknown goal 'typo'.*shading"):
         bsm.denoise(torus(5, 5), goal="typo")
