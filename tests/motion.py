@@ -1,13 +1,16 @@
 """Small sequences with known properties."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from bsm import TriangleMesh
 from bsm.files.motion.caches import write_cache
 from bsm.files.motion.frames import Shared
 from bsm.files.sequence import sequence_writer
 from tests.shapes import torus
+from tools.vectors import meshes as vectors
 
 
 def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[np.ndarray, np.ndarray]:
@@ -27,6 +30,13 @@ def save_frames(path: Path, kind: str, positions: np.ndarray, faces: np.ndarray,
     with sequence_writer(str(path), kind, faces, len(positions), overwrite=True, shared=shared) as write:
         for frame in positions:
             write(frame)
+
+
+def capture(*pieces: tuple[int, int]) -> list[TriangleMesh]:
+    """Tori of several sizes that move: so many frames of each."""
+    sizes = [size for size, count in pieces for _ in range(count)]
+    meshes = [vectors.torus(size, 6, phase=0.15 * t) for t, size in enumerate(sizes)]
+    return [replace(mesh, positions=mesh.positions * (1 + 0.01 * t)) for t, mesh in enumerate(meshes)]
 
 
 def turning(frames: int) -> tuple[np.ndarray, np.ndarray]:

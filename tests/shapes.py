@@ -1,9 +1,11 @@
 """Small meshes with known properties."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from bsm import TriangleMesh
+from bsm import Attribute, TriangleMesh
 
 Faces = NDArray[np.int32]
 
@@ -46,6 +48,13 @@ def torus(rows: int = 40, columns: int = 24, bumps: float = 0.05) -> TriangleMes
     x, y, z = (1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v)
     faces = grid_faces(rows, columns, close_rows=True, close_columns=True)
     return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), faces)
+
+
+def at_corners(mesh: TriangleMesh, attribute: Attribute) -> NDArray[Any]:
+    """The value that an attribute has at each corner of each face, shape (m, 3, c)."""
+    if attribute.domain == "face":
+        return np.repeat(attribute.values[:, None], 3, axis=1)
+    return attribute.values[mesh.faces if attribute.indices is None else attribute.indices]
 
 
 def soup(mesh: TriangleMesh) -> TriangleMesh:

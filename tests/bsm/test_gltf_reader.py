@@ -1,5 +1,6 @@
 """Scenes of glTF as meshes: what accessors, nodes, skins and compressed views hold, with known answers."""
 
+import re
 import sys
 
 import numpy as np
@@ -9,6 +10,7 @@ import bsm
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.gltf.document import read_document
+from tests.bsm.files.test_doors import SHOWN, collada
 from tests.bsm.files.test_file_attributes import attribute
 from tests.bsm.program import python
 from tests.gltf import Built, scene
@@ -93,21 +95,7 @@ def test_normals_of_placed_nodes_agree_with_their_faces(place):
     assert volumes[0] * volumes[1] > 0, "a mirror turns the faces around, too"
 
 
-COLLADA = """<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 1</float_array><technique_common>
-<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
-<param name="Z" type="float"/></accessor></technique_common></source>
-<source id="n"><float_array id="na" count="9">0 -0.70710678 0.70710678 0 -0.70710678 0.70710678 0 -0.70710678 0.70710678
-</float_array><technique_common><accessor source="#na" count="3" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#n" offset="1"/>
-<p>0 0 1 1 2 2</p></triangles></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node id="o"><scale>1 -3 1</scale><instance_geometry url="#g"/></node>
-</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
-"""
+NORMAL = '<input semantic="NORMAL" source="#n" offset="0"/>'
 
 
 @pytest.mark.parametrize("kind", ["dae", "scene"])
@@ -119,7 +107,11 @@ def test_normals_of_mirrored_parts_of_trimesh_agree_with_their_faces(kind, tmp_p
     made.add_geometry(ball, transform=np.diag([-1.0, 2.0, 1.0, 1.0]))
     if kind == "dae":
         pytest.importorskip("collada")
-        (tmp_path / "a.dae").write_text(COLLADA)
+        text = collada("", f'<node id="x"><scale>1 -3 1</scale>{SHOWN}</node>').decode().replace("1 1 0<", "0 1 1<")
+        accessor = re.search("<technique_common>.*?</source>", text, re.DOTALL)[0].replace("#a", "#na")
+        normals = f'<source id="n"><float_array id="na" count="9">{"0 -0.7071 0.7071 " * 3}</float_array>{accessor}'
+        text = text.replace("<vertices", f"{normals}<vertices").replace('offset="0"/>', 'offset="0"/>' + NORMAL)
+        (tmp_path / "a.dae").write_text(text)
         mesh = read_mesh(tmp_path / "a.dae").mesh
     else:
         from bsm.files.formats.with_trimesh import joined

@@ -10,10 +10,10 @@ import pytest
 import bsm
 from bsm import Attribute, TriangleMesh
 from bsm.libraries import as_mesh
-from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed, png
+from tests.bsm.files.test_file_attributes import attribute, dressed, png
 from tests.bsm.program import python
 from tests.plugins import declare_entry_points
-from tests.shapes import torus
+from tests.shapes import at_corners, torus
 
 EXACT = {"preset": "grid14", "keep_order": True, "attributes": {"*": "exact"}}
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])

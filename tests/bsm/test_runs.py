@@ -12,17 +12,11 @@ from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
 from tests.bsm.program import run
+from tests.motion import capture
 from tools.vectors.meshes import torus
 
 RUNS = ("--runs", "--set", "step=0.002")
 PIECES = ((10, 4), (7, 3), (10, 2))
-
-
-def capture(pieces=PIECES):
-    """Tori of several sizes that move."""
-    sizes = [size for size, count in pieces for _ in range(count)]
-    meshes = [torus(size, 6, phase=0.15 * t) for t, size in enumerate(sizes)]
-    return [replace(mesh, positions=mesh.positions * (1 + 0.01 * t)) for t, mesh in enumerate(meshes)]
 
 
 def written(folder, meshes, kind="ply"):
@@ -35,13 +29,13 @@ def written(folder, meshes, kind="ply"):
 
 @pytest.fixture
 def stream(tmp_path):
-    paths = written(tmp_path / "capture", capture())
+    paths = written(tmp_path / "capture", capture(*PIECES))
     assert run("encode", *paths, "-o", tmp_path / "a.bsm", *RUNS, "-q") == 0
     return tmp_path / "a.bsm"
 
 
 def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_path, capsys):
-    paths = written(tmp_path / "capture", capture())
+    paths = written(tmp_path / "capture", capture(*PIECES))
     assert run("encode", *paths, "-o", tmp_path / "a.bsm") != 0
     printed = capsys.readouterr().err
     assert "f004.ply (frame 4) has other faces than" in printed and "42 vertices where there were 60" in printed
@@ -52,7 +46,7 @@ def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_pat
 def test_every_frame_comes_back_with_its_faces(stream, tmp_path, kind, capsys):
     assert run("decode", stream, "-o", tmp_path / "back" / f"%03d.{kind}") == 0
     assert "connectivity changes at frames 4, 7" in capsys.readouterr().err
-    for number, mesh in enumerate(capture()):
+    for number, mesh in enumerate(capture(*PIECES)):
         back = read_mesh(str(tmp_path / "back" / f"{number:03d}.{kind}")).mesh
         assert (len(back.positions), len(back.faces)) == (len(mesh.positions), len(mesh.faces))
     assert run("compare", tmp_path / "capture", tmp_path / "back", "--json") == 0
@@ -78,7 +72,7 @@ def test_caches_are_a_series(stream, tmp_path, kind):
     starts = [0, 4, 7]
     names = [f"a_{start:05d}.{suffix}" for start in starts for suffix in ("obj", kind)]
     assert sorted(path.name for path in tmp_path.glob("a_*")) == sorted(names)
-    meshes = capture()
+    meshes = capture(*PIECES)
     for start, (_, count) in zip(starts, PIECES, strict=True):
         source = open_sequence(str(tmp_path / f"a_{start:05d}.{kind}"))
         frames = np.array(list(source.frames))
@@ -96,7 +90,7 @@ def test_meshes_of_a_glb_take_turns(stream, tmp_path):
     assert [len(mesh["primitives"][0]["targets"]) for mesh in tree["meshes"]] == [count - 1 for _, count in PIECES]
     source = open_sequence(str(tmp_path / "a.glb"), wanted=Wanted(animation="frames", rate=24.0))
     ends = np.cumsum([0, *(len(torus(size, 6).positions) for size, _ in PIECES)])
-    frames, meshes = list(source.frames), capture()
+    frames, meshes = list(source.frames), capture(*PIECES)
     assert source.count == len(frames) == len(meshes)
     turns = [number for number, (_, count) in enumerate(PIECES) for _ in range(count)]
     for frame, mesh, turn in zip(frames, meshes, turns, strict=True):
@@ -112,7 +106,7 @@ NOTHING = {"obj": "# nothing\n", "off": "OFF\n0 0 0\n"}
 @pytest.mark.parametrize("kind", ["obj", "ply", "off", "stl"])
 @pytest.mark.parametrize("places", [(2,), (0, 5, 8)])
 def test_frames_without_faces_come_back(tmp_path, capsys, kind, places):
-    paths = written(tmp_path / "capture", capture(), kind)
+    paths = written(tmp_path / "capture", capture(*PIECES), kind)
     for place in places:
         if kind in NOTHING:
             paths[place].write_text(NOTHING[kind])
@@ -126,7 +120,7 @@ def test_frames_without_faces_come_back(tmp_path, capsys, kind, places):
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "back" / f"%03d.{kind}") == 0
     assert run("encode", tmp_path / "capture", "-f", "-o", tmp_path / "b.bsm") == 3
     assert "--runs, frames may be without" in capsys.readouterr().err
-    for number, mesh in enumerate(capture()):
+    for number, mesh in enumerate(capture(*PIECES)):
         back = tmp_path / "back" / f"{number:03d}.{kind}"
         if number in places:
             with pytest.raises(bsm.MeshError, match="no faces"):
@@ -138,7 +132,7 @@ def test_frames_without_faces_come_back(tmp_path, capsys, kind, places):
 def test_frames_without_faces_go_to_usd_and_come_back(tmp_path):
     pytest.importorskip("pxr.Usd")
     nothing = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
-    meshes = [*capture(((10, 2),)), nothing, nothing, *capture(((7, 1),))]
+    meshes = [*capture((10, 2)), nothing, nothing, *capture((7, 1))]
     (tmp_path / "a.bsm").write_bytes(bsm.encode_frames(meshes))
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.usda", "-q") == 0
     assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", "--runs", "-q") == 0
@@ -166,7 +160,7 @@ def test_colors_of_runs_go_to_usd_and_come_back(tmp_path):
             mesh,
             attributes=(Attribute("color", np.full((len(mesh.positions), 3), 20 * k, np.uint8), "vertex", "color"),),
         )
-        for k, mesh in enumerate(capture(((10, 1), (7, 1), (5, 1))))
+        for k, mesh in enumerate(capture((10, 1), (7, 1), (5, 1)))
     ]
     data = bsm.encode_frames(meshes, step=0.002)
     (tmp_path / "a.bsm").write_bytes(data)
@@ -203,7 +197,7 @@ def test_permutations_are_of_one_mesh(stream, tmp_path, capsys):
 
 
 def test_functions():
-    meshes = capture()
+    meshes = capture(*PIECES)
     data = bsm.encode_frames(iter(meshes), step=0.002)
     back = list(bsm.decode_frames(data))
     assert [len(frame.faces) for frame in back] == [len(mesh.faces) for mesh in meshes]

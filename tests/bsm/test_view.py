@@ -31,6 +31,7 @@ from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.viewer.contents import DRACO_LEVEL, Content, Layer, compared, uploaded
 from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Tiled, written_to
 from tests.bitstream.streams import frame_ends
+from tests.motion import bending
 from tests.shapes import curved, torus
 from tests.streams import all_events, moving_events_of
 from tools.pictures import pages
@@ -43,14 +44,6 @@ ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "spec" / "vectors" / "1.0"
 WEB = ROOT / "web"
 SLOT = re.compile(r'<script type="application/json" id="bsm-streams">(.*?)</script>', re.DOTALL)
-
-
-def moving(frames: int) -> tuple[np.ndarray, np.ndarray]:
-    """A torus that sways."""
-    mesh = torus()
-    turns = np.linspace(0.0, 1.0, frames)[:, None, None]
-    sway = np.sin(3.0 * mesh.positions[None, :, 2:] + 6.0 * turns)
-    return (mesh.positions[None] + 0.1 * sway * [1.0, 0.0, 0.0]).astype(np.float32), mesh.faces
 
 
 def sent_to(growing: Growing) -> bytes:
@@ -150,7 +143,7 @@ def test_server_has_the_page_and_its_streams():
 
 
 def test_late_joiners_enter_at_the_newest_group():
-    whole = bsm.encode_sequence(*moving(18), gop=6, low_delay=6)
+    whole = bsm.encode_sequence(*bending(18), gop=6, low_delay=6)
     *_, second, third, _ = frame_ends(whole)
     growing = Growing("sway.bsm")
     growing.take(whole[: second + 3])
@@ -167,7 +160,7 @@ def test_late_joiners_enter_at_the_newest_group():
 
 
 def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
-    positions, faces = moving(4)
+    positions, faces = bending(4)
     kept = faces[(positions[0][faces, 2] > 0.0).all(axis=1)]
     half, few = np.unique(kept, return_inverse=True)
     small, few = positions[:, half], few.reshape(-1, 3).astype(np.int32)
@@ -206,7 +199,7 @@ def test_pages_that_have_gone_are_let_go_of(monkeypatch):
 
 
 def test_what_is_damaged_is_sent_from_its_beginning():
-    whole = bytearray(bsm.encode_sequence(*moving(18), gop=6, step=0.002))
+    whole = bytearray(bsm.encode_sequence(*bending(18), gop=6, step=0.002))
     place = frame_ends(bytes(whole))[-3]
     whole[place : place + 5] = b"\xff" * 5  # a tag that none can be
     growing = Growing("sway.bsm")
@@ -236,7 +229,7 @@ def test_following_needs_no_whole(tmp_path, capsys):
 @needs_packages
 @pytest.mark.parametrize("way", ["file", "pipe"])
 def test_what_is_still_being_written_is_watched(way, tmp_path):
-    whole = bsm.encode_sequence(*moving(18), gop=6, low_delay=6, frame_rate=30)
+    whole = bsm.encode_sequence(*bending(18), gop=6, low_delay=6, frame_rate=30)
     stream, growing = tmp_path / "whole.bsm", tmp_path / "growing.bsm"
     stream.write_bytes(whole)
     *_, first, _, _, _ = frame_ends(whole)
@@ -467,7 +460,8 @@ def test_no_page_is_saved_of_a_stream_that_ends_early(end, tmp_path):
 
 
 def test_sequences_are_encoded_and_compared_frame_by_frame(tmp_path, capsys):
-    frames, faces = moving(7)
+    frames, faces = bending(7)
+    frames = frames.astype(np.float32)
     np.savez(tmp_path / "sway.npz", positions=frames, faces=faces)
     for number, frame in enumerate(frames):
         bsm.save(bsm.TriangleMesh(frame, faces), tmp_path / f"sway_{number}.ply")

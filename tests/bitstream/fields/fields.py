@@ -8,7 +8,7 @@ import numpy.typing as npt
 from hypothesis import strategies as st
 
 from bsm._engine import Field
-from bsm.bitstream.attributes.values import _folded, canonical_levels
+from bsm.bitstream.attributes.values import canonical_levels
 from bsm.bitstream.container.header import (
     COLOR,
     FACE,
@@ -88,24 +88,6 @@ def field_of(name: str, faces: npt.ArrayLike, vertices: int, largest=(), at=None
     surface = Surface(table, np.array([] if of_faces else numbers, np.int32))
     geometry = None if at is None or of_faces else np.array(at, np.int32)
     return Kind(lambda given: attribute_field(declaration, surface, given, geometry), rows, len(largest))
-
-
-def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
-    """Directions as points on an octahedron, its lower half folded outwards (Meyer et al., EGSR 2010)."""
-    given = np.asarray(normals, np.float64)
-    largest = np.abs(given).max(axis=1, keepdims=True)
-    scaled = given / largest
-    scaled *= size / np.abs(scaled).sum(axis=1, keepdims=True)
-    points = np.rint(scaled).astype(np.int64)
-    rows = np.arange(len(points))
-    for _ in range(3):  # what rounding has added or taken, where that changes least
-        missing = size - np.abs(points).sum(axis=1)
-        change = np.sign(missing)
-        slack = (np.abs(scaled) - np.abs(points)) * change[:, None]
-        slack[(points == 0) & (change < 0)[:, None]] = -2
-        axis = slack.argmax(axis=1)
-        points[rows, axis] += np.where(scaled[rows, axis] < 0, -change, change)
-    return _folded(points, size)
 
 
 def offered(name: str, rows: int, largest, kind: str, seed: int) -> Ints:

@@ -12,9 +12,9 @@ from bsm.files.formats.metadata import images_in, materials_in
 from bsm.files.formats.polygons import meaning_of
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from bsm.libraries import as_mesh
-from tests.bsm.files.test_file_attributes import at_corners, attribute, png
+from tests.bsm.files.test_file_attributes import attribute, png
 from tests.bsm.program import bsm as program
-from tests.shapes import torus
+from tests.shapes import at_corners, torus
 from tools.attack.readers import chained_objects, three_mf
 
 

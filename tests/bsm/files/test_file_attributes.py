@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import bsm
 from bsm import Attribute, BsmError, Limits, TriangleMesh
 from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, read_mesh, write_mesh, written_mesh
-from tests.shapes import patch, tetrahedron, torus
+from tests.shapes import at_corners, patch, tetrahedron, torus
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
@@ -31,13 +31,6 @@ def png(red=200):
 
 def attribute(mesh, name):
     return next(a for a in mesh.attributes if a.name == name)
-
-
-def at_corners(mesh, found):
-    """The value that an attribute has at each corner of each face, shape (m, 3, c)."""
-    if found.domain == "vertex":
-        return found.values[mesh.faces]
-    return found.values[found.indices] if found.domain == "corner" else np.repeat(found.values[:, None], 3, axis=1)
 
 
 def dressed():

@@ -9,35 +9,26 @@ import bsm
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
 from bsm.bitstream.container.wire import FrameType, write_preamble
+from tests.motion import capture as meshes
 from tests.streams import frames_in, moving_events_of, packets_of
 from tools.surgery import frames_of, spans_of
-from tools.vectors.meshes import torus
 
 WAYS = [{"gop": 4}, {"low_delay": 1, "gop": 3}]
 PIECES = ((10, 5), (7, 3), (10, 4), (5, 1), (7, 2))
 
 
-def meshes(*pieces):
-    """Return frames of moving tori of several sizes, a number of each."""
-    sizes = [size for size, count in pieces for _ in range(count)]
-    found = []
-    for t, size in enumerate(sizes):
-        mesh = torus(size, 6, phase=0.15 * t)
-        found.append(replace(mesh, positions=mesh.positions * (1.0 + 0.01 * t)))
-    return found
+def encoder_of(frames, **options):
+    chosen = bsm.SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
+    return bsm.SequenceEncoder(frames[0].faces, chosen, len(frames))
 
 
 def encoded(frames, **options):
-    chosen = bsm.SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
-    encoder = bsm.SequenceEncoder(frames[0].faces, chosen, len(frames))
-    return encoder, list(encoder.chunks(frames))
+    return b"".join(encoder_of(frames, **options).chunks(frames))
 
 
 def restored(frames, **options):
     """What comes back of each frame as it is decoded, and its distance to the original."""
-    chosen = bsm.SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
-    encoder = bsm.SequenceEncoder(frames[0].faces, chosen, len(frames))
-    found = []
+    encoder, found = encoder_of(frames, **options), []
     with bsm.SequenceDecoder(threads=1) as decoder:
         for chunk in encoder.chunks(frames):
             decoder.receive_data(chunk)
@@ -64,7 +55,7 @@ def test_faces_change_and_return(way):
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_mesh_that_returns_is_not_sent_again(way):
-    data = b"".join(encoded(meshes(*PIECES), **way)[1])
+    data = encoded(meshes(*PIECES), **way)
     headers = [packet for packet, *_ in packets_of(data, Header)]
     assert [(header.run_number, header.mesh_of) for header in headers] == [
         (0, None),
@@ -91,7 +82,7 @@ def test_a_target_is_for_frames_that_share_their_faces():
     with pytest.raises(bsm.OptionError, match="the faces change at frame 3"):
         encoded(meshes((10, 3), (7, 2)), target=bsm.SequenceTarget("kg", 0.5))
     same = meshes((10, 3))
-    assert frames_in(moving_events_of(b"".join(encoded(same, target=bsm.SequenceTarget("kg", 5.0))[1])))
+    assert frames_in(moving_events_of(encoded(same, target=bsm.SequenceTarget("kg", 5.0))))
 
 
 # ---------------------------------------------------------------------------------------------------- loss and joining
@@ -106,7 +97,7 @@ def damaged(data, number):
 
 @pytest.mark.parametrize("way", WAYS)
 def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
-    data = b"".join(encoded(meshes(*PIECES), **way)[1])
+    data = encoded(meshes(*PIECES), **way)
     whole = frames_in(moving_events_of(data))
     mesh_of = [size for size, count in PIECES for _ in range(count)]
     frames = frames_of(data)
@@ -130,16 +121,16 @@ def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
 
 def test_a_first_run_that_is_lost_is_an_error_only_if_it_is_all():
     frames = meshes((10, 3), (7, 2))
-    data = b"".join(encoded(frames)[1])
+    data = encoded(frames)
     found = frames_in(moving_events_of(damaged(data, 1), tolerant=True))
     assert list(found) == [3, 4]
-    alone = b"".join(encoded(frames[:3])[1])
+    alone = encoded(frames[:3])
     with pytest.raises(bsm.CorruptError):
         moving_events_of(damaged(alone, 1), tolerant=True)
 
 
 def test_late_joiners_begin_at_a_run_with_a_mesh():
-    data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
+    data = encoded(meshes(*PIECES), gop=4)
     whole = frames_in(moving_events_of(data))
     headers = [offset for packet, offset, _ in packets_of(data) if isinstance(packet, Header)]
     later = write_preamble() + data[headers[1] :]
@@ -159,11 +150,8 @@ def test_late_joiners_begin_at_a_run_with_a_mesh():
 def test_what_meshes_take_does_not_grow_with_their_number():
     def kept(count):
         frames = meshes(*((3 + k % 40, 1) for k in range(count)))
-        encoder = bsm.SequenceEncoder(
-            frames[0].faces, bsm.SequenceOptions(step=0.02, threads=1, block_size=30, runs=True), len(frames)
-        )
         decoder = bsm.SequenceDecoder(threads=1)
-        decoder.receive_data(b"".join(encoder.chunks(frames)))
+        decoder.receive_data(encoded(frames, step=0.02))
         while not isinstance(decoder.next_event(), bsm.Signal):
             pass
         *_, present, _, memory = decoder._open.state()

@@ -134,17 +134,6 @@ def test_motion_far_beyond_the_first_frame(way):
         encode_sequence(positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way))
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_the_order_can_be_kept(way):
-    positions, faces = bending(4)
-    shuffled = np.random.default_rng(1).permutation(len(positions[0]))
-    positions, faces = positions[:, np.argsort(shuffled)], shuffled[faces][::-1]
-    data = encode_sequence(positions, faces, options(keep_order=True, **way))
-    decoded, decoded_faces = bsm.decode_sequence(data)
-    assert np.array_equal(decoded_faces, faces)
-    assert np.abs(decoded - positions).max() < 0.02
-
-
 @pytest.mark.parametrize("how", ["removed", "changed"])
 @pytest.mark.parametrize(("index", "behind"), [(0, 4), (1, 4), (3, 4), (4, 6), (5, 6)])
 def test_a_lost_gop_costs_what_refers_to_it(how, index, behind):

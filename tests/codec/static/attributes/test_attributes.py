@@ -13,7 +13,7 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import RECOMPUTED
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.look.measure import AttributeLook, look, look_values
-from tests.shapes import curved, patch, tetrahedron, torus
+from tests.shapes import at_corners, curved, patch, tetrahedron, torus
 from tests.streams import events_of, packets_of, without
 from tools.surgery import frames_of, stream_of
 
@@ -54,13 +54,6 @@ def dressed(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
         bsm.Attribute("wild", wild),
     )
     return replace(mesh, attributes=attributes, metadata={"name": "thing", "unit": "mm", "n": 3})
-
-
-def at_corners(mesh: bsm.TriangleMesh, attribute: bsm.Attribute) -> np.ndarray:
-    """Values of each corner, shape (m, 3, c)."""
-    if attribute.domain == "face":
-        return np.repeat(attribute.values[:, None], 3, axis=1)
-    return attribute.values[mesh.faces if attribute.indices is None else attribute.indices]
 
 
 def compared(given: bsm.TriangleMesh, decoded: bsm.TriangleMesh, encoder: bsm.Encoder) -> dict[str, float]:
