@@ -343,6 +343,15 @@ def test_zeros_without_bytes_are_not_counted_as_saved():
     assert len(compress(Document(built.bytes), FINE).data) <= len(restore(Document(built.bytes)))
 
 
+def test_zeros_without_bytes_stay_beside_those_that_were_replaced():
+    built, count = ring(more={"targets": [{"POSITION": 2}]})
+    zeros = {"componentType": 5126, "type": "VEC3"}
+    built.tree["accessors"] += [{**zeros, "count": count}, {**zeros, "count": 2}]
+    built.mesh({"attributes": {"POSITION": 3}, "mode": 0})
+    found, after = rewritten(built)
+    assert found.coded == 1 and {**zeros, "count": 2} in after.tree["accessors"]
+
+
 def test_strips_become_triangles():
     built = Built()
     row = np.arange(200, dtype=np.float32)

@@ -397,23 +397,6 @@ def named_by_others(node: Any, *, inside: bool = False) -> set[int]:
     return {int(node)} if inside and isinstance(node, int | float) and abs(node) < _WHOLE else set()
 
 
-def _renumber(tree: Tree, kind: str, stay: set[int], before: set[int], blank: Tree) -> None:
-    """Drop the entries of a kind that were referenced `before` and no longer are; some `stay` in their places."""
-    entries: list[Tree] = tree.get(kind, [])
-    places = list(references(tree, kind))
-    kept = (
-        {holder[key] for holder, key in places} | (set(range(len(entries))) - before) | (stay & {*range(len(entries))})
-    )
-    free = (number for number in range(len(entries)) if number not in stay)
-    numbers = {old: old if old in stay else next(free) for old in sorted(kept)}
-    for holder, key in places:
-        holder[key] = numbers[holder[key]]
-    origin = [-1] * (max(numbers.values(), default=-1) + 1)
-    for old, new in numbers.items():
-        origin[new] = old
-    tree[kind] = [entries[old] if old >= 0 else dict(blank) for old in origin]
-
-
 # -------------------------------------------------------------------------------------------------------------- a scene
 
 
@@ -510,15 +493,14 @@ def _one_grid(
         matrices.setdefault(entry.get("mesh"), np.eye(4) if "skin" in entry else matrix)
     meshes = {id(primitive): n for n, mesh in enumerate(tree["meshes"]) for primitive in mesh["primitives"]}
     placed = [matrices.get(meshes[id(bundle[0][0])], np.eye(4)) for bundle in bundles]
+    keys = [np.round(matrix[:3, :3], 9).tobytes() for matrix in placed]
     cells: dict[bytes, float] = {}
-    for bundle, matrix in zip(bundles, placed, strict=True):
+    for bundle, key in zip(bundles, keys, strict=True):
         tables = [document.numbers(same[0]["attributes"]["POSITION"]) for same in bundle]
         extent = max(float(np.ptp(table, axis=0).max(initial=0.0)) for table in tables)
-        key = np.round(matrix[:3, :3], 9).tobytes()
         cells[key] = max(cells.get(key, 0.0), extent / (1 << 14))
     found = []
-    for matrix in placed:
-        cell = cells[np.round(matrix[:3, :3], 9).tobytes()]
+    for matrix, cell in zip(placed, map(cells.__getitem__, keys), strict=True):
         moved = np.linalg.lstsq(matrix[:3, :3], matrix[:3, 3], rcond=None)[0]
         origin = tuple((-moved % cell).tolist()) if cell else (0.0, 0.0, 0.0)
         grid = {"grid_cell": cell, "grid_origin": origin} if cell else {"grid": 14}
@@ -670,10 +652,10 @@ class _Rewritten(gltf.Growing):
         entries: list[Tree] = self.tree.get("accessors", [])
         numbers = {id(entry): number for number, entry in enumerate(entries)}
         blank: Tree = {"componentType": COMPONENTS["uint8"], "count": 1, "type": "SCALAR"}
-        _renumber(self.tree, "accessors", self.named, self._before["accessors"], blank)
+        self._renumber("accessors", blank)
         kept = self.tree["accessors"]
         gone = numbers.keys() - {id(entry) for entry in kept}
-        shared = {entry.get("bufferView") for entry in entries if id(entry) in gone} - self.named
+        shared = {entry["bufferView"] for entry in entries if id(entry) in gone and "bufferView" in entry} - self.named
         for entry in kept:
             if entry.get("bufferView") in shared and "sparse" not in entry:
                 strided = "byteStride" in self._document.item("bufferViews", entry["bufferView"])
@@ -708,8 +690,21 @@ class _Rewritten(gltf.Growing):
                 continue
             data = self._document.view(number)
             view |= {"buffer": 0, "byteOffset": self.append(data), **({"byteLength": len(data)} if packed else {})}
-        blank: Tree = {"buffer": 0, "byteLength": 1}
-        _renumber(self.tree, "bufferViews", self.named, self._before["bufferViews"], blank)
+        self._renumber("bufferViews", {"buffer": 0, "byteLength": 1})
+
+    def _renumber(self, kind: str, blank: Tree) -> None:
+        """Drop the entries of a kind that were referenced and no longer are; those that others may name stay there."""
+        entries, places = self.tree.get(kind, []), list(references(self.tree, kind))
+        every = set(range(len(entries)))
+        stay = self.named & every
+        kept = {holder[key] for holder, key in places} | (every - self._before[kind]) | stay
+        free = iter(sorted(every - stay))
+        numbers = {old: old if old in stay else next(free) for old in sorted(kept)}
+        for holder, key in places:
+            holder[key] = numbers[holder[key]]
+        origin = {new: old for old, new in numbers.items()}
+        size = max(origin, default=-1) + 1
+        self.tree[kind] = [entries[origin[new]] if new in origin else dict(blank) for new in range(size)]
 
 
 def _words(accessor: Tree) -> Tree:

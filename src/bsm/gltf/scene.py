@@ -197,11 +197,10 @@ class Scene:
         seen = numbers = characters = 0
         sizes: dict[object, tuple[int, int, int]] = {}
         made = set[tuple[object, object]]()
-        for node in self._parents:
-            tree = self._nodes[node]
-            mesh = document.item("meshes", tree["mesh"]) if "mesh" in tree else {"primitives": []}
+        for tree in (self._nodes[node] for node in self._parents if "mesh" in self._nodes[node]):
+            mesh = document.item("meshes", used := tree["mesh"])
             characters += len(str(tree.get("name") or mesh.get("name", "")))
-            if (used := tree.get("mesh")) not in sizes:  # only once, however many nodes use it
+            if used not in sizes:  # only once, however many nodes use it
                 sizes[used] = self._size(mesh)
             vertices, given, moved = sizes[used]
             seen += vertices

@@ -119,14 +119,13 @@ class _Scene(Growing):
         kind = mime_of(data)
         if kind not in ("image/png", "image/jpeg", "image/webp"):
             return None
-        known = self._images.get(data)
-        if known is None:
-            known = self.add("images", {"bufferView": self.view(data), "mimeType": kind})
-            self._images[data] = known
-        if kind != "image/webp":
-            return self.add("textures", {"source": known})
-        self.tree |= {"extensionsUsed": [WEBP], "extensionsRequired": [WEBP]}
-        return self.add("textures", {"extensions": {WEBP: {"source": known}}})
+        if data not in self._images:
+            self._images[data] = self.add("images", {"bufferView": self.view(data), "mimeType": kind})
+        texture: Tree = {"source": self._images[data]}
+        if kind == "image/webp":
+            texture = {"extensions": {WEBP: texture}}
+            self.tree |= {"extensionsUsed": [WEBP], "extensionsRequired": [WEBP]}
+        return self.add("textures", texture)
 
 
 def _upright(metadata: Metadata) -> Tree:

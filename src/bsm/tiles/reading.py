@@ -146,10 +146,8 @@ _WORDS = {"positions": "coordinate", "color": "color", "normal": "normal", "face
 
 def _refuse_textures(names: set[str]) -> None:
     if names:
-        message = (
-            f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colors and normals of vertices "
-        )
-        raise UnsupportedError(f"{message}alone: write it without, or its texture as colors")
+        message = f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colors and normals of vertices"
+        raise UnsupportedError(f"{message} alone: write it without, or its texture as colors")
 
 
 def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
