@@ -13,7 +13,7 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import has
+from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
 from bsm.files.formats.metadata import Written
@@ -163,35 +163,30 @@ def read_files(names: Sequence[str], file_format: str | None, limits: Limits, *,
                     f"faces than {names[0]}: {difference}; if their faces change, --runs; to work on each by "
                     "itself, name the files, or the folder with -r, and write to a folder, -o FOLDER/"
                 )
-            own = []
-            for attribute in kept:
-                now = (
-                    moved_to(attribute, mesh.attributes)
-                    if can_move(attribute)
-                    else attribute
-                    if has(mesh.attributes, attribute)
-                    else None
+            now = {attribute.name: _as_in(mesh, attribute) for attribute in kept}
+            if changed := [name for name, attribute in now.items() if attribute is None]:
+                raise MeshError(
+                    f"{changed[0]} differs in {name} (frame {number}) but not in the last frame; only colors and "
+                    "numbers of vertices may change: --runs keeps others as the first frame has them"
                 )
-                if now is None:
-                    raise MeshError(
-                        f"{attribute.name} differs in {name} (frame {number}) but not in the last frame; "
-                        "only colors and numbers of vertices may change: --runs keeps others as the first "
-                        "frame has them"
-                    )
-                own.append(now)
-            yield replace(mesh, attributes=tuple(own))
+            yield replace(mesh, attributes=tuple(filter(None, now.values())))
 
     last = read(len(names) - 1) if first.attributes and len(names) > 1 else first
-    can = [attribute for attribute in first.attributes if can_move(attribute) and moved_to(attribute, last.attributes)]
-    still = [a for a in first.attributes if a.semantic != "normal" and has(last.attributes, a)]
-    kept = tuple(attribute for attribute in first.attributes if attribute in can or attribute in still)
+    kept = tuple(attribute for attribute in first.attributes if _as_in(last, attribute) is not None)
     left = [attribute.name for attribute in first.attributes if attribute not in kept]
     notes = [f"left out, for they move or change: {', '.join(left)}"] if left else []
-    if len(names) > 1 and (same := [attribute.name for attribute in kept if attribute not in can]):
-        notes.append(f"{', '.join(same)}: as the first frame has them")
+    same = [attribute.name for attribute in kept if not can_move(attribute)]
+    notes += [f"{', '.join(same)}: as the first frame has them"] if len(names) > 1 and same else []
     frames = (mesh.positions for mesh in meshes())
-    given = meshes() if can or any(name.startswith(SHOWN) for name in first.metadata) else None
+    given = meshes() if len(same) < len(kept) or any(name.startswith(SHOWN) for name in first.metadata) else None
     return Frames(first.faces, len(names), frames, kept, tuple(notes), metadata=first.metadata, meshes=given)
+
+
+def _as_in(mesh: TriangleMesh, attribute: Attribute) -> Attribute | None:
+    """An attribute of the first frame as another one has it; None where it is another that cannot move."""
+    if can_move(attribute):
+        return moved_to(attribute, mesh.attributes)
+    return attribute if attribute.semantic != "normal" and has(mesh.attributes, attribute) else None
 
 
 # --------------------------------------------------------------------------------------------------------- the way back

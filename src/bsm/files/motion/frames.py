@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from operator import lt
 from typing import Protocol
 
 import numpy as np
@@ -14,6 +15,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.metadata import as_numbers
 
 START, STEP, TIMES = "frame_start", "frame_step", "frame_times"
 """Metadata of a sequence: the number of the first frame, at the frame rate; frames from one sample to the next, where
@@ -174,16 +176,8 @@ def rate_of_times(times: Positions) -> float:
 @lru_cache(1)
 def _times_in(text: str) -> list[float]:
     """Times in seconds; none unless they are numbers that grow."""
-    found: list[float] = []
-    for word in text.split():
-        try:
-            time = float(word)
-        except ValueError:
-            return []
-        if not (np.isfinite(time) and (not found or time > found[-1])):
-            return []
-        found.append(time)
-    return found
+    found = as_numbers(text)
+    return found if all(map(lt, found, found[1:])) else []
 
 
 def _finite(value: object, usual: float) -> float:
