@@ -22,7 +22,7 @@ from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import PARTS, Progress, silent
 from bsm.codec.sequence.attributes import Bound, MovingAttributeEncoder, with_fields
-from bsm.codec.sequence.frames import Group, next_group, require_same
+from bsm.codec.sequence.frames import Group, next_group
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, RunEncoder, finest_step
@@ -258,7 +258,7 @@ class SequenceEncoder:
             gops = encoder.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
             mesh, again = before.first_frame.header, (index, opened.run)
             begun = iter([Header(vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=again)])
-        self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
+        self._verifier.expect_mesh(Original(run.mesh, run.joined, prepared), resting)
         yield from begun
         first_frame = gops.first_frame
         for track, coder in enumerate(coders, 1):
@@ -283,7 +283,9 @@ class SequenceEncoder:
             group = next_group(frames, longest, prepared, run.moving)
             if len(group):
                 gops = encoder.next(group, self._done, gops)
-                require_same(still, group)
+                for name, values in still.items():
+                    if (group.moving[name] != values).any():
+                        raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
         self.notes = tuple(dict.fromkeys((*self.notes, *(coder.note for coder in coders))))
         meshes.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, coders, resting), run)
 
@@ -291,7 +293,7 @@ class SequenceEncoder:
         self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
     ) -> tuple[tuple[PreparedAttribute, ...], tuple[MovingAttributeEncoder, ...]]:
         """Return the attributes of a run with its own mesh, and encoders of those that move, or may if `more` comes."""
-        given, asked = run.given, dict(options.attributes)
+        given, asked = run.mesh, dict(options.attributes)
         move = {name for name, values in group.moving.items() if (values != values[:1]).any()}
         may = move | (set(group.moving) if more else set())
         bounds = {
@@ -332,7 +334,7 @@ class SequenceEncoder:
         self.losses = tuple(dict.fromkeys((*self.losses, *run.joined.losses)))
         self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes, *order)))
         body = (*prepared.before_blocks, *(block.packet for block in first.blocks))
-        draft = Draft(replace(first.header, run=(index,) if index else ()), body, run.given.positions)
+        draft = Draft(replace(first.header, run=(index,) if index else ()), body, run.mesh.positions)
         draft = with_attributes(draft, carried, {} if index else self._metadata)
         yield from (draft.header, *draft.body)
 
@@ -358,12 +360,12 @@ class Meshes:
 
     def find(self, begun: JoinedRun) -> OpenedMesh | None:
         """Return the kept mesh of a run that begins; None: the mesh must be sent."""
-        run, before = self._known.get(_digest(begun), (-1, begun.given))
+        run, before = self._known.get(_digest(begun), (-1, begun.mesh))
         opened = self._opened.get(run)
         if opened is not None:
             moving = {coder.name for coder in opened.coders}
             others = (attribute for attribute in before.attributes if attribute.name not in moving)
-            if all(has(begun.given.attributes, attribute) for attribute in others):
+            if all(has(begun.mesh.attributes, attribute) for attribute in others):
                 opened.gops.first_frame.kept = replace(self.kept)
                 return opened
         if len(self._opened) == KEPT_MESHES:
@@ -377,13 +379,13 @@ class Meshes:
         self.kept = replace(opened.gops.first_frame.kept)
         self._opened.pop(opened.run, None)
         self._opened[opened.run] = opened
-        given = TriangleMesh(ended.given.positions, ended.given.faces, ended.given.attributes)
+        given = TriangleMesh(ended.mesh.positions, ended.mesh.faces, ended.mesh.attributes)
         self._known[_digest(ended)] = opened.run, given
 
 
 def _digest(run: JoinedRun) -> bytes:
     """Return a digest that runs of the same faces, joins and resting attributes share."""
-    mesh, moving = run.given, {attribute.name for attribute in run.moving}
+    mesh, moving = run.mesh, {attribute.name for attribute in run.moving}
     found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
     for attribute in mesh.attributes:
         found.update(repr(kind_of(attribute)).encode())

@@ -1,12 +1,11 @@
 """The frames of a GOP, and repeated frames: loops, still and reversed motion are coded once."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
 
-from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.static.attributes.levels import Values
@@ -45,13 +44,6 @@ def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, movin
     kind = np.dtype((np.float64, (len(prepared.positions), 3)))
     group: Positions = np.fromiter(positions(), kind)
     return Group(group, {attribute.name: np.array(own) for attribute, own in zip(moving, found, strict=True)})
-
-
-def require_same(still: Mapping[str, Values], group: Group) -> None:
-    """Raise `OptionError` if an attribute, shape (n, d), that was sent as one that does not move moves now."""
-    for name, values in still.items():
-        if (group.moving[name] != values).any():
-            raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
 
 
 def same_frames(frames: Positions, moving: Sequence[Values], step: float) -> Order:

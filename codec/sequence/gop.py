@@ -22,7 +22,7 @@ from bsm.codec.sequence import temporal
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import WEIGHT, LevelWriter, Loop
 from bsm.codec.sequence.temporal import time_cosines
-from bsm.codec.sequence.tracks import INHERITED, Setting, Track, lags
+from bsm.codec.sequence.tracks import INHERITED, LAGS, Setting, Track
 from bsm.codec.static.units import single
 
 
@@ -62,7 +62,7 @@ class FrameHistory:
     def begin(self, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix, Matrix]:
         """Return the prediction of a block's change from the frames `ends`, shape (k_i, dT), around it."""
         kept, base, count = [frame[block] for frame in self._kept], self.base(block), len(ends)
-        ages = [min(lag, len(kept) - 1) for lag in (0, *lags(self._track.kept))]
+        ages = [min(lag, len(kept) - 1) for lag in (0, *LAGS) if lag < self._track.kept]
         known = [self._track.first[block], kept[0], *(kept[late] - kept[early] for late, early in pairwise(ages))]
         if self._back:
             known.append(kept[self._back - 1] - kept[0])

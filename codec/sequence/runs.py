@@ -48,7 +48,7 @@ class Run:
     mesh: TriangleMesh
     frames: Iterator[npt.ArrayLike]
     first: int
-    moving: tuple[Attribute, ...] = ()
+    moving: tuple[Attribute, ...]
 
 
 class RunSplitter:
@@ -141,14 +141,11 @@ def other_faces(mesh: TriangleMesh, other: TriangleMesh) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class JoinedRun:
+class JoinedRun(Run):
     """Frames that share their faces, and in which the same vertices are one."""
 
-    given: TriangleMesh
     joined: JoinedMesh
     frames: Iterator[Matrix]
-    first: int
-    moving: tuple[Attribute, ...]
 
 
 def joined_runs(
@@ -163,7 +160,7 @@ def joined_runs(
             index, begun = _begun(frame, frames, together)
             one = joined(mesh, index, keep=keep_order, keep_loose=False)
             later = frames.while_together(one, may_part=keep_order or allowed)
-            yield JoinedRun(mesh, one, chain(_taken(begun, one.first), later), first, run.moving)
+            yield JoinedRun(mesh, chain(_taken(begun, one.first), later), first, run.moving, one)
 
 
 class _Frames:

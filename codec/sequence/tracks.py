@@ -33,11 +33,6 @@ def frames_kept(vertices: int) -> int:
     return min(MOST_KEPT, max(LEAST_KEPT, KEPT // vertices))
 
 
-def lags(kept: int) -> tuple[int, ...]:
-    """Return the `LAGS` that fit into the kept frames."""
-    return tuple(lag for lag in LAGS if lag < kept)
-
-
 SQUARES, CUBES = 0.5, 0.3  # how much powers count beside positions; half and twice cost 0.2 to 0.5 %
 SMALLEST = 2.0**-24  # added to the squared radius of a part, in BSM units
 PRODUCTS = tuple(

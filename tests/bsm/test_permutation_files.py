@@ -90,3 +90,10 @@ def test_an_order_counts_vertices_that_no_face_uses(tmp_path):
     for wrong in (order * 0, order + 1, order[1:]):
         with pytest.raises(MeshError, match="permutation"):
             bsm.compare(mesh, decoded, order=wrong)
+
+
+def test_a_mesh_that_a_file_split_is_compared_where_rounding_merged_vertices():
+    decoded = decode(bsm.encode(SAMPLE, grid=4))
+    split = TriangleMesh(decoded.positions[decoded.faces].reshape(-1, 3), np.arange(decoded.faces.size).reshape(-1, 3))
+    found = bsm.compare(SAMPLE, split)
+    assert found.merged > 0 and found == bsm.compare(SAMPLE, decoded)
