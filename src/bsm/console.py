@@ -60,11 +60,7 @@ class Console:
 
 
 class Progress:
-    """A line on the terminal, from half a second on: what goes on and for how long, and where that is known how much is
-    done, with the time left; or lines of JSON that say the same to programs; or calls of a function.
-
-    The remaining time follows from the elapsed time and the finished share, which parts and steps report.
-    """
+    """A line on the terminal, lines of JSON, or calls of a function that say what goes on and how much is done."""
 
     def __init__(
         self, what: str, *, shown: bool = False, lines: bool = False, heard: Callable[[int, int], None] | None = None

@@ -7,9 +7,9 @@ from typing import Any
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 
-LENGTH = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(%|[a-zA-Zµ]*)")
+NUMBER = r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)"
+LENGTH = re.compile(NUMBER + r" *(%|[a-zA-Zµ]*)")
 """A number and its unit: % of the diagonal, or the mesh's unit; without a unit, a fraction of the diagonal."""
-LENGTHS = ("max_error",)  # options that are lengths
 IN_METRES = {
     **dict.fromkeys(("m", "meter", "metre"), 1.0),
     **dict.fromkeys(("dm", "decimeter", "decimetre"), 0.1),
@@ -28,7 +28,7 @@ def parse_length(name: str, value: Any) -> tuple[float, bool]:
     return (number / 100.0, False) if unit == "%" else (number, bool(unit))
 
 
-BYTES = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(?:([kMG])(i?))?B?")
+BYTES = re.compile(NUMBER + r" *(?:([kMG])(i?))?B?")
 """A number of bytes, with kB, MB, GB (thousands), or KiB, MiB, GiB (1,024)."""
 
 
@@ -36,39 +36,26 @@ def parse_bytes(name: str, value: Any) -> float:
     if isinstance(value, Real) and not isinstance(value, bool):
         return float(value)
     found = BYTES.fullmatch(value.strip().replace("K", "k")) if isinstance(value, str) else None
-    try:
-        assert found is not None
-        factor: int = (1024 if found[3] else 1000) ** " kMG".index(found[2] or " ")
-        return float(found[1]) * factor
-    except (AssertionError, ValueError):
-        raise ArgumentError(f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}") from None
+    if found is None:
+        raise ArgumentError(f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}")
+    return float(found[1]) * float((1024 if found[3] else 1000) ** " kMG".index(found[2] or " "))
 
 
 def in_own_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options that are lengths in another unit than the mesh's, converted to that.
-
-    Raises
-    ------
-    OptionError
-        If a length has a unit and the mesh has none.
-    """
-    found = {}
-    own = unit_of(metadata)
-    size = metres(own)
-    for name in LENGTHS:
-        value = options.get(name)
-        number, unit = _parts(name, value) if isinstance(value, str) else (0.0, "")
-        if unit in ("", "%"):
-            continue
-        if not own:
-            raise OptionError(
-                f"{name} is in {unit}, but the mesh has no unit: add unit={unit} to its metadata "
-                f"(--meta unit={unit}) if that is right, or give {name} in percent of the diagonal, such as 0.1%"
-            )
-        other = metres(unit)
-        if size is not None and other is not None and other != size:
-            found[name] = f"{number * other / size:.12g}{own.strip()}"
-    return found
+    """Return the options that are lengths in another unit than the mesh's, converted to that."""
+    value, own = options.get("max_error"), unit_of(metadata)
+    number, unit = _parts("max_error", value) if isinstance(value, str) else (0.0, "")
+    if unit in ("", "%"):
+        return {}
+    if not own:
+        raise OptionError(
+            f"max_error is in {unit}, but the mesh has no unit: add unit={unit} to its metadata "
+            f"(--meta unit={unit}) if that is right, or give max_error in percent of the diagonal, such as 0.1%"
+        )
+    size, other = metres(own), metres(unit)
+    if size is None or other is None or other == size:
+        return {}
+    return {"max_error": f"{number * other / size:.12g}{own.strip()}"}
 
 
 def _parts(name: str, value: Any) -> tuple[float, str]:
@@ -77,10 +64,7 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
     found = LENGTH.fullmatch(value.strip()) if isinstance(value, str) else None
     if found is None:
         raise ArgumentError(f"{name} must be a number, or one with a unit like 0.05mm or 0.1%, not {value!r}")
-    try:
-        return float(found[1]), found[2]
-    except ValueError:
-        raise ArgumentError(f"{name}: {found[1]!r} is not a number") from None
+    return float(found[1]), found[2]
 
 
 def metres(unit: str) -> float | None:
