@@ -62,20 +62,11 @@ def _numbers(lines: Sequence[bytes], what: str) -> Doubles:
     text = b" ".join(lines)
     if b"_" in text:  # which Python allows inside numbers
         raise MeshError(f"a {what} is not made of numbers: it has an underscore")
-    words = text.split()
     try:
-        return np.array(words, dtype=np.float64)
-    except ValueError:
-        shown = next(filter(_is_no_number, words), b"")[:40].decode(errors="replace")
-        raise MeshError(f"a {what} is not made of numbers: {shown!r}") from None
-
-
-def _is_no_number(word: bytes) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return True
-    return False
+        return np.array(text.split(), dtype=np.float64)
+    except ValueError as error:
+        shown = str(error).partition(": b")[2][:60]  # the word, as numpy tells it
+        raise MeshError(f"a {what} is not made of numbers: {shown}") from None
 
 
 def ranges(starts: Ints, sizes: Ints) -> Ints:

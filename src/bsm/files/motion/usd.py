@@ -540,9 +540,9 @@ class _Stage:
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
         metadata = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m"), **found.metadata, **of_materials}
         left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out)
-        notes = [*found.notes, *absent, *self.notes, *([f"left out: {', '.join(left)}"] if left else [])]
+        notes = [*found.notes, *absent, *self.notes]
         notes += [f"left out, face sets without a material: {', '.join(materials.sets)}"] if materials.sets else []
-        return replace(found, notes=tuple(notes), metadata=metadata).checked(self._limits)
+        return replace(found, notes=tuple(notes), dropped=tuple(left), metadata=metadata).checked(self._limits)
 
 
 def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:
@@ -591,7 +591,7 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile
     times = stage.times
     found = stage.mesh(times[0] if times else 0.0)
     note = ("of the motion, the first time was taken",) if len(times) > 1 else ()
-    return shapes.MeshFile(found.mesh, (*found.notes, *note))
+    return replace(found, notes=(*found.notes, *note))
 
 
 # ---------------------------------------------------------------------------------------------------------------- out
