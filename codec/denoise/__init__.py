@@ -8,22 +8,7 @@ except ImportError:
     raise DependencyError(f"denoising needs scipy: {how_to_install('denoise')}") from None
 
 from bsm.codec.denoise.automatic import AutomaticChoice
-from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.frames import FrameDenoiser, denoise, denoise_automatically
-from bsm.codec.denoise.normals import FINE_STEPS
-from bsm.codec.denoise.recipe import HAND_OVERS, DenoiseOptions, Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS
+from bsm.codec.denoise.recipe import DenoiseOptions
 
-__all__ = [
-    "FINE_STEPS",
-    "GOALS",
-    "HAND_OVERS",
-    "AutomaticChoice",
-    "CoarseFilter",
-    "DenoiseOptions",
-    "FrameDenoiser",
-    "Recipe",
-    "Step",
-    "denoise",
-    "denoise_automatically",
-]
+__all__ = ["AutomaticChoice", "DenoiseOptions", "FrameDenoiser", "denoise", "denoise_automatically"]

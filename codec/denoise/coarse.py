@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Indices
 from bsm.codec.blocks.overlap import Blend, Block, Blocks, block_size, degree_weights, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
@@ -39,14 +38,9 @@ class CoarseFilter:
         overlap: float = OVERLAP,
         weights: Weights = degree_weights,
     ) -> None:
-        if not 0.0 < keep <= 1.0 or block < 1:
-            raise OptionError(f"keep must be above 0 and at most 1, and the block positive; not {keep} and {block}")
-        if not overlap >= 1.0:
-            raise OptionError(f"the overlap must be at least 1, not {overlap}")
         graph = graph_of_faces(np.ascontiguousarray(faces, dtype=np.int32), n)
         partition = metis_partition(graph, max(1, round(n / block)))
         self._size = block_size(partition, overlap)
-        self._keep = keep
         blocks = grow_blocks(graph, partition, self._size)
         self._blocks = [
             (block.vertices, weights(block.degrees), dictionary)
@@ -54,9 +48,7 @@ class CoarseFilter:
         ]
 
     def __call__(self, values: Floats, keep: float = KEEP) -> Floats:
-        """Filter `values`, shape (n, 3)."""
-        if not 0.0 < keep <= self._keep:
-            raise OptionError(f"keep must be above 0 and at most {self._keep}, not {keep}")
+        """Filter `values`, shape (n, 3); `keep` is at most the filter's."""
         width = self._width(keep)
         blend = Blend(len(values))
         for vertices, copies, dictionary in self._blocks:

@@ -2,10 +2,8 @@
 
 The guess matters: one that still has noise in it takes the noise for detail and asks for too few iterations, one that
 is too smooth asks for too many. So the guess is the noisy mesh after t iterations of a base recipe, and t rises until
-the rehearsal asks for hardly more iterations than the guess itself was given.
-
-White noise is drawn anew. Any other is taken as it was found, on the other side of the guess: guess - (noisy - guess)
-has noise as correlated, as one-sided in direction and as uneven as the mesh has.
+the rehearsal asks for hardly more iterations than the guess itself was given. Noise of the kind that was found is drawn
+anew.
 """
 
 from collections.abc import Callable, Iterator
@@ -36,13 +34,11 @@ has lost less still has such noise, which looks like shape."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
-UNSURE, LEAST = {"correlated": 0.87, "grid": 0.87, "axis": 0.7, "impulses": 0.87}, 0.87
+UNSURE, LEAST = {"correlated": 0.87, "grid": 0.87, "axis": 0.7}, 0.87
 """Kinds whose rehearsal does not show whether detail is lost, as on meshes of few vertices; and the least error there,
 over the rehearsed one."""
 MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
-OF_MIRRORED = 0.78  # share of a rehearsed error that comes, of mirrored noise: it has the guess's own mistakes
-MIRRORED = ("impulses",)  # kinds of which too little is known to draw such noise anew: it is taken as it was found
 
 Goal = Callable[[Reference, Positions], float]
 Progress = Callable[[str, float], None]
@@ -128,10 +124,7 @@ class Rehearsal:
     def rehearse(self, guess: Positions) -> None:
         """Make another guess, shape (n, 3), noisy, with other noise."""
         self.rounds += 1
-        if self._finding.kind in MIRRORED:
-            self._rehearse(guess, 2.0 * guess - self._given)
-        else:
-            self._rehearse(guess, self._synthesis.draw(guess, SEED + self.rounds))
+        self._rehearse(guess, self._synthesis.draw(guess, SEED + self.rounds))
 
     def perform(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
         """The steps' result, shape (n, 3), on the mesh that is rehearsed for, with `share` of the learnt normals."""
@@ -145,19 +138,19 @@ class Rehearsal:
         """Return the angles to expect on the rehearsed mesh. Detail that the filter removes from the guess was already
         removed from the mesh to make the guess."""
         guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
-        scanned = self._finding.kind in ("view", "fused")  # whose noise is known so well that rehearsals say enough
+        scanned = self._finding.kind == "view"  # whose noise is known so well that rehearsals say enough
         lost = float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 and not scanned else 0.0
         clean = guess * np.exp(LOST_MORE * max(lost, 0.0))
         drawn = self._roughness(self.noisy) ** 2 - guess**2
         found = self._roughness(self._given) ** 2 - clean**2
         before = float(np.sqrt(np.clip(found / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
-        after = np.exp(LOST_MORE * lost) * (OF_MIRRORED if self._finding.kind in MIRRORED else 1.0)
+        after = np.exp(LOST_MORE * lost)
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
         few = int(self._patient.probe.windows.valid.sum()) < MANY_WINDOWS
         sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
         least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
         expected = float(after) * winner.error / noisy * least
-        known = self._finding.clear and self._drowned < MOST_DROWNED
+        known = self._finding.clear and self._finding.kind != "fused" and self._drowned < MOST_DROWNED
         return Forecast(before * self.untreated / noisy, expected, sure, known)
 
     @property

@@ -13,6 +13,7 @@ import pytest
 
 from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
+from bsm.codec.denoise import normals, recipe, rehearsal
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
 from bsm.codec.geometry.metrics import mnd, theta
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
@@ -167,9 +168,9 @@ def test_frames_that_are_none_are_refused(frames, options):
 
 
 def test_the_command_knows_all_choices_of_the_library():
-    assert set(FINE) == set(library.FINE_STEPS)
-    assert set(HAND_OVERS) == set(library.HAND_OVERS)
-    assert set(GOALS) <= set(library.GOALS)
+    assert set(FINE) == set(normals.FINE_STEPS)
+    assert set(HAND_OVERS) == set(recipe.HAND_OVERS)
+    assert set(GOALS) <= set(rehearsal.GOALS)
 
 
 def test_no_more_than_a_few_frames_are_held():

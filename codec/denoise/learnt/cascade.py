@@ -8,7 +8,7 @@ import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
-from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals, surroundings
+from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals, surroundings, vertex_normals
 from bsm.codec.geometry.graph import Rows
 
 FARTHEST = np.float32(6.0)  # bound of standardised numbers
@@ -96,5 +96,7 @@ def joined(positions: Positions, other: Learnt, share: float, topology: Topology
     """Positions, shape (n, 3), that follow the mean of their own normals and the learnt ones, whose part is `share`."""
     normals = (1.0 - share) * face_geometry(positions, topology.faces).normals + share * other.normals
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    start = (1.0 - share) * positions + share * other.positions
+    # Only along the normals: the networks leave vertices where noise has put them along the surface.
+    up = vertex_normals(normals, topology.around)
+    start = positions + share * np.einsum("ij,ij->i", other.positions - positions, up)[:, None] * up
     return follow_normals(start, topology, normals, VERTEX_ITERATIONS)

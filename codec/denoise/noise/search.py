@@ -35,8 +35,7 @@ RULES = {
 fits them, and names the meshes that it holds out."""
 FAINTEST = 0.03  # level in mean edges, or widths of pixels, below which nothing is suspected
 FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # fewest windows for an estimate, and fewest wholly inside a noisy part
-WHITE, HEAVY, IMPULSIVE = 0.82, 1.25, 1.04
-"""Whiteness below which noise is correlated; tails over the normal distribution's, and whiteness, of impulses."""
+WHITE = 0.82  # whiteness below which noise is correlated
 LOCAL_STEP, LOCAL_SHARE, NEARBY = 1.5, 0.1, 4
 """Noise here and there: its level over the rest's, its share of the mesh, and rings of a vertex that tell its side."""
 CALM = 0.05  # level up to which the rest counts as clean
@@ -252,16 +251,11 @@ def _everywhere(positions: Positions, evidence: Evidence) -> Suspect | None:
     """As strong in one place as in another."""
     valid = evidence.probe.windows.valid
     level, whiteness = evidence.level(valid), evidence.whiteness(valid)
-    tail = float(np.quantile(np.abs(evidence.residuals(valid)), 0.95)) / 1.96 if level > 0.0 else 0.0
-    kind = "white"
-    if whiteness < WHITE:
-        kind = "correlated"
-    elif tail > HEAVY and whiteness > IMPULSIVE:
-        kind = "impulses"
+    kind = "correlated" if whiteness < WHITE else "white"
     amount = np.full(len(positions), level * evidence.edge)
     reason = "noise that neighbors share, all over" if kind == "correlated" else "noise all over"
     finding = Finding(kind, level * evidence.edge, amount, evidence.edge, reason, whiteness=whiteness)
-    return _suspect("correlated" if kind == "correlated" else "white", evidence, finding)
+    return _suspect(kind, evidence, finding)
 
 
 def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:

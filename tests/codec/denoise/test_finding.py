@@ -45,7 +45,7 @@ def find_outliers(positions: np.ndarray, probe: Probe) -> Outliers:
 def test_kinds_differ(shape, kind: str) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(30)
     finding = find(KINDS[kind](clean, faces, 0.25, 3), faces)
-    assert finding.kind == ("white" if kind == "uniform" else kind)
+    assert finding.kind == ("white" if kind in ("uniform", "impulses") else kind)
     level = finding.level / finding.edge
     if kind == "correlated":
         assert 0.05 < level < 0.25
