@@ -94,11 +94,9 @@ def plain_text(data: bytes) -> bytes:
 
 def continued(data: bytes) -> bytes:
     """Text whose lines that end with a backslash are joined to the next; comments are not continued."""
-    return re.sub(rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", _joint, data, flags=re.M) if b"\\" in data else data
-
-
-def _joint(match: re.Match[bytes]) -> bytes:
-    return match[1] or b" "
+    if b"\\" not in data:
+        return data
+    return re.sub(rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", lambda found: found[1] or b" ", data, flags=re.M)
 
 
 def without_comments(data: bytes) -> bytes:

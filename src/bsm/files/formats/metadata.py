@@ -168,11 +168,6 @@ def as_mtl(material: Material) -> Material:
     return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
 
 
-def mtl_keywords(material: Material) -> set[str]:
-    """The parameters of a material that a library can hold."""
-    return {name for name in material if as_mtl({name: material[name]})}
-
-
 def _is_mtl(name: str) -> bool:
     return re.fullmatch(r"K[adse]|N[is]|d|Tr|Tf|illum|P[rmsc]|Pcr|aniso|anisor|sharpness", name) is not None or (
         _MTL_IMAGES.fullmatch(name.removesuffix(".options")) is not None

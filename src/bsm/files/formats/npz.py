@@ -25,7 +25,6 @@ from tokenize import TokenError
 from typing import IO, Any, BinaryIO, cast, get_args
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -33,7 +32,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import Written
-from bsm.files.formats.polygons import Column, Polygons, attributes_of, meaning_of
+from bsm.files.formats.polygons import Array, Column, Polygons, attributes_of, meaning_of
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import Input, about
 from bsm.files.room import AS_NUMBERS, TREE, require_count, require_inflated
@@ -42,7 +41,6 @@ from bsm.files.room import AS_NUMBERS, TREE, require_count, require_inflated
 _NO_HEADER = (ValueError, TypeError, KeyError, SyntaxError, RecursionError, MemoryError, OverflowError, TokenError)
 _MOST_HEADER = 1 << 16
 NPY = b"\x93NUMPY"
-Array = npt.NDArray[Any]
 Kind = np.dtype[Any]
 
 

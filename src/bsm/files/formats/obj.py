@@ -170,7 +170,7 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
         library.beside[f"{stem}.mtl"] = mtl
         libraries = [f"{stem}.mtl"]
         library.written |= {
-            f"material.{n}.{key}" for n, m in library.materials.items() for key in materials.mtl_keywords(m)
+            f"material.{n}.{key}" for n, m in library.materials.items() for key in m if materials.as_mtl({key: m[key]})
         }
     library.written |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
     library.written |= {f"{what}.names" for what in STATES if names[what]}
