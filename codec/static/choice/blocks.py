@@ -315,7 +315,7 @@ class Refined:
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""
         shaper = self._bounds.measures.shaper
-        aim = Aim(layer.step / shaper.character.mean_edge, float(self._bounds.reaches.max()))
+        aim = Aim(layer.step / shaper.mean_edge, float(self._bounds.reaches.max()))
         heights = shaper.levels(base.positions, *base.wanted(base.expected_steps(layer)), aim)
         wanted, directions = base.wanted(base.known_steps(layer, heights))
         wanted[:, 0] = heights[:, 0]

@@ -19,8 +19,8 @@ from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE, Contract
 
-COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
-"""Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
+COARSEST, SEEN = 0.05, 1.0 / 32.0
+"""Largest step, in BSM units; and about the one, in mean edges, at which rounding has a look of 1."""
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
 MARGIN = 1e-9  # of a bound, for what rounding of measures may add
 SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther ones stand out as spikes
@@ -54,11 +54,6 @@ class Measures:
     @cached_property
     def reference(self) -> Reference:
         return Reference(self.prepared.positions, self.prepared.mesh.faces)
-
-    @cached_property
-    def seen_step(self) -> float:
-        """A step on which rounding is about as visible as it may be at a look of 1, in BSM units."""
-        return self.shaper.character.step_of(ANGLE_OF_LOOK, COARSEST)
 
     @cached_property
     def look(self) -> LookMetric | None:
@@ -148,7 +143,8 @@ class Bounds:
         if self.metric is None:
             return self.even_step
         # From one step for all looks, so that a stricter one begins with a finer step.
-        step, positions = self.measures.seen_step, self.measures.prepared.positions
+        measures = self.measures
+        step, positions = min(SEEN * measures.shaper.mean_edge, COARSEST), measures.prepared.positions
         seen = self._look(np.rint(positions / step) * step)
         return min(step * self.contract.look * min(max(1.0 / max(seen, LEAST), 0.1), 10.0), COARSEST)
 

@@ -18,13 +18,14 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
-from bsm.codec.static.choice.shaping import SAMPLE, Aim
+from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid, encode_grid, sampled_ratio
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
+SAMPLE = 1 << 11  # vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at
 
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False) -> Draft:
@@ -183,7 +184,7 @@ class Gridded:
         places = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
             reach = min(float(self._bounds.reaches.min()), SPIKE * step)
-            aim = Aim(self._worth * step / self._shaper.character.mean_edge, reach, 3)
+            aim = Aim(self._worth * step / self._shaper.mean_edge, reach, 3)
             places = self._shaper.places(places, self._low, held / unit, aim)
         candidate = self._placed(held, places)
         return turned(candidate) or candidate

@@ -13,59 +13,11 @@ from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
-from bsm.codec.geometry.mesh import box_around
-from bsm.codec.geometry.metrics import LOST, Original
+from bsm.codec.geometry.metrics import Original
 from bsm.codec.static.choice.settling import PULL
 
-SAMPLE = 1 << 11  # faces and edges that the character of a surface is measured on
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
-
-
-class Character:
-    """Measures of a surface."""
-
-    def __init__(self, original: Original) -> None:
-        self._original = original
-        self._low: Matrix = box_around(original.positions)[0]
-
-    @cached_property
-    def mean_edge(self) -> float:
-        """Mean length of an edge, as faces count it: of the first edge of some."""
-        faces, positions = self._original.faces, self._original.positions
-        some = faces[:: max(1, len(faces) // SAMPLE), :2]
-        a, b = positions[some[:, 0]], positions[some[:, 1]]
-        return float(np.sqrt(np.square(a - b).sum(axis=1)).mean())
-
-    def rounded_angle(self, step: float) -> float:
-        """Mean angle of normals, degrees, on a rounded grid."""
-        corners, faces, normals, weights = self._faces
-        places = np.floor(corners * (1.0 / step) + 0.5) * step
-        return float(np.degrees(_kernels.weighted_angle(normals, weights, places, faces, LOST)))
-
-    def step_of(self, angle: float, most: float) -> float:
-        """About the step on which rounding bends normals by so much, degrees; at most `most`."""
-        step = most
-        for _ in range(6):
-            found = self.rounded_angle(step)
-            if step >= most and found <= angle:
-                break
-            ratio = angle / max(found, 1e-6)
-            if 0.97 < ratio < 1.03:
-                break
-            step = min(step * min(max(ratio, 1.0 / 16.0), 16.0), most)
-        return step
-
-    @cached_property
-    def _faces(self) -> tuple[Matrix, Indices, Matrix, Matrix]:
-        """Faces, drawn by their weight: corners from the lower corner of the mesh on, and what goes with these."""
-        original = self._original
-        count = min(SAMPLE, len(original.faces))
-        at = np.cumsum(original.weights)
-        chosen = np.minimum(np.searchsorted(at, (np.arange(count) + 0.5) / count), len(at) - 1)
-        corners = original.positions[original.faces[chosen]].reshape(-1, 3) - self._low
-        faces = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
-        return corners, faces, original.normals[chosen], np.full(count, 1.0 / count)
 
 
 class Aim(NamedTuple):
@@ -91,8 +43,10 @@ class Shaper:
         self._open = np.empty(len(positions), np.uint8)
 
     @cached_property
-    def character(self) -> Character:
-        return Character(self._original)
+    def mean_edge(self) -> float:
+        """Mean length of an edge: of the first one of each face."""
+        a, b = (self._original.positions[corner] for corner in self._original.faces[:, :2].T)
+        return float(np.sqrt(np.square(a - b).sum(axis=1)).mean())
 
     def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
         """Levels along fixed directions."""

@@ -9,11 +9,11 @@ import pytest
 from bsm import PRESETS, EncodeOptions, Encoder, TriangleMesh, decode, encode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
-from bsm.codec.static.choice.shaping import Character, Shaper
+from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import join
 from bsm.comparison import in_order_of
 from bsm.files.mesh import read_mesh
-from tests.shapes import curved, grid_faces, patch, torus
+from tests.shapes import curved, grid_faces, patch
 
 
 def box(cells: int, lines: int, seed: int = 0) -> TriangleMesh:
@@ -26,20 +26,6 @@ def box(cells: int, lines: int, seed: int = 0) -> TriangleMesh:
     positions = np.concatenate([np.roll(side, axis, axis=1) for axis in range(3) for side in sides])
     apart = TriangleMesh(positions, np.concatenate([faces + number * count for number in range(6)]))
     return join(apart, keep=False).mesh
-
-
-def character_of(mesh: TriangleMesh) -> Character:
-    """Measures of a mesh in its own unit."""
-    return Shaper(Original(mesh.positions, mesh.faces), graph_of_faces(mesh.faces, len(mesh.positions))).character
-
-
-def test_a_step_bends_as_much_as_it_should() -> None:
-    mesh = torus(60, 40)
-    character = character_of(mesh)
-    for angle in (1.0, 4.0, 10.0):
-        step = character.step_of(angle, 1.0)
-        places = np.floor((mesh.positions - mesh.positions.min(axis=0)) / step + 0.5) * step
-        assert Original(mesh.positions, mesh.faces).angle(places) == pytest.approx(angle, rel=0.15)
 
 
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
