@@ -131,6 +131,7 @@ are worth."""
 BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
+FINER = 3.0  # ratio of steps along tangents where errors count alike in all directions
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
 
@@ -258,10 +259,11 @@ class Plain:
 
 
 class Refined:
-    """Blocks and a layer of refinement, by its step; levels are settled for their bits, or shaped for normals."""
+    """Blocks and a layer of refinement, by its step; levels are settled for their bits, or shaped for normals. Steps
+    along tangents are wider by a ratio."""
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True) -> None:
-        self._prepared, self._bounds, self._settled = prepared, bounds, settled
+    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO) -> None:
+        self._prepared, self._bounds, self._settled, self._ratio = prepared, bounds, settled, ratio
         self._spectral = Spectral(prepared, options, WIDEST)
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
@@ -270,7 +272,8 @@ class Refined:
 
     @cached_property
     def first(self) -> float:
-        return self._bounds.first_step / math.sqrt(2.0)  # all of it is along normals, of a grid's about half
+        # Of the look that a usual layer takes, steps along tangents take as much as those along normals.
+        return self._bounds.first_step / math.hypot(1.0, self._ratio / RATIO)
 
     def _made(self, step: float) -> Candidate:
         base = self._base
@@ -300,10 +303,10 @@ class Refined:
         """Levels that are worth their bits; and their known steps."""
         base, reaches = self._base, self._bounds.reaches
         room = (self._diagonal / step) ** 2 - 1.0
-        ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), RATIO)
+        ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self._ratio)
         layer = Layer(single(step), ratio)
         steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
-        levels = self._settler.levels(base.offsets, base.frames, steps, known, PULLED, self._near(steps))
+        levels = self._settler.levels(base.offsets, base.frames, steps, known, self._ratio, PULLED, self._near(steps))
         return layer, *base.within(reaches, layer, levels)
 
     @cached_property

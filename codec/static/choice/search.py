@@ -11,7 +11,7 @@ from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.look.measure import LookMetric, Shading
-from bsm.codec.static.choice.blocks import Plain, Refined
+from bsm.codec.static.choice.blocks import FINER, Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
@@ -136,6 +136,8 @@ class Search:
         blocks: list[Way] = [Refined(prepared, options, bounds)]
         if bounds.contract.angle < ANY_ANGLE:
             blocks.append(Refined(prepared, options, bounds, settled=False))
+        if bounds.contract.visual < math.inf:
+            blocks.append(Refined(prepared, options, bounds, ratio=FINER))
         if bounds.contract.look == math.inf:
             blocks.append(Plain(prepared, options, bounds))
         with suppress(LimitError):  # blocks that decoders would refuse

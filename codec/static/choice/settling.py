@@ -57,13 +57,14 @@ class Settler:
         frames: Matrix,
         steps: Matrix,
         known: Callable[[Levels], Matrix],
+        ratio: float,
         worth: float,
         reach: Matrix,
     ) -> Levels:
         """Return levels that are worth their bits, shape (n, axes)."""
         count, axes = steps.shape
         unit = worth * float(steps[0, 0]) ** 2
-        tangent = ASIDE / np.square(tangent_steps(self._positions, self._faces, 1.0, RATIO))
+        tangent = ASIDE / np.square(tangent_steps(self._positions, self._faces, 1.0, ratio))
         losses = np.column_stack([np.maximum(1.0 - tangent, 0.0), tangent]) / max(unit, 1e-300)
         normals = in_frames(self._frames[:, 0], frames)
         levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)
