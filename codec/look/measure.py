@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Sequence
-from copy import copy
 from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
@@ -45,7 +44,6 @@ LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
 _LARGEST = 1e150
 
 Paint = Callable[[Canvas, Faces, Matrix], list[Picture]]
-Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
 
 
 def _earlier(name: str, now: str) -> property:
@@ -111,16 +109,9 @@ class Gallery:
 
 
 class LookMetric:
-    """Pictures of an original, and versions of it: with its own normals if it has some, or what `shading` makes."""
+    """Pictures of an original, and versions of it: with its own normals if it has some."""
 
-    def __init__(
-        self,
-        mesh: TriangleMesh,
-        *,
-        threads: int | None = None,
-        shading: Shading | None = None,
-        most_pixels: int = MOST_PIXELS,
-    ) -> None:
+    def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
         self._mesh, self._threads = mesh, threads
         used = mesh.positions[np.bincount(mesh.faces.ravel(), minlength=len(mesh.positions)) > 0]
         low, high = box_around(used)
@@ -144,15 +135,8 @@ class LookMetric:
             raise MeshError("the mesh cannot be looked at: its faces have no area")
         own = own_normals(mesh)
         self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
-        self._shading = shading
         self._known: dict[bytes, Look] = {}
         self._turned: dict[bytes, float] = {}
-
-    def shaded_by(self, shading: Shading) -> LookMetric:
-        """Return the same metric for versions with normals that `shading` makes."""
-        other = copy(self)
-        other._shading, other._known = shading, {}
-        return other
 
     def look(self, positions: Positions) -> Look:
         """How these positions, shape (n, 3), look on the faces of the original; with its own normals, too."""
@@ -170,10 +154,8 @@ class LookMetric:
 
     def with_room(self, positions: Positions) -> float:
         """Return the distance of positions, shape (n, 3); with own normals, some of it is left for rounding these."""
-        look = self.look(positions)
-        if self._own is None or self._shading is not None:
-            return look.distance
-        return max(self.bare(positions).distance, self._dressed(positions).distance / (1.0 - ROOM))
+        bare = self.bare(positions).distance
+        return bare if self._own is None else max(bare, self._dressed(positions).distance / (1.0 - ROOM))
 
     def bare(self, positions: Positions) -> Look:
         """How positions, shape (n, 3), look with normals that follow from them."""
@@ -190,9 +172,7 @@ class LookMetric:
         pictures, own = self._own
 
         def seen() -> Look:
-            placed = self._placed(positions)
-            normals = self._shading(placed) if self._shading else own
-            return self._seen(pictures, placed, self._shape.faces, normals)
+            return self._seen(pictures, self._placed(positions), self._shape.faces, own)
 
         return self._once(seen, positions, own)
 

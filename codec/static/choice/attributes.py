@@ -186,35 +186,32 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     bare, metric, free = search.smallest(contract), search.metric, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
         return given.dressed(bare)
-    recomputed, decoded, asked = given.carry_with(free, Quality("recompute")), _decoded(given, bare), contract.look
+    decoded, asked = _decoded(given, bare), contract.look
 
-    def looks(carried: tuple[PreparedAttribute, ...], positions: Positions) -> bool:
-        return metric.shaded(positions, carried[free].normals(positions)) <= asked
+    def seen(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
+        return metric.shaded(positions, carried[free].normals(positions)) / asked
 
     finer = [*(Quality("bits", bits) for bits in range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)), Quality("exact")]
 
     def enough(at: int) -> bool:
-        return looks(given.carry_with(free, finer[at]), decoded)
+        return seen(given.carry_with(free, finer[at]), decoded) <= 1.0
 
-    may = not metric.against_faces
-    if may and looks(recomputed, decoded):
-        given.carried = recomputed
-        return given.dressed(bare)
+    recomputed = given.carry_with(free, Quality("recompute"))
     given.carried = given.carry_with(free, finer[_first(enough, 0, len(finer) - 1)])
     kept = given.dressed(bare)
-    if may and looks(recomputed, given.prepared.positions):
-        other_search = search.shaded_by(recomputed[free].normals)
-        with suppress(TargetError):
-            for _ in range(TRIES):
-                draft = other_search.smallest(contract)
-                other, decoded = with_attributes(draft, recomputed, given.given.metadata), _decoded(given, draft)
-                if other.size >= kept.size:
-                    break
-                seen = metric.shaded(decoded, recomputed[free].normals(decoded)) / asked
-                if seen <= 1.0:
-                    given.carried, kept = recomputed, other
-                    break
-                contract = replace(contract, look=contract.look / seen * (1.0 - SLACK))
+    if metric.against_faces or seen(recomputed, given.prepared.positions) > 1.0:
+        return kept
+    with suppress(TargetError):
+        for _ in range(TRIES):  # of none, and positions that are as much nearer as they need to be then
+            other = with_attributes(bare, recomputed, given.given.metadata)
+            if other.size >= kept.size:
+                break
+            share = seen(recomputed, _decoded(given, bare))
+            if share <= 1.0:
+                given.carried = recomputed
+                return other
+            contract = replace(contract, look=contract.look / share**2 * (1.0 - SLACK))  # part of it is there before
+            bare = search.smallest(contract)
     return kept
 
 

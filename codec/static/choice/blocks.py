@@ -262,7 +262,9 @@ class Refined:
     """Blocks and a layer of refinement, by its step; levels are settled for their bits, or shaped for normals. Steps
     along tangents are wider by a ratio."""
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO) -> None:
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO
+    ) -> None:
         self._prepared, self._bounds, self._settled, self._ratio = prepared, bounds, settled, ratio
         self._spectral = Spectral(prepared, options, WIDEST)
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
@@ -303,10 +305,10 @@ class Refined:
         """Levels that are worth their bits; and their known steps."""
         base, reaches = self._base, self._bounds.reaches
         room = (self._diagonal / step) ** 2 - 1.0
-        ratio = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self._ratio)
-        layer = Layer(single(step), ratio)
+        layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self._ratio))
         steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
-        levels = self._settler.levels(base.offsets, base.frames, steps, known, self._ratio, PULLED, self._near(steps))
+        near = self._near(steps)
+        levels = self._settler.levels(base.offsets, base.frames, steps, known, PULLED, near, self._ratio)
         return layer, *base.within(reaches, layer, levels)
 
     @cached_property

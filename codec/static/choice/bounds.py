@@ -145,8 +145,10 @@ class Bounds:
         # From one step for all looks, so that a stricter one begins with a finer step.
         measures = self.measures
         step, positions = min(SEEN * measures.shaper.mean_edge, COARSEST), measures.prepared.positions
-        seen = self._look(np.rint(positions / step) * step)
-        return min(step * self.contract.look * min(max(1.0 / max(seen, LEAST), 0.1), 10.0), COARSEST)
+        for _ in range(2):
+            seen = self._look(np.rint(positions / step) * step)
+            step = min(step * min(max(1.0 / max(seen, LEAST), 0.1), 10.0), COARSEST)
+        return min(step * self.contract.look, COARSEST)
 
     @cached_property
     def even_step(self) -> float:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
-from copy import copy
 from operator import attrgetter
 from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
-from bsm.codec.look.measure import LookMetric, Shading
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import FINER, Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
@@ -71,14 +70,6 @@ class Search:
         if not kept:
             kept.append(self._last_resort(bounds))
         return min((candidate.draft for candidate in kept), key=self._size)
-
-    def shaded_by(self, shading: Shading) -> Search:
-        """Return a search for the same mesh, where decoded meshes are drawn with normals that `shading` makes."""
-        other = copy(self)
-        other._measures = copy(self._measures)
-        if self.metric is not None:
-            other._measures.look = self.metric.shaded_by(shading)
-        return other
 
     def _last_resort(self, bounds: Bounds) -> Candidate:
         """The result of grids that are finer than where a search began, where it came to nothing."""

@@ -57,9 +57,9 @@ class Settler:
         frames: Matrix,
         steps: Matrix,
         known: Callable[[Levels], Matrix],
-        ratio: float,
         worth: float,
         reach: Matrix,
+        ratio: float = RATIO,
     ) -> Levels:
         """Return levels that are worth their bits, shape (n, axes)."""
         count, axes = steps.shape

@@ -1,14 +1,16 @@
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm import Comparison, EncodeOptions, Encoder, OptionError, Target, TargetError, decode
+from bsm import PRESETS, Comparison, EncodeOptions, Encoder, OptionError, Target, TargetError, decode, encode
 from bsm.codec.geometry.metrics import compare
 from bsm.codec.static.targets import SLACK, search_step
+from bsm.files.mesh import read_mesh
 from tests.shapes import torus
 
 
@@ -78,3 +80,11 @@ def test_wrong_targets_are_refused():
     for kind, value in (("theta", 5.0), ("theta_deg", 0.0), ("size", float("nan"))):
         with pytest.raises(OptionError):
             Target(kind, value)
+
+
+@pytest.mark.real
+def test_a_target_beside_the_look_takes_little_more(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "static" / "gargoyle_10002.ply")).mesh.bare
+    target = Target("nmsve_db", -55.0)
+    alone, both = (len(encode(mesh, replace(PRESETS[name], target=target))) for name in ("none", "balanced"))
+    assert both <= 1.1 * max(alone, len(encode(mesh)))
