@@ -131,7 +131,6 @@ are worth."""
 BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
-FINER = 3.0  # ratio of steps along tangents where errors count alike in all directions
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
 FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
 

@@ -10,9 +10,10 @@ from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.static.choice.blocks import FINER, Plain, Refined
+from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
+from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
@@ -127,8 +128,8 @@ class Search:
         blocks: list[Way] = [Refined(prepared, options, bounds)]
         if bounds.contract.angle < ANY_ANGLE:
             blocks.append(Refined(prepared, options, bounds, settled=False))
-        if bounds.contract.visual < math.inf:
-            blocks.append(Refined(prepared, options, bounds, ratio=FINER))
+        if bounds.contract.visual < math.inf:  # it counts errors in all directions
+            blocks.append(Refined(prepared, options, bounds, ratio=math.sqrt(RATIO)))
         if bounds.contract.look == math.inf:
             blocks.append(Plain(prepared, options, bounds))
         with suppress(LimitError):  # blocks that decoders would refuse
