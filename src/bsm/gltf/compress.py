@@ -467,9 +467,7 @@ def compress(
                 errors.append(found.error)
         elif streams:
             left["a stream would not be smaller"] += primitives
-    if images:
-        scene.rewrite_images(images)
-    data = scene.finished()
+    data = scene.finished(images)
     worst = (max(error for error, _ in errors), max(share for _, share in errors))
     return Compressed(data, done, dict(left), b"".join(scene.plain) if fallback else b"", notes, worst)
 
@@ -600,16 +598,16 @@ class _Rewritten(gltf.Growing):
             self._virtual = max(self._virtual, array.nbytes)
         return self.add("bufferViews", view)
 
-    def rewrite_images(self, rule: ImageRule) -> None:
-        """Write images by a rule where that makes them smaller."""
+    def _take_images(self, rule: ImageRule | None) -> None:
+        """Put images inside that lie elsewhere, and write all by a rule where that makes them smaller."""
         for number, image in enumerate(self.tree.get("images", [])):
-            data = self._document.image(number)[1]
-            found = data and smaller(data, rule)
-            if not found:
-                continue
-            image.pop("uri", None)
-            image |= {"mimeType": f"image/{rule.kind}", "bufferView": self.view(found)}
-            for texture in self.tree.get("textures", []) if rule.kind == "webp" else ():
+            data = self._document.image(number)[1] if rule or "uri" in image else None
+            found = smaller(data, rule) if data and rule else None
+            kind = f"image/{rule.kind}" if rule and found else image.get("mimeType") or (data and gltf.mime_of(data))
+            if data and kind and (found or "uri" in image):
+                image.pop("uri", None)
+                image |= {"mimeType": kind, "bufferView": self.view(found or data)}
+            for texture in self.tree.get("textures", []) if found and kind == "image/webp" else ():
                 if texture.get("source") == number:
                     del texture["source"]
                     texture.setdefault("extensions", {})[gltf.WEBP] = {"source": number}
@@ -621,15 +619,10 @@ class _Rewritten(gltf.Growing):
             if extension not in names:
                 names.append(extension)
 
-    def finished(self) -> bytes:
+    def finished(self, images: ImageRule | None = None) -> bytes:
         """Return the .glb without replaced data, with external images inside, and with plain geometry elsewhere."""
         tree = self.tree
-        for number, image in enumerate(tree.get("images", [])):
-            data = self._document.image(number)[1] if "uri" in image else None
-            kind = image.get("mimeType") or (data and gltf.mime_of(data))
-            if data and kind:
-                image.pop("uri")
-                image |= {"mimeType": kind, "bufferView": self.view(data)}
+        self._take_images(images)
         self._write_draco()
         self._drop_accessors()
         self._place_views()
