@@ -54,8 +54,6 @@ bool fail_with(Context *context, bsmdec_status status, Message message);
 INLINE bool failed(const Context *context) { return context->error.status != BSMDEC_OK; }
 /* Begin the message of the error with the name of the attribute that it is about; always false. */
 bool name_attribute(Context *context, const char *name);
-/* Whether all is well. A decoder that leaves an array out for want of memory has failed, and says so here. */
-INLINE bool fine(const Context *context) { return context->error.status == BSMDEC_OK; }
 /* Fill in the places that are not known yet. */
 void locate(bsmdec_error *error, int64_t offset, int64_t frame, int64_t block);
 /* Take the error away, to continue after it; a context without memory stays failed. */

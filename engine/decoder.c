@@ -120,7 +120,6 @@ void bsmdec_close(bsmdec *decoder) {
     forget_split(decoder);
     end_reader(&decoder->reader);
     host_give(context, decoder->queue, (size_t)decoder->room * sizeof *decoder->queue);
-    host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *decoder->losses);
     bsmdec_allocator host = without_pool(context->host);
     host.release(host.host, decoder, sizeof *decoder);
 }
@@ -210,7 +209,8 @@ EXACTLY(bsmdec_status, bsmdec_next, (bsmdec *decoder, bsmdec_event *event), (dec
         *event = event_of(decoder, type, 0, 0);
         return type == BSMDEC_ERROR ? decoder->context.error.status : BSMDEC_OK;
     }
-    *event = decoder->queue[decoder->first];
+    const Report *report = decoder->queue + decoder->first;
+    *event = report->event;
     decoder->first = (decoder->first + 1) % decoder->room;
     decoder->waiting--;
     if (event->type == BSMDEC_FRAME && !show(decoder, event->index)) {
@@ -218,7 +218,7 @@ EXACTLY(bsmdec_status, bsmdec_next, (bsmdec *decoder, bsmdec_event *event), (dec
         *event = event_of(decoder, BSMDEC_ERROR, 0, 0);
         return decoder->context.error.status;
     }
-    if (event->type == BSMDEC_LOSS) decoder->loss = take_loss(decoder);
+    if (event->type == BSMDEC_LOSS) decoder->loss = report->loss;
     return BSMDEC_OK;
 }
 

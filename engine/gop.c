@@ -14,7 +14,7 @@ static bool parse_stretches(Cursor *cursor, Gop *gop) {
     for (int64_t t = 0; t < gop->frames; t++) gop->shown.data[t] = t;
     if (pieces == 0) {
         gop->coded = gop->frames;
-        return fine(cursor->context);
+        return !failed(cursor->context);
     }
     for (; pieces > 0; pieces--) {
         int64_t begin = take_varint(cursor), length = take_varint(cursor), way = 1 - begin % 3,
@@ -44,7 +44,7 @@ static bool parse_exponents(Cursor *cursor, int64_t count, Arena *arena, Ints *e
             return FAIL(cursor->context, CORRUPT, "a basis with step exponents outside 0..#", MOST_EXPONENT);
         exponents->data[i] = (int32_t)(exponent += change);
     }
-    return fine(cursor->context);
+    return !failed(cursor->context);
 }
 
 /* S 2.1. */
@@ -70,14 +70,14 @@ static bool parse_field(Context *context, Span data, const Gop *gop, Arena *aren
             return FAIL(context, CORRUPT, "# frames that start from those # before them", gop->frames, field->back);
     }
     field->levels = take_rest(&cursor);
-    return fine(context);
+    return !failed(context);
 }
 
 /* Fields of attributes, which come before that of positions (S 10.2). */
 static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool tolerant, Arena *arena, Gop *gop) {
     Context *context = cursor->context;
     int64_t fields = take_varint(cursor), before = -1;
-    if (fine(context) && fields == 0)
+    if (!failed(context) && fields == 0)
         return FAIL(context, CORRUPT, "a GOP announces attributes and codes none");
     for (; fields > 0; fields--) {
         int64_t number = take_varint(cursor);
@@ -92,7 +92,7 @@ static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool
         before = number;
         if (moves && !parse_field(context, part, gop, arena, gop->field + 1 + k)) return false;
     }
-    return fine(context);
+    return !failed(context);
 }
 
 bool parse_beginning(Cursor *cursor, int64_t longest, int64_t run, Gop *gop) {
@@ -102,7 +102,7 @@ bool parse_beginning(Cursor *cursor, int64_t longest, int64_t run, Gop *gop) {
     if (first.data[0] / METHODS != run % RUNS)
         return FAIL(cursor->context, CORRUPT, "GOP of a different run, expected #", run);
     gop->frames = gop->coded = take_varint(cursor);
-    return fine(cursor->context) && ((gop->frames >= 1 && gop->frames <= longest)
+    return !failed(cursor->context) && ((gop->frames >= 1 && gop->frames <= longest)
         || FAIL(cursor->context, CORRUPT, "a GOP of # frames where 1 to # are legal", gop->frames, longest));
 }
 

@@ -119,7 +119,7 @@ static Value take_value(Cursor *cursor, Map *map) {
         FAIL(cursor->context, CORRUPT, "the arrays of a map have too many entries");
         return list;
     }
-    for (; count > 0 && fine(cursor->context); count--)
+    for (; count > 0 && !failed(cursor->context); count--)
         map->item[map->items++] = take_single(cursor, take_byte(cursor));
     return list;
 }
@@ -138,7 +138,7 @@ bool parse_map(Context *context, Span payload, Map *map) {
     map->count = map->items = 0;
     int64_t count = count_of(&cursor, take_byte(&cursor), 0x80, 0xde);
     if (count < 0) return FAIL(context, CORRUPT, "expected a map of few entries");
-    for (int i = 0; i < count && fine(context); i++) {
+    for (int i = 0; i < count && !failed(context); i++) {
         Value *key = &map->key[i];
         *key = take_single(&cursor, take_byte(&cursor));
         map->value[i] = take_value(&cursor, map);

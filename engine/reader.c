@@ -207,7 +207,7 @@ static bool read_payload(Reader *reader, Frame frame, Packet *packet) {
         default: break;
     }
     packet->data = take_rest(&cursor);
-    return fine(reader->context);
+    return !failed(reader->context);
 }
 
 static bool is_skippable(int type) { return type >= 8 && type <= 11; }

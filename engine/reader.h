@@ -5,8 +5,8 @@
 #include "engine/grammar.h"
 #include "engine/metadata.h"
 
-/* Bytes that cannot be read, while what follows them is looked for (F 8.2): from a place on, where frames should stand
- * one behind the other if that is `sure`, and then from others. */
+/* The search for the next section after damaged bytes (F 8.2). If `place` is `sure`, the lengths of the sections before
+ * it say that one begins there; otherwise one place after the other is tried. */
 typedef struct {
     bool found, sure;
     bsmdec_error why;

@@ -24,7 +24,7 @@ bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t 
     Context *context = &decoder->context;
     if (decoder->waiting == decoder->room) {
         int64_t room = 2 * decoder->room + 16;
-        bsmdec_event *queue;
+        Report *queue;
         if (!TAKE_OF_HOST(context, room, queue)) return false;
         for (int64_t i = 0; i < decoder->waiting; i++) queue[i] = decoder->queue[(decoder->first + i) % decoder->room];
         host_give(context, decoder->queue, (size_t)decoder->room * sizeof *queue);
@@ -32,38 +32,20 @@ bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t 
         decoder->room = room;
         decoder->first = 0;
     }
-    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room] = event_of(decoder, type, index, count);
+    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room].event =
+        event_of(decoder, type, index, count);
     return true;
 }
 
 bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
-    Context *context = &decoder->context;
-    if (decoder->loss_count == decoder->loss_room) {
-        int64_t room = 2 * decoder->loss_room + 16;
-        bsmdec_error *losses;
-        if (!TAKE_OF_HOST(context, room, losses)) return false;
-        if (decoder->loss_count > 0) memcpy(losses, decoder->losses, (size_t)decoder->loss_count * sizeof *losses);
-        host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *losses);
-        decoder->losses = losses;
-        decoder->loss_room = room;
-    }
-    decoder->losses[decoder->loss_count++] = error;
-    return emit_event(decoder, BSMDEC_LOSS, index, count);
-}
-
-bsmdec_error take_loss(bsmdec *decoder) {
-    bsmdec_error loss = decoder->losses[decoder->next_loss++];
-    if (decoder->next_loss == decoder->loss_count) {
-        host_give(&decoder->context, decoder->losses, (size_t)decoder->loss_room * sizeof loss);
-        decoder->losses = NULL;
-        decoder->next_loss = decoder->loss_count = decoder->loss_room = 0;
-    }
-    return loss;
+    if (!emit_event(decoder, BSMDEC_LOSS, index, count)) return false;
+    decoder->queue[(decoder->first + decoder->waiting - 1) % decoder->room].loss = error;
+    return true;
 }
 
 bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere) {
     Context *context = &decoder->context;
-    if (!decoder->tolerant || !anywhere || context->starved || fine(context)) return false;
+    if (!decoder->tolerant || !anywhere || context->starved || !failed(context)) return false;
     locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, block);
     if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
     return emit_loss(decoder, take_error(context), block, 0);

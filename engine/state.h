@@ -107,6 +107,12 @@ typedef struct {
     int64_t blocks, reached; /* those of which changes were read: blocks; vertices of a grid or of refinement */
 } Changes;
 
+/* An event that waits, and what a LOSS event is about. */
+typedef struct {
+    bsmdec_event event;
+    bsmdec_error loss;
+} Report;
+
 struct bsmdec {
     Context context;
     Share share;
@@ -118,7 +124,7 @@ struct bsmdec {
     Sequence sequence;
     Changes changes;
     /* The queue of events, a ring. */
-    bsmdec_event *queue;
+    Report *queue;
     int64_t first, waiting, room;
     /* What positions are asked of: those of the mesh, or of a frame; in the unit of the mesh, as coded. */
     bool has_positions;
@@ -128,9 +134,7 @@ struct bsmdec {
     uint32_t expected_sum, shown_sum; /* the stream's, and that of all frames so far */
     Split split;
     char misuse[128];     /* why the last call was refused */
-    bsmdec_error loss;
-    bsmdec_error *losses; /* of LOSS events; those from `next_loss` on wait */
-    int64_t next_loss, loss_count, loss_room;
+    bsmdec_error loss;    /* of the last LOSS event */
     Pool pool; /* of memory, where the caller brings none */
 };
 
@@ -147,8 +151,6 @@ bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t ind
 bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
 /* Report an error as a loss: of `count` frames of a sequence from `index` on, or of a block. */
 bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
-/* The loss of the first LOSS event that waits. */
-bsmdec_error take_loss(bsmdec *decoder);
 /* Build the graph of the faces, or the blocks with their chains and assembly, unless that was done. */
 bool graph_of(bsmdec *decoder);
 bool build(bsmdec *decoder);

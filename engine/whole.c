@@ -194,7 +194,7 @@ EXACTLY(bsmdec_status, bsmdec_decode,
     whole->finds_fields = options.fields == NULL;
     whole->stride = options.stride;
     whole->index_size = options.index_size;
-    bool done = known && fine(context) && bsmdec_push(decoder, bytes, size) == BSMDEC_OK
+    bool done = known && !failed(context) && bsmdec_push(decoder, bytes, size) == BSMDEC_OK
         && bsmdec_finish(decoder) == BSMDEC_OK && (whole->finds_fields || copy_fields(whole, &options))
         && decode_next(whole);
     return status_of(whole, done);
