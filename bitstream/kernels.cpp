@@ -1,6 +1,8 @@
 // The kernels of `bitstream` as functions of Python: one line each.
 #include "bitstream/kernel.hpp"
 
+#include <string_view>
+
 extern "C" {
 #include "bitstream/attributes/attributes.h"
 #include "bitstream/coefficients/coefficients.h"
@@ -16,6 +18,12 @@ BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 
 using namespace nb::literals;
 
+static const struct {
+    const char *kernel;
+    const BankPlan &plan;
+} PLANS[] = {{"code_steps", STEP_BANK}, {"code_turns", TURN_BANK}, {"code_labels", LABEL_BANK},
+    {"code_block", BLOCK_BANK}, {"code_matrix", MATRIX_BANK}, {"code_edges", EDGE_BANK}};
+
 NB_MODULE(_kernels, m) {
     make_tables();
 
@@ -24,6 +32,14 @@ NB_MODULE(_kernels, m) {
         "value"_a, "node"_a = 0);
 
     m.def("priors", [] { return nb::bytes(PRIORS, PRIORS_BYTES); });
+
+    // Slots, selectors, inputs, limit and rate of the bank that a kernel needs; 0: what most have.
+    m.def("bank_plan", [](const char *kernel) {
+        for (const auto &[name, plan] : PLANS)
+            if (name == std::string_view(kernel))
+                return nb::make_tuple(plan.slots, plan.selectors, plan.inputs, plan.limit, plan.rate);
+        throw nb::key_error(kernel);
+    }, "kernel"_a, nb::sig("def bank_plan(kernel: str) -> tuple[int, int, int, int, int]"));
 
     m.def("code_steps", checked<code_steps>, "coder"_a, "bank"_a, "values"_a, "tree"_a, Unlocked());
     m.def("code_turns", checked<code_turns>, "coder"_a, "bank"_a, "values"_a, Unlocked());

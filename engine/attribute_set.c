@@ -4,8 +4,7 @@
 #include "engine/costs.h"
 #include "engine/corners.h"
 
-enum { SEAM = 1, SEAM_INPUTS = 4, OTHERS = 9, SEAM_SLOTS = 32 * 32 + 9 * 16 + MOST_ATTRIBUTES + 9,
-    MOST_WHOLE = (1 << 20) - 1 };
+enum { SEAM = 1, MOST_WHOLE = (1 << 20) - 1 };
 enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257,
     DIRECTIONS = 12 };
 static const double DECLARED_WORK = 6e5, ATTRIBUTE_WORK = 4e5;
@@ -57,7 +56,7 @@ static bool read_seams(Attributes *attributes, int64_t index, Span payload, Aren
     if (!attributes->has_corners || !zero_bytes(attributes->arena, size, &joins->seams)
         || !zero_bytes(scratch, size, &others) || !take_ints(scratch, size, &joined)
         || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
-        || !make_bank(scratch, (BankPlan){.slots = SEAM_SLOTS, .selectors = OTHERS, .inputs = SEAM_INPUTS}, &bank)
+        || !make_bank(scratch, EDGE_BANK, &bank)
         || !begin_reading(context, payload, &reading))
         return false;
     look_at_others(attributes, index, others);

@@ -6,8 +6,7 @@
 #include "engine/zstd.h"
 
 static const double STIFFNESS = 8;
-enum { LEVEL_LIMIT = 400, LEVEL_RATE = 4, PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBORS,
-    PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
+enum { PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBORS, PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
 
 bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
     Arena *arena) {
@@ -67,8 +66,7 @@ static bool begin_chain(Chains *chains, int64_t number) {
     Past *past = &chains->past;
     int64_t rows = ABOVE + chains->header->coefficients + BEYOND;
     enter_chain(chains, number);
-    if (!make_bank(arena, (BankPlan){.slots = LEVEL_SLOTS, .selectors = SELECTORS * NODES, .inputs = EXPECTATIONS,
-            .limit = LEVEL_LIMIT, .rate = LEVEL_RATE}, &chains->bank)
+    if (!make_bank(arena, BLOCK_BANK, &chains->bank)
         || !zero_ints2(arena, rows, 3, &past->current) || !zero_ints2(arena, rows, 3, &past->before)
         || !zero_ints2(arena, rows, 3, &past->usual) || !zero_longs(arena, 1, &past->blocks)
         || !take_ints2(arena, EXPECTATIONS * SITUATIONS, NEIGHBORS, &chains->expectations))

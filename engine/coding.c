@@ -88,10 +88,3 @@ bool make_bank(Arena *arena, BankPlan plan, Bank *bank) {
     bank->settings.data[1] = plan.rate > 0 ? plan.rate : 14;
     return true;
 }
-
-bool make_level_bank(Arena *arena, Bank *bank) {
-    enum { INPUTS = 6, UNARY = 14, SPAN = SIGNED_SPAN(UNARY) + 3, ALIKE = 12, PLACES = 40 };
-    int64_t slots = ((INPUTS - 1) * ALIKE * ALIKE + ALIKE * PLACES) * SPAN;
-    return make_bank(arena,
-        (BankPlan){.slots = slots, .selectors = 3 * SPAN, .inputs = INPUTS, .limit = 400, .rate = 10}, bank);
-}

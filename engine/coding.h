@@ -28,13 +28,6 @@ bool nonsense(const Reading *reading, const char *what);
 /* Whether the payload was read exactly to its end (C 1.5). */
 bool finish_reading(const Reading *reading);
 
-/* What a bank starts from; 0 is what most have: limit 255, rate 14, probability 1 / 2. */
-typedef struct {
-    int64_t slots, selectors;
-    int inputs, limit, rate, probability, trust;
-} BankPlan;
 MUST_CHECK bool make_bank(Arena *arena, BankPlan plan, Bank *bank);
-/* The model of a sequence's levels, and of columns of whole numbers (S 4.1). */
-MUST_CHECK bool make_level_bank(Arena *arena, Bank *bank);
 
 #endif

@@ -212,7 +212,7 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
     Ints levels;
     Doubles2 turned, time;
     Doubles vector, shares;
-    bool done = zero_doubles2(arena, width * frames, r, basis) && make_level_bank(scratch, &bank)
+    bool done = zero_doubles2(arena, width * frames, r, basis) && make_bank(scratch, MATRIX_BANK, &bank)
         && TAKE(scratch, width, matrices) && zero_ints(scratch, width * size, &levels)
         && take_doubles2(scratch, width * frames, r, &turned) && time_cosines(frames, scratch, &time)
         && take_doubles(scratch, width * frames, &vector) && take_doubles(scratch, r, &shares);
@@ -464,7 +464,7 @@ static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
             || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), decoding.found + k))
             return false;
         Mark mark = mark_of(scratch);
-        if (!make_level_bank(scratch, &bank)
+        if (!make_bank(scratch, MATRIX_BANK, &bank)
             || (field->step > 0
                 && !read_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
             return false;
@@ -490,7 +490,7 @@ static bool begin_history(Gops *gops) {
         memset(track->ring, 0, sizeof track->ring);
         track->latest = 0;
         track->count = 1;
-        if (!make_level_bank(&gops->history, &track->bank)
+        if (!make_bank(&gops->history, MATRIX_BANK, &track->bank)
             || !zero_doubles(&gops->history, gops->parts.rows * track->width, track->ring))
             return false;
         if (track->starts_at_first)

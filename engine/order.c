@@ -6,23 +6,20 @@
 #include "engine/costs.h"
 #include "engine/coding.h"
 
-enum { MOST_GIVEN = 1 << 24, STEP_UNARY = 6, STEP_SPAN = SIGNED_SPAN(STEP_UNARY) + 1, STEP_INPUTS = 4, CLASSES = 32,
-    TURN_SLOTS = 108 };
+enum { MOST_GIVEN = 1 << 24 };
 enum { FIRST, COPY, LOOSE };
 
 static bool read_permutation(Reading *reading, Arena *scratch, Ints values) {
     Bank bank;
     Ints tree;
-    BankPlan plan = {.slots = (1 + CLASSES + 2 * CLASSES * CLASSES) * STEP_SPAN, .selectors = STEP_SPAN,
-        .inputs = STEP_INPUTS};
-    if (!make_bank(scratch, plan, &bank) || !take_ints(scratch, values.size + 1, &tree)) return false;
+    if (!make_bank(scratch, STEP_BANK, &bank) || !take_ints(scratch, values.size + 1, &tree)) return false;
     bool legal = code_steps(reading->coder, bank, values, tree);
     return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not a permutation");
 }
 
 static bool read_turns(Reading *reading, Arena *scratch, Ints values) {
     Bank bank;
-    if (!make_bank(scratch, (BankPlan){.slots = TURN_SLOTS, .selectors = 2, .inputs = 2}, &bank)) return false;
+    if (!make_bank(scratch, TURN_BANK, &bank)) return false;
     bool legal = code_turns(reading->coder, bank, values);
     return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not numbers from 0 to 2");
 }
@@ -31,7 +28,7 @@ static bool read_turns(Reading *reading, Arena *scratch, Ints values) {
 static bool read_column(Reading *reading, Arena *scratch, Ints values) {
     Bank bank;
     Longs slow;
-    if (!make_level_bank(scratch, &bank) || !take_longs(scratch, 1, &slow)) return false;
+    if (!make_bank(scratch, MATRIX_BANK, &bank) || !take_longs(scratch, 1, &slow)) return false;
     code_matrix(reading->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0,
         values.size, 1, slow);
     return !ran_over(reading) || nonsense(reading, "");

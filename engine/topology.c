@@ -4,7 +4,7 @@
 #include "bitstream/connectivity/connectivity.h"
 #include "engine/coding.h"
 
-enum { FIRST_NODES_ROOM = 16, FAN_SLOTS = 32, EVENT_TRUST = 30,
+enum { FIRST_NODES_ROOM = 16, EVENT_TRUST = 30,
     FAN_BYTES = 32 /* more than the vertex of a fan, or a corner of a face that repeats one, can take */ };
 /* Bytes that decoding and the graph take at most for each; only fans that are sewn together count (M 14.8). */
 static const double FACE_MEMORY = 100, VERTEX_MEMORY = 400, FAN_MEMORY = 240;
@@ -80,7 +80,7 @@ static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, Ints kno
     if (!take_ints(scratch, fans, &after) || !take_ints(scratch, fans, &before)
         || !take_ints(scratch, fans, &vertex) || !take_ints(scratch, fans, &sibling)
         || !take_ints(scratch, fans, &latest)
-        || !make_bank(scratch, (BankPlan){.slots = FAN_SLOTS, .selectors = 1, .inputs = 1}, &bank)
+        || !make_bank(scratch, FAN_BANK, &bank)
         || !find_borders(scratch, faces, after, before))
         return -1;
     if (known.data == NULL) {
@@ -149,13 +149,9 @@ bool code_connectivity(Context *context, Span payload, const Header *header, con
 }
 
 bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
-    enum { INPUTS = 3, CANDIDATES = 4, LABEL_CONTEXTS = 16 * (CANDIDATES + 1) };
     Reading reading;
     Bank bank;
-    if (!make_bank(scratch, (BankPlan){.slots = INPUTS * LABEL_CONTEXTS, .selectors = CANDIDATES + 1, .inputs = INPUTS},
-        &bank)
-        || !begin_reading(context, payload, &reading))
-        return false;
+    if (!make_bank(scratch, LABEL_BANK, &bank) || !begin_reading(context, payload, &reading)) return false;
     int64_t used = code_labels(reading.coder, bank, graph->offsets, graph->neighbors, labels, parts);
     return finish_reading(&reading)
         && (used == parts || FAIL(context, CORRUPT, "the partition has # parts where the header has #", used, parts));

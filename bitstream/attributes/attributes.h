@@ -92,6 +92,7 @@ typedef struct {
 int64_t code_faces(Coder coder, ValueModel model, Corners corners, FaceValues values, int64_t first, int64_t count);
 
 /* Edges across which an attribute changes, and the corners that share a value. See seams.py. */
+extern INSIDE const BankPlan EDGE_BANK;
 int64_t code_edges(Coder coder, Bank bank, Corners corners, Bytes seams, ConstBytes others, Ints2 ends);
 int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first);
 

@@ -13,6 +13,7 @@ enum {
     OTHER_CONTEXT = SIDES_CONTEXT + 256,
     SLOTS = OTHER_CONTEXT + OTHERS,
 };
+INSIDE const BankPlan EDGE_BANK = {.slots = SLOTS, .selectors = OTHERS, .inputs = INPUTS};
 
 enum { KNOWN_SEAMS, LEFT, BORDER, END_COLUMNS }; /* of a vertex: seams that are known, edges that are not, open edges */
 

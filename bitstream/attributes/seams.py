@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import Coder, finish_writing, make_bank, start_writing
+from bsm.bitstream.entropy.range_coder import Coder, bank_of, finish_writing, start_writing
 from bsm.bitstream.fields.corners import Corners
 from bsm.bitstream.once import cached_property
 
@@ -15,10 +15,6 @@ Flags = npt.NDArray[np.uint8]
 
 NO_SEAM, SEAM, OPEN = 0, 1, 2
 """Of the edge that a corner faces; OPEN: no corner faces it from beyond, and nothing is shared across it."""
-
-_INPUTS = 4
-_OTHERS = 9
-_SLOTS = 32 * 32 + 9 * 16 + 256 + 9
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,9 +74,7 @@ def encode_seams(corners: Corners, seams: Flags, earlier: tuple[Flags, ...] = ()
 
 def code_edges(coder: Coder, corners: Corners, seams: Flags, earlier: tuple[Flags, ...]) -> None:
     ends = np.empty((len(corners.rank), 3), np.int32)
-    _kernels.code_edges(
-        coder, make_bank(_SLOTS, _OTHERS, _INPUTS, limit=255), corners, seams, _others(earlier, len(seams)), ends
-    )
+    _kernels.code_edges(coder, bank_of("code_edges"), corners, seams, _others(earlier, len(seams)), ends)
 
 
 def _others(earlier: tuple[Flags, ...], size: int) -> Flags:

@@ -13,6 +13,8 @@ void points_of_levels(ConstInts2 levels, Ints2 points) {
 
 /* Adaptive coding of quantized coefficients (specification, M 9.2 to M 9.7). */
 
+INSIDE const BankPlan BLOCK_BANK = {
+    .slots = LEVEL_SLOTS, .selectors = SELECTORS * NODES, .inputs = EXPECTATIONS, .limit = 400, .rate = 4};
 
 /* Code one level of a grid (M 9.6). */
 INLINE int32_t code_level(

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream._kernels import priors
+from bsm.bitstream._kernels import bank_plan, priors
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import ONE
 from bsm.bitstream.errors import OptionError
@@ -47,8 +47,6 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
 
 Magnitudes = npt.NDArray[np.int32]
 NEIGHBORS = 20  # inputs of an expectation
-SITUATIONS = 6  # each has its own weights: first block of a chain or a later one, times coordinate
-BINS = 48  # three to the octave
 _ABOVE = 8  # rows of zeros in front of the first frequency, as far as any neighbor reaches
 _BEYOND = 3  # and behind the last
 
@@ -79,11 +77,6 @@ def points_of_levels(levels: Levels) -> Levels:
     return points
 
 
-EXPECTATIONS = 3  # from everything, from the same block alone, from earlier blocks alone; each is a context of its own
-NODES = 38  # binary decisions that have a probability of their own, see `bitstream.coefficients.adaptive`
-SELECTORS = 2  # sets of mixing weights for each node: first block of a chain, later blocks
-
-
 class Experience(NamedTuple):
     """Learned numbers, in the order of the specification."""
 
@@ -95,8 +88,9 @@ class Experience(NamedTuple):
 @cache
 def shipped_experience() -> Experience:
     """Return the statistics of coefficients before the first one; part of the format."""
-    sizes = [EXPECTATIONS * SITUATIONS * NEIGHBORS, SELECTORS * NODES * EXPECTATIONS]
-    expectations, mixing, slots = np.split(np.frombuffer(priors(), "<u2"), np.cumsum(sizes))
+    slot_count, selectors, inputs, *_ = bank_plan("code_block")
+    places = [-slot_count - selectors * inputs, -slot_count]
+    expectations, mixing, slots = np.split(np.frombuffer(priors(), "<u2"), places)
     return Experience(expectations, mixing.view(np.int16), slots)
 
 
@@ -112,10 +106,10 @@ class CoefficientModel:
     experience: Experience = field(default_factory=shipped_experience)
 
     def __post_init__(self) -> None:
-        self.bank = entropy.make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
+        self.bank = entropy.bank_of("code_block")
         expectations, mixing, slots = (array.astype(np.int64) for array in self.experience)
         self.bank.slots[:] = (slots >> 4) << 20 | 1 << 19 | (slots & 15) << 2
-        self.bank.weights[:] = mixing.reshape(-1, EXPECTATIONS) << 4
+        self.bank.weights[:] = mixing.reshape(self.bank.weights.shape) << 4
         self.past = make_past(self.width)
         self.expectations = expectations.astype(np.int32).reshape(-1, NEIGHBORS)
 

@@ -146,6 +146,7 @@ INLINE void set_contexts(ConstInts2 expectations, int situation, const int32_t *
 INLINE int64_t level_selector(const Chain *chain) { return *chain->blocks == 0 ? 0 : NODES; }
 
 /* Adaptive coding of quantized coefficients. See adaptive.py. */
+extern INSIDE const BankPlan BLOCK_BANK;
 int64_t code_block(Coder coder, Bank bank, Past past, ConstInts2 expectations, Ints2 levels);
 
 void points_of_levels(ConstInts2 levels, Ints2 points);
@@ -153,6 +154,7 @@ void points_of_levels(ConstInts2 levels, Ints2 points);
 /* Entropy coding of a sequence's levels. See matrices.py. */
 enum { PRICED = 6 }; /* magnitudes whose prices are computed */
 
+extern INSIDE const BankPlan MATRIX_BANK;
 int64_t code_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow);
 int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,

@@ -18,6 +18,8 @@ enum {
     COST_SHIFT = 4, /* a cost for each probability, less these bits */
     COSTS = (ONE >> COST_SHIFT) + 1,
 };
+INSIDE const BankPlan MATRIX_BANK = {
+    .slots = MATRIX_SLOTS, .selectors = WEIGHT_SETS * SPAN, .inputs = INPUTS, .limit = 400, .rate = 10};
 
 /* Magnitude class 0 .. 11 of a sum of magnitudes. */
 INLINE int64_t class_of(int64_t value) {

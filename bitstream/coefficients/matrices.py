@@ -16,20 +16,13 @@ Lead: TypeAlias = tuple[int, int]
 
 _Extent: TypeAlias = tuple[int, int, int, int]  # a lead, the row from which on few columns are coded, and how many
 
-_INPUTS = 6
-_UNARY = 14
-_SPAN = entropy.signed_span(_UNARY) + 3  # of the second grid, whether a level is zero, and whether one; more
-_CLASSES = 12
-_ROWS = 40
-_SLOTS = ((_INPUTS - 1) * _CLASSES * _CLASSES + _CLASSES * _ROWS) * _SPAN
-_SELECTORS = 3 * _SPAN
 _NEVER = np.iinfo(np.int16).max
 PRICED = 6  # magnitudes, from 0 on, that `price_levels` tells the prices of
 
 
 def make_level_bank() -> entropy.Bank:
     """The adaptive state of a level coder, neutral; one for each sequence of payloads that learn from each other."""
-    return entropy.make_bank(_SLOTS, _SELECTORS, _INPUTS, limit=400, rate=10)
+    return entropy.bank_of("code_matrix")
 
 
 def write_levels(

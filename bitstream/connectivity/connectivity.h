@@ -243,9 +243,11 @@ int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex);
 int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner);
 
 /* The part of each vertex. See partition.py. */
+extern INSIDE const BankPlan LABEL_BANK;
 int64_t code_labels(Coder coder, Bank bank, ConstInts offsets, ConstInts neighbors, Ints labels, int64_t parts);
 
 /* Permutations and rotations. See permutation.py. */
+extern INSIDE const BankPlan STEP_BANK, TURN_BANK;
 int64_t code_steps(Coder coder, Bank bank, Ints values, Ints tree);
 int64_t code_turns(Coder coder, Bank bank, Ints values);
 
@@ -254,6 +256,7 @@ typedef struct {
     Ints vertex, after, before, sibling, latest;
 } Seams;
 
+extern INSIDE const BankPlan FAN_BANK;
 int64_t code_fans(Coder coder, Bank bank, ConstInts known, Seams seams);
 int64_t code_degenerate(Coder coder, Ints corners, int64_t count);
 

@@ -9,11 +9,6 @@ from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.errors import OptionError
 
 Ints = npt.NDArray[np.int32]
-_UNARY = 6
-_SAME = entropy.signed_span(_UNARY)
-_SPAN = _SAME + 1
-_INPUTS = 4
-_CLASSES = 32
 _STEP_BYTES = 128  # more than one entry can take
 
 
@@ -23,12 +18,8 @@ def write_permutation(coder: entropy.Coder, values: Ints) -> entropy.Coder:
     if values.ndim != 1 or size >> 24 or (np.sort(values) != np.arange(size)).any():
         raise OptionError("not a permutation of fewer than 2**24 entries, counted from 0")
     coder = entropy.make_room(coder, _STEP_BYTES * size)
-    _kernels.code_steps(coder, permutation_bank(), values, np.empty(size + 1, np.int32))
+    _kernels.code_steps(coder, entropy.bank_of("code_steps"), values, np.empty(size + 1, np.int32))
     return coder
-
-
-def permutation_bank() -> entropy.Bank:
-    return entropy.make_bank((1 + _CLASSES + 2 * _CLASSES * _CLASSES) * _SPAN, _SPAN, _INPUTS)
 
 
 def write_rotations(coder: entropy.Coder, values: Ints) -> entropy.Coder:
@@ -36,12 +27,8 @@ def write_rotations(coder: entropy.Coder, values: Ints) -> entropy.Coder:
     if values.ndim != 1 or (len(values) and (values.min() < 0 or values.max() > 2)):
         raise OptionError("rotations of a triangle's corners are 0, 1 or 2")
     coder = entropy.make_room(coder, 4 * len(values))
-    _kernels.code_turns(coder, rotation_bank(), values)
+    _kernels.code_turns(coder, entropy.bank_of("code_turns"), values)
     return coder
-
-
-def rotation_bank() -> entropy.Bank:
-    return entropy.make_bank(3 * (9 + 27), 2, 2)
 
 
 def write_arrangement(faces: npt.ArrayLike, encoded: EncodedConnectivity) -> entropy.Coder:

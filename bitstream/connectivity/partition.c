@@ -6,6 +6,7 @@ enum {
     INPUTS = 3,
     CONTEXTS = 16 * (CANDIDATES + 1), /* of an input, a table each */
 };
+INSIDE const BankPlan LABEL_BANK = {.slots = INPUTS * CONTEXTS, .selectors = CANDIDATES + 1, .inputs = INPUTS};
 
 typedef struct {
     int32_t label[CANDIDATES], votes[CANDIDATES];

@@ -4,13 +4,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import Coder, finish_writing, make_bank, start_writing
+from bsm.bitstream.entropy.range_coder import Coder, bank_of, finish_writing, start_writing
 
 Indices = npt.NDArray[np.int32]
-
-_CANDIDATES = 4
-_INPUTS = 3
-_CONTEXTS = 16 * (_CANDIDATES + 1)
 
 
 def encode_labels(offsets: Indices, neighbors: Indices, labels: Indices, parts: int) -> bytes:
@@ -21,5 +17,4 @@ def encode_labels(offsets: Indices, neighbors: Indices, labels: Indices, parts: 
 
 
 def code_labels(coder: Coder, offsets: Indices, neighbors: Indices, labels: Indices, parts: int) -> int:
-    bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)
-    return _kernels.code_labels(coder, bank, offsets, neighbors, labels, parts)
+    return _kernels.code_labels(coder, bank_of("code_labels"), offsets, neighbors, labels, parts)

@@ -11,6 +11,8 @@ enum {
     STEP_SLOTS = (1 + CLASSES + 2 * CLASSES * CLASSES) * SPAN,
     TURN_SLOTS = 3 * (9 + 27),
 };
+INSIDE const BankPlan STEP_BANK = {.slots = STEP_SLOTS, .selectors = SPAN, .inputs = INPUTS};
+INSIDE const BankPlan TURN_BANK = {.slots = TURN_SLOTS, .selectors = 2, .inputs = 2};
 
 /* How many of the positions before `position` are left: `tree` is a Fenwick tree of what is left. */
 static int64_t count_before(const int32_t *tree, int64_t position) {

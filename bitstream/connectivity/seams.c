@@ -4,8 +4,9 @@
 enum {
     CANDIDATES = 8,
     CANDIDATE = 16, /* first context of the candidates; those before tell whether a vertex was met before */
-    SEAM_SLOTS = CANDIDATE + 2 * CANDIDATES,
+    FAN_SLOTS = CANDIDATE + 2 * CANDIDATES,
 };
+INSIDE const BankPlan FAN_BANK = {.slots = FAN_SLOTS, .selectors = 1, .inputs = 1};
 
 /* What is known of a neighbor along the boundary: nothing, a vertex that was new, or one that was not. */
 INLINE int state_of(const Seams *seams, int32_t fan) {
@@ -52,7 +53,7 @@ int64_t code_fans(Coder given, Bank bank, ConstInts known, Seams seams) {
     RangeCoder coder;
     Mixer mixer;
     int64_t size = known.size;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, SEAM_SLOTS, 1, 1)) return MISUSED;
+    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, FAN_SLOTS, 1, 1)) return MISUSED;
     for (int64_t fan = 0; fan < size; fan++) seams.vertex.data[fan] = seams.sibling.data[fan] = -1;
     int32_t count = 0;
     for (int32_t fan = 0; fan < size && !overran(&coder); fan++) {

@@ -153,12 +153,18 @@ INLINE int64_t code_uniform(RangeCoder *coder, int64_t value, int64_t count) {
  */
 enum { SLOT_BITS = 22, MOST_INPUTS = 16, MOST_RATE = 1024 };
 
-/* As Python keeps it; settings: largest count, learning rate of the mixer, initial weight, initial slot. */
+/* As Python keeps it; settings: largest count, learning rate of the mixer. */
 typedef struct {
     Words slots;
     Ints2 weights;
     Longs settings;
 } Bank;
+
+/* What a bank starts from; 0 is what most have: limit 255, rate 14, probability 1 / 2. */
+typedef struct {
+    int64_t slots, selectors;
+    int inputs, limit, rate, probability, trust;
+} BankPlan;
 
 typedef struct {
     uint32_t *slots;

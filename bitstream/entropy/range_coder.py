@@ -5,15 +5,12 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream._kernels import bank_plan
 from bsm.bitstream.errors import OptionError
 
 ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
 
-MOST_INPUTS = 16  # contexts that can be mixed in a decision
-
 POSITION, _FULL = 2, 4
-_MAX_COUNT = 1023
-_MAX_RATE = 1024
 _SUFFIX_NODES = 24
 
 
@@ -32,25 +29,17 @@ class Bank(NamedTuple):
     settings: npt.NDArray[np.int64]
 
 
-def make_bank(
-    slots: int,
-    selectors: int,
-    inputs: int,
-    limit: int = 255,
-    rate: int = 14,
-    probability: int = ONE // 2,
-    trust: int = 0,
-) -> Bank:
-    """Make a neutral bank."""
-    if not (slots > 0 and selectors > 0 and 0 < inputs <= MOST_INPUTS):
-        raise OptionError(f"a bank needs slots, selectors, and 1 to {MOST_INPUTS} inputs")
-    if not (0 < limit <= _MAX_COUNT and 0 < rate <= _MAX_RATE):
-        raise OptionError(f"the limit of a bank must be in 1..{_MAX_COUNT}, and its rate in 1..{_MAX_RATE}")
-    if not (0 < probability < ONE and 0 <= trust <= limit):
-        raise OptionError(f"the first probability must be in 1..{ONE - 1}, and trust in 0..limit")
+def bank_of(kernel: str) -> Bank:
+    """Make the bank that a kernel of this name starts from."""
+    slots, selectors, inputs, limit, rate = bank_plan(kernel)
+    return make_bank(slots, selectors, inputs, limit or 255, rate or 14)
+
+
+def make_bank(slots: int, selectors: int, inputs: int, limit: int = 255, rate: int = 14) -> Bank:
+    """Make a neutral bank; kernels refuse one that they cannot use."""
     initial = ONE // inputs if inputs < 3 else ONE * 5 // (4 * inputs)
-    settings = np.array([limit, rate, initial, probability << 16 | trust], np.int64)
-    return Bank(np.full(slots, settings[3], np.uint32), np.full((selectors, inputs), initial, np.int32), settings)
+    settings = np.array([limit, rate], np.int64)
+    return Bank(np.full(slots, 1 << 31, np.uint32), np.full((selectors, inputs), initial, np.int32), settings)
 
 
 def copy_bank(bank: Bank) -> Bank:
@@ -90,8 +79,3 @@ def finish_writing(coder: Coder) -> bytes:
 def unsigned_span(unary: int) -> int:
     """Number of nodes (slots per context, and selectors) of an unsigned integer with this unary prefix."""
     return unary + _SUFFIX_NODES + 2
-
-
-def signed_span(unary: int) -> int:
-    """Number of nodes of a signed integer."""
-    return unsigned_span(unary) + 2

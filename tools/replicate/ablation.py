@@ -16,6 +16,7 @@ from unittest.mock import patch
 
 import numpy as np
 
+from bsm.bitstream._kernels import bank_plan
 from bsm.bitstream.coefficients import adaptive
 from bsm.bitstream.container.gop import GopMethod
 from bsm.bitstream.errors import BsmError
@@ -72,7 +73,7 @@ def _unlearnt(self: Any, begin: Any = adaptive.CoefficientModel.__post_init__) -
     """Every probability a half, every context of the same weight, as before anything was learnt."""
     shipped = self.experience
     slots = np.full_like(shipped.slots, 1 << 15)
-    even = np.full_like(shipped.mixing, (1 << 12) // adaptive.EXPECTATIONS)
+    even = np.full_like(shipped.mixing, (1 << 12) // bank_plan("code_block")[2])
     expected = np.full_like(shipped.expectations, int(np.median(shipped.expectations)))
     self.experience = adaptive.Experience(expected, even, slots)
     begin(self)
