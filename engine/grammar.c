@@ -194,7 +194,7 @@ bool check_packet(Context *context, const Grammar *grammar, const Packet *packet
         case GOP_FRAME: return check_gop(context, grammar, packet);
         case GRID_FRAME:
         case REFINEMENT_FRAME: return check_chunk(context, grammar, packet);
-        case PARTITION_FRAME: return !header->on_grid || FAIL(context, CORRUPT, "a partition needs blocks, and this mesh is on a grid");
+        case PARTITION_FRAME: return !header->on_grid || FAIL(context, CORRUPT, "a mesh on a grid has no partition");
         case END_FRAME: return check_end(context, grammar);
         default: return true;
     }
