@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -33,38 +33,6 @@ class Ground:
     def add(self, coefficients: Matrix) -> Matrix:
         """The prediction, and U times coefficients, shape (c_i, 3)."""
         return self.prediction + transform.reconstruct(self.dictionary, coefficients)
-
-
-class Coding(Protocol):
-    """A way of coding blocks."""
-
-    @property
-    def width(self) -> int:
-        """Columns of the largest dictionary."""
-
-    @property
-    def step(self) -> float:
-        """Step of quantization, in BSM units."""
-
-    @property
-    def bits(self) -> int:
-        """Bits of a packed coefficient; 0: adaptive."""
-
-    @property
-    def coarser(self) -> int:
-        """How many bits coarser packed coefficients of the lowest frequency are."""
-
-    def begin(self) -> Coding:
-        """This way of coding, in the state that a chain starts from."""
-
-    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
-        """Levels, shape (c_i, 3), that bring a block near to `wanted`, shape (n, 3), or as near as pays."""
-
-    def write(self, levels: Integers) -> bytes:
-        """The payload of the chain's next block."""
-
-    def positions(self, ground: Ground, levels: Integers) -> Matrix:
-        """What levels make of a block, shape (n, 3)."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +107,7 @@ class Scheme:
 
     blocks: Blocks
     rules: ChainRules
-    coding: Coding
+    coding: Packed | Adaptive
 
     @property
     def chains(self) -> list[range]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from bisect import bisect_left
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -175,7 +176,7 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Attrib
     def near(step: int) -> bool:
         return look_of.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners) <= most
 
-    step = steps[_first(near, 0, len(steps) - 1)]
+    step = steps[bisect_left(range(len(steps) - 1), True, key=near)]
     if attribute.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:
         given.wanted[at] = attribute, step
     return look_of
@@ -197,7 +198,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
         return seen(given.carry_with(free, finer[at]), decoded) <= 1.0
 
     recomputed = given.carry_with(free, Quality("recompute"))
-    given.carried = given.carry_with(free, finer[_first(enough, 0, len(finer) - 1)])
+    given.carried = given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)])
     kept = given.dressed(bare)
     if metric.against_faces or seen(recomputed, given.prepared.positions) > 1.0:
         return kept
@@ -218,14 +219,6 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
 def _decoded(given: Input, draft: Draft) -> Positions:
     """Return the decoded positions, in the units of coding."""
     return given.prepared.units.into(draft.decoded)
-
-
-def _first(holds: Callable[[int], bool], low: int, high: int) -> int:
-    """Return the first number from `low` on for which something holds, if it holds from there on; or else `high`."""
-    while low < high:
-        middle = (low + high) // 2
-        low, high = (low, middle) if holds(middle) else (middle + 1, high)
-    return low
 
 
 def kept_whole(colors: Attribute) -> bool:

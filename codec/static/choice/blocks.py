@@ -29,10 +29,77 @@ from bsm.codec.threads import ordered_map
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 """Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %."""
+WIDEST = 0.14
+"""Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
+are worth."""
+BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
+ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
+FINEST_LAYER = 1e-6  # step of a layer, in BSM units
+PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
+FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
 
 
-class Planner:
-    """Makes the plan for one step after another; everything that depends only on the mesh is measured once."""
+@dataclass(frozen=True, eq=False)
+class RefinementBase:
+    """Blocks, coded."""
+
+    prepared: Prepared
+    draft: Draft
+    positions: Matrix
+
+    @cached_property
+    def frames(self) -> Matrix:
+        """The frames that levels are in, shape (n, 9)."""
+        return local_frames(self.positions, self.prepared.mesh.faces)
+
+    @cached_property
+    def offsets(self) -> Matrix:
+        """The remaining error in these frames: along normals and tangents, shape (n, 3)."""
+        return in_frames(self.prepared.positions - self.positions, self.frames)
+
+    def expected_steps(self, layer: Layer) -> Matrix:
+        """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
+        aside = tangent_steps(self.prepared.positions, self.prepared.mesh.faces, layer.step, layer.ratio)
+        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+    def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
+        """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
+        upright = raised(self.positions, self.frames, levels, layer.step)
+        aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
+        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+    def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
+        """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
+        directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
+        return np.rint(self.offsets / steps).astype(np.int32), directions
+
+    def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
+        """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
+        levels, known = levels.copy(), self.known_steps(layer, levels)
+        for _ in range(9):  # heights that are mended change steps of others
+            error = levels * known - self.offsets
+            far = np.square(error).sum(axis=1) > reaches**2
+            if not far.any():
+                break
+            levels[far] = np.rint(self.offsets[far] / known[far])
+            known = self.known_steps(layer, levels)
+        return levels, known
+
+    def moved(self, layer: Layer, levels: Levels, known: Matrix) -> Matrix:
+        """Where levels bring the base by their known steps, all of shape (n, 3), in BSM units."""
+        moved = raised(self.positions, self.frames, levels, layer.step)
+        slide(moved, self.frames, levels, known[:, 1])
+        return moved
+
+    def refined(self, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
+        """The stream with a layer of levels, shape (n, 3), and where these bring the base."""
+        header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
+        body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels))
+        return Draft(header, body, self.prepared.units.back(moved))
+
+
+class Spectral:
+    """Codes a mesh in blocks, at one step after another; what depends only on the mesh is measured once."""
 
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, overrides: Overrides = AS_SPECIFIED
@@ -42,7 +109,38 @@ class Planner:
         self._widest = max(1, int(widest * prepared.size))
         self._overrides = overrides
 
-    def scheme(self, step: float) -> Scheme:
+    def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
+        """The blocks at a step."""
+        prepared, options = self._prepared, self._options
+        scheme = self._scheme(step)
+        blocks = encode_blocks(
+            scheme,
+            prepared.positions,
+            threads=options.threads,
+            doi=options.paper.doi,
+            progress=progress,
+            charge=patience(options.limits, prepared.graph.size),
+        )
+        admit(options.limits, prepared, blocks)
+        positions = blended(prepared.graph.size, (block.decoded for block in blocks))
+        smoothing = options.fixed_smoothing
+        header = Header(
+            vertices=prepared.graph.size,
+            faces=len(prepared.mesh.faces),
+            block_size=prepared.size,
+            coefficients=max(block.packet.coefficients for block in blocks),
+            center=prepared.units.center,
+            scale=prepared.units.scale,
+            smoothing=self._smoothing(positions) if smoothing is None else single(smoothing),
+            **scheme.fields(),
+        )
+        decoded = smooth(prepared.graph, positions, header.smoothing)
+        body = (*prepared.before_blocks, *(block.packet for block in blocks))
+        return RefinementBase(
+            prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
+        )
+
+    def _scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""
         rules, bits, size = self._rules(), self._options.paper.bits, self._prepared.size
         if bits is not None:
@@ -51,7 +149,7 @@ class Planner:
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
 
-    def smoothing(self, blended: Matrix) -> float:
+    def _smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers the error of the options most."""
         spectrum = smoothing_spectrum(self._prepared.graph, blended)
         best, least = 0.0, self._badness(spectrum.smoothed(0.0))
@@ -123,117 +221,6 @@ class Planner:
         if target is not None and target.kind == "nmsve_db":
             return reference.nmsve(decoded)
         return reference.theta(decoded) * reference.nmsve(decoded)
-
-
-WIDEST = 0.14
-"""Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
-are worth."""
-BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
-ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
-FINEST_LAYER = 1e-6  # step of a layer, in BSM units
-PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
-FOLDED = 0.2  # edges folded over, for each face, above which blocks do not suit a mesh, and mending takes long
-
-
-@dataclass(frozen=True, eq=False)
-class RefinementBase:
-    """Blocks, coded."""
-
-    prepared: Prepared
-    draft: Draft
-    positions: Matrix
-
-    @cached_property
-    def frames(self) -> Matrix:
-        """The frames that levels are in, shape (n, 9)."""
-        return local_frames(self.positions, self.prepared.mesh.faces)
-
-    @cached_property
-    def offsets(self) -> Matrix:
-        """The remaining error in these frames: along normals and tangents, shape (n, 3)."""
-        return in_frames(self.prepared.positions - self.positions, self.frames)
-
-    def expected_steps(self, layer: Layer) -> Matrix:
-        """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
-        aside = tangent_steps(self.prepared.positions, self.prepared.mesh.faces, layer.step, layer.ratio)
-        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
-
-    def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
-        """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
-        upright = raised(self.positions, self.frames, levels, layer.step)
-        aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
-        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
-
-    def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
-        """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
-        directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
-        return np.rint(self.offsets / steps).astype(np.int32), directions
-
-    def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
-        """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
-        levels, known = levels.copy(), self.known_steps(layer, levels)
-        for _ in range(9):  # heights that are mended change steps of others
-            error = levels * known - self.offsets
-            far = np.square(error).sum(axis=1) > reaches**2
-            if not far.any():
-                break
-            levels[far] = np.rint(self.offsets[far] / known[far])
-            known = self.known_steps(layer, levels)
-        return levels, known
-
-    def moved(self, layer: Layer, levels: Levels, known: Matrix) -> Matrix:
-        """Where levels bring the base by their known steps, all of shape (n, 3), in BSM units."""
-        moved = raised(self.positions, self.frames, levels, layer.step)
-        slide(moved, self.frames, levels, known[:, 1])
-        return moved
-
-    def refined(self, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
-        """The stream with a layer of levels, shape (n, 3), and where these bring the base."""
-        header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
-        body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels))
-        return Draft(header, body, self.prepared.units.back(moved))
-
-
-class Spectral:
-    """Codes a mesh in blocks."""
-
-    def __init__(
-        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, overrides: Overrides = AS_SPECIFIED
-    ) -> None:
-        self._prepared = prepared
-        self._options = options
-        self._planner = Planner(prepared, options, widest, overrides)
-
-    def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
-        """The blocks at a step."""
-        prepared, options = self._prepared, self._options
-        scheme = self._planner.scheme(step)
-        blocks = encode_blocks(
-            scheme,
-            prepared.positions,
-            threads=options.threads,
-            doi=options.paper.doi,
-            progress=progress,
-            charge=patience(options.limits, prepared.graph.size),
-        )
-        admit(options.limits, prepared, blocks)
-        positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-        smoothing = options.fixed_smoothing
-        header = Header(
-            vertices=prepared.graph.size,
-            faces=len(prepared.mesh.faces),
-            block_size=prepared.size,
-            coefficients=max(block.packet.coefficients for block in blocks),
-            center=prepared.units.center,
-            scale=prepared.units.scale,
-            smoothing=self._planner.smoothing(positions) if smoothing is None else single(smoothing),
-            **scheme.fields(),
-        )
-        decoded = smooth(prepared.graph, positions, header.smoothing)
-        body = (*prepared.before_blocks, *(block.packet for block in blocks))
-        return RefinementBase(
-            prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
-        )
 
 
 class Plain:

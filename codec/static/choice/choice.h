@@ -19,6 +19,7 @@ int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs st
     double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp, Doubles costs);
 int64_t hang_creases(ConstInts2 faces, ConstInts2 pairs, Ints starts, Ints members);
 
+bool fits_rows(ConstInts starts, ConstInts members, int64_t rows, int64_t count);
 bool fits_creases(const Creases *creases, int64_t vertices);
 double wrong_creases(const Creases *creases, const double *positions, int64_t vertex);
 

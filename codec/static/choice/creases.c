@@ -20,7 +20,7 @@ static bool fits_faces(ConstInts2 faces, int64_t vertices) {
     return true;
 }
 
-static bool fits_rows(ConstInts starts, ConstInts members, int64_t rows, int64_t count) {
+bool fits_rows(ConstInts starts, ConstInts members, int64_t rows, int64_t count) {
     if (starts.size != rows + 1 || starts.data[0] != 0 || starts.data[rows] > members.size) return false;
     for (int64_t i = 0; i < rows; i++)
         if (starts.data[i] > starts.data[i + 1]) return false;

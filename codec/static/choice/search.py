@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from contextlib import suppress
 from operator import attrgetter
-from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.look.measure import LookMetric
@@ -19,20 +18,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
-
-
-class Way(Protocol):
-    """A way to code a mesh, at one step after another: a pure function of the step."""
-
-    least: float
-    most: float
-
-    @property
-    def first(self) -> float:
-        """A step that is about right."""
-
-    def at(self, step: float) -> Candidate:
-        """The result of a step."""
+Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another: pure functions of the step
 
 
 class Search:

@@ -67,17 +67,12 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
     int64_t n = offsets.rows, axes = levels.columns, moves = 0;
     if (offsets.columns != 3 || normals.rows != n || normals.columns != 3 || losses.rows != n || losses.columns != 2 ||
         steps.rows != n || steps.columns != 3 || levels.rows != n || axes < 1 || axes > 3 || fixed < 0 ||
-        reach.size != n || starts.size != n + 1 || rates.rows != axes * AROUND || rates.columns != SIZES ||
+        reach.size != n || !fits_rows(starts, members, n, n) || rates.rows != axes * AROUND || rates.columns != SIZES ||
         counts.rows != rates.rows || counts.columns != rates.columns || places.rows != n || places.columns != 3 ||
         frames.rows != n || frames.columns != 9 || moved.rows != n || moved.columns != 3 || !fits_creases(&creases, n))
         return MISUSED;
     for (int64_t i = 0; i < 3 * n; i++)
         if (!(steps.data[i] > 0.0)) return MISUSED;
-    for (int64_t v = 0; v < n; v++)
-        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > members.size)
-            return MISUSED;
-    for (int64_t i = 0; i < members.size; i++)
-        if (members.data[i] < 0 || members.data[i] >= n) return MISUSED;
     for (int64_t i = 0; i < counts.rows * counts.columns; i++) counts.data[i] = 0.0;
     for (int64_t v = 0; v < n; v++) {
         double error[3];

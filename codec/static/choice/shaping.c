@@ -59,6 +59,7 @@ INLINE void gather(const Wanted *wanted, ConstDoubles2 moved, int32_t v, Fan *fa
         fan->edge[0][k] = u0 - w0, fan->edge[1][k] = u1 - w1, fan->edge[2][k] = u2 - w2;
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j < 3; j++) fan->frame[i][j][k] = frame[i][j];
+            fan->turn[0][i][k] = 0.0f;
             fan->normal[i][k] = (float)(frame[i][0] * now[0] + frame[i][1] * now[1] + frame[i][2] * now[2]);
         }
     }
@@ -84,17 +85,7 @@ INLINE float chord(float along, float across, float aside) {
     return __builtin_sqrtf(2.0f * (along > 0.0f ? off : sum * sum) / (length * sum));
 }
 
-/* How bent the faces are. */
-INLINE double bent(const Fan *fan) {
-    float chords[FAN];
-    double sum = 0.0;
-    for (int k = 0; k < fan->padded; k++)
-        chords[k] = fan->weight[k] * chord(fan->normal[0][k], fan->normal[1][k], fan->normal[2][k]);
-    for (int k = 0; k < fan->count; k++) sum += chords[k];
-    return sum;
-}
-
-/* The same with the vertex moved by a number of steps in one direction. */
+/* How bent the faces are with the vertex moved by a number of steps in one direction. */
 INLINE double bent_by(const Fan *fan, int a, float by) {
     float chords[FAN];
     double sum = 0.0;
@@ -144,7 +135,7 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
             double direction[3][3];
             for (int64_t i = 0; i < 3 * axes; i++) direction[i / 3][i % 3] = directions.data[3 * v * axes + i];
             gather(&wanted, now_at, v, &fan);
-            double *at = moved.data + 3 * (int64_t)v, now = bent(&fan);
+            double *at = moved.data + 3 * (int64_t)v, now = bent_by(&fan, 0, 0.0f);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
             double far = apart(place, at);
             int32_t first = wanted.beside_starts.data[v], end = wanted.beside_starts.data[v + 1];
@@ -196,7 +187,7 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
             if (!open.data[v]) continue;
             open.data[v] = 0;
             gather(&wanted, now_at, v, &fan);
-            double *at = moved.data + 3 * (int64_t)v, now = bent(&fan);
+            double *at = moved.data + 3 * (int64_t)v, now = bent_by(&fan, 0, 0.0f);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
             bool any = false;
             for (int a = 0; a < 3; a++) {
