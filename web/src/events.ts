@@ -14,10 +14,7 @@ export interface Changes {
 }
 
 /** Positions of vertices that no face uses. */
-export interface Loose {
-    vertices: Int32Array;
-    positions: Float64Array;
-}
+export type Loose = Pick<Changes, "vertices" | "positions">;
 
 /** The header has arrived. */
 export interface HeaderEvent {

@@ -82,11 +82,11 @@ class MapReader {
             return type === "int" ? { type, value } : type === "string" ? this.text(value) : { type, value: this.bytes(value) };
         }
         switch (tag) {
-            case 0xcf: return this.large(this.view.getBigUint64(this.take(8)), (v) => v >= 1n << 32n);
-            case 0xd0: return this.negative(this.view.getInt8(this.take(1)), -32);
-            case 0xd1: return this.negative(this.view.getInt16(this.take(2)), -128);
-            case 0xd2: return this.negative(this.view.getInt32(this.take(4)), -32768);
-            case 0xd3: return this.large(this.view.getBigInt64(this.take(8)), (v) => v < -(1n << 31n));
+            case 0xcf: return this.integer(this.view.getBigUint64(this.take(8)), (v) => v >= 1n << 32n);
+            case 0xd0: return this.integer(this.view.getInt8(this.take(1)), (v) => v < -32);
+            case 0xd1: return this.integer(this.view.getInt16(this.take(2)), (v) => v < -128);
+            case 0xd2: return this.integer(this.view.getInt32(this.take(4)), (v) => v < -32768);
+            case 0xd3: return this.integer(this.view.getBigInt64(this.take(8)), (v) => v < -(1n << 31n));
             case 0xca: return { type: "float", value: this.finite(this.view.getFloat32(this.take(4))) };
             case 0xcb: return this.double();
         }
@@ -114,13 +114,9 @@ class MapReader {
         return { type: "float", value };
     }
 
-    private large(value: bigint, legal: (value: bigint) => boolean): Value {
-        if (!legal(value)) throw new CorruptError("an integer of a map is not in its shortest form");
-        return { type: "int", value };
-    }
-
-    private negative(value: number, bound: number): Value {
-        if (value >= bound) throw new CorruptError("an integer of a map is not in its shortest form");
+    /** An integer that is beyond all shorter forms. */
+    private integer<Whole extends number | bigint>(value: Whole, isBeyond: (value: Whole) => boolean): Value {
+        if (!isBeyond(value)) throw new CorruptError("an integer of a map is not in its shortest form");
         return { type: "int", value };
     }
 
