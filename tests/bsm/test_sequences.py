@@ -11,6 +11,7 @@ from bsm.api import decode_frames
 from bsm.files.formats.npz import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
+from bsm.files.pipes import Input
 from bsm.files.sequence import open_sequence, sequence_kind
 from tests.bsm.program import run as bsm
 from tests.bsm.program import run_json
@@ -229,15 +230,16 @@ def test_live_pipes():
         subprocess.Popen(decoding, stdin=encode.stdout, stdout=pipe) as decode,
     ):
         encode.stdin.write(arrays(faces))
+        shown = Input(decode.stdout)
         for number, frame in enumerate(positions):
             encode.stdin.write(arrays(frame))
             encode.stdin.flush()
             if number == 0:
-                assert read_npy(decode.stdout).shape == faces.shape
+                assert read_npy(shown).shape == faces.shape
             # Every frame comes out before the next one goes in.
-            assert read_npy(decode.stdout).shape == frame.shape
+            assert read_npy(shown).shape == frame.shape
         encode.stdin.close()
-        assert decode.stdout.read() == b"" and encode.wait() == 0 and decode.wait() == 0
+        assert read_npy(shown) is None and encode.wait() == 0 and decode.wait() == 0
 
 
 def arrays(*items):
