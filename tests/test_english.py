@@ -55,12 +55,11 @@ MARK = re.compile(r"^[ \t]*(?:#+:?|//+!?|/?\*+(?!/))?[ \t]*", re.MULTILINE)
 
 @cache
 def tracked():
-    """The texts of files that people read, without links and what programs wrote."""
+    """The texts of files that people read, without links."""
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     paths = [Path(name) for name in listed.split("\0") if Path(name).suffix in READ and not PROGRAMS.search(name)]
     paths = [path for path in paths if (ROOT / path).is_file() and not (ROOT / path).is_symlink()]
-    texts = {str(path): (ROOT / path).read_text("utf-8") for path in paths}
-    return {name: text for name, text in texts.items() if not text.startswith("/* Written by")}
+    return {str(path): (ROOT / path).read_text("utf-8") for path in paths}
 
 
 def texts(kind: str) -> Iterator[tuple[str, int, str]]:

@@ -30,6 +30,3 @@ def _unfolded(levels: Longs, size: int) -> Longs:
     height = size - np.abs(flat).sum(axis=1, keepdims=True)
     inside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
     return np.hstack([np.where(height < 0, inside, flat), height])
-
-
-MOST_COMPONENTS = 4

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import operator
 from dataclasses import MISSING, dataclass, field, fields
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias
 
 from bsm.bitstream.errors import OptionError
 
 COUNT = 2**31 - 1
 METHODS = 255
 Kind: TypeAlias = type[Any]
-Record = TypeVar("Record")
 MOST_GRID = 2**20 - 1
 MOST_COPIES, FREE_COPIES = 16, 1 << 16
 """Rows of all blocks together, at most: a factor of the vertices, and a constant."""

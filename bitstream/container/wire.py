@@ -42,11 +42,11 @@ def write_preamble() -> bytes:
     return MAGIC + bytes([VERSION])
 
 
-def require_major(what: str, major: int, offset: int | None = None) -> None:
+def require_major(what: str, major: int) -> None:
     if major != MAJOR:
         older = "encode the source again, or decode it with the release that wrote it"
         message = f"{what} written by version {major} of the format, and this reads {MAJOR}: "
-        raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"), offset=offset)
+        raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"))
 
 
 def write_varint(value: int) -> bytes:

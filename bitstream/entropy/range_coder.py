@@ -11,7 +11,6 @@ from bsm.bitstream.errors import OptionError
 ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
 
 POSITION, _FULL = 2, 4
-_SUFFIX_NODES = 24
 
 
 class Coder(NamedTuple):
@@ -74,8 +73,3 @@ def finish_writing(coder: Coder) -> bytes:
             break
     total = (written << 32) + value
     return total.to_bytes(position + 4, "big")[: position + kept]
-
-
-def unsigned_span(unary: int) -> int:
-    """Number of nodes (slots per context, and selectors) of an unsigned integer with this unary prefix."""
-    return unary + _SUFFIX_NODES + 2

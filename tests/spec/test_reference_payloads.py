@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from bsm import BsmError
 from bsm.bitstream._kernels import code_uniform, code_unsigned
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing, unsigned_span
+from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
@@ -122,7 +122,7 @@ def test_kernels_compute_the_tables_of_the_document(tmp_path: Path) -> None:
 def test_integers_of_any_size(items: list[tuple[int, int]]) -> None:
     """Also those that no small mesh needs."""
     coder, contexts = start_writing(10000), np.zeros(1, np.int64)
-    bank = make_bank(2 * unsigned_span(3), unsigned_span(3), 1)
+    bank = make_bank(2 * 29, 29, 1)
     for count, value in items:
         code_uniform(coder, value % count, count)
         code_unsigned(coder, bank, contexts, 0, 3, value)

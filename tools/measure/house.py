@@ -109,9 +109,7 @@ def count_lines(text: str) -> int:
 
 
 def count_wide(text: str) -> int:
-    """Lines over `WIDE` columns, but for tables of numbers that a program wrote."""
-    if text.startswith("/* Written by"):
-        return 0
+    """Lines over `WIDE` columns."""
     return sum(len(line) > WIDE for line in text.splitlines())
 
 

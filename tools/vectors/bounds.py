@@ -169,7 +169,7 @@ def _metadata() -> bytes:
 def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -> bytes:
     """Faces that end behind their counts."""
     vertices = min(3 * faces, fans + lonely)
-    span = entropy.unsigned_span(2)
+    span = 28  # nodes of an unsigned integer (C 3.1)
     coder, rare, context = entropy.start_writing(64), entropy.make_bank(6 * span, 6 * span, 1), np.zeros(1, np.int64)
     for count in (degenerate, lonely, fans + lonely - vertices, dummies):
         _kernels.code_unsigned(coder, rare, context, 0, 2, count, 5 * span)
