@@ -159,6 +159,12 @@ def box_around(points: Positions) -> tuple[Matrix, Matrix]:
     return np.array([axis.min() for axis in axes]), np.array([axis.max() for axis in axes])
 
 
+def squares_of(rows: Matrix) -> Matrix:
+    """Squared lengths of rows, shape (n, 3)."""
+    x, y, z = np.square(rows).T
+    return np.asarray(x + y + z)
+
+
 def extent_of(points: Positions) -> Matrix:
     """Lengths of the sides of the bounding box, shape (d,)."""
     low, high = box_around(points)

@@ -73,7 +73,7 @@ class Reference:
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self._neighbors = vertex_neighbors(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbors)
-        areas, self._normals = _areas_and_normals(self.positions, self.faces)
+        areas, self._normals = areas_and_normals(self.positions, self.faces)
         self._areas: Floats = areas / (areas.sum() or 1.0)
         counted = self._normals.any(axis=1)
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
@@ -159,10 +159,11 @@ def decibel(value: float) -> float:
 
 def face_normals(positions: Positions, faces: Faces) -> Floats:
     """Unit normals, shape (m, 3); zero where a face has no area."""
-    return _areas_and_normals(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32))[1]
+    return areas_and_normals(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32))[1]
 
 
-def _areas_and_normals(positions: Positions, faces: Faces) -> tuple[Floats, Floats]:
+def areas_and_normals(positions: Positions, faces: Faces) -> tuple[Floats, Floats]:
+    """Areas, shape (m,), and unit normals."""
     count = len(faces)
     centroids, areas, normals = np.empty((count, 3)), np.empty(count), np.empty((count, 3))
     _kernels.face_geometry(positions, faces, centroids, areas, normals)
@@ -212,7 +213,7 @@ class Original:
     def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
-        areas, self.normals = _areas_and_normals(self.positions, self.faces)
+        areas, self.normals = areas_and_normals(self.positions, self.faces)
         counts = areas if by_area else (areas > 0.0).astype(np.float64)
         total = counts.sum()
         self.weights: Floats = counts / total if total > 0.0 else np.zeros(len(areas))

@@ -37,17 +37,10 @@ def group_rows(values: npt.NDArray[Any]) -> Indices:
     mixed.sort()
     if (mixed[1:] != mixed[:-1]).all():
         return np.arange(len(values), dtype=np.int32)
-    order = np.lexsort(values.T)
-    ordered = values[order]
-    new = np.ones(len(values), dtype=np.bool_)
-    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    # A stable sort leaves equal rows in ascending order, so the first of a group is its first appearance.
-    first = order[new]
-    rank = np.empty(len(first), dtype=np.int32)
-    rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
-    index = np.empty(len(values), dtype=np.int32)
-    index[order] = rank[np.cumsum(new) - 1]
-    return index
+    numbers = row_numbers(values)
+    first = np.empty(numbers.max() + 1, np.int64)
+    first[numbers[::-1]] = np.arange(len(numbers))[::-1]  # the last one that is written is the first
+    return np.argsort(np.argsort(first)).astype(np.int32)[numbers]
 
 
 def first_of(index: Indices) -> Order:

@@ -49,11 +49,9 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
     for (int64_t v = 0; v < n; v++)
         if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size)
             return MISUSED;
-    for (int64_t k = 0; k < around.size; k++)
-        if (around.data[k] < 0 || around.data[k] >= faces.rows) return MISUSED;
-    for (int64_t k = 0; k < 3 * faces.rows; k++)
-        if (faces.data[k] < 0 || faces.data[k] >= positions.rows || joined.data[k] < 0 || joined.data[k] >= n)
-            return MISUSED;
+    if (!all_below(around.data, around.size, faces.rows) || !all_below(joined.data, 3 * faces.rows, n) ||
+        !all_below(faces.data, 3 * faces.rows, positions.rows))
+        return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
         double *own = crosses.data + 4 * f;
         cross_of_face(positions.data, faces.data + 3 * f, own);

@@ -12,6 +12,7 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around
+from bsm.codec.geometry.metrics import areas_and_normals
 from bsm.codec.geometry.welding import weld
 
 Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
@@ -59,18 +60,8 @@ class Shape:
         """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3)."""
         count = len(self.faces)
         normals = np.empty((count, 9), np.float32)
-        _kernels.shown_normals(
-            positions,
-            self.faces,
-            self.joined,
-            self.around.starts,
-            self.around.members,
-            CREASE,
-            _HALF_CREASE,
-            MOST_AROUND,
-            np.empty((count, 4)),
-            normals,
-        )
+        given = positions, self.faces, self.joined, self.around.starts, self.around.members
+        _kernels.shown_normals(*given, CREASE, _HALF_CREASE, MOST_AROUND, np.empty((count, 4)), normals)
         return normals
 
 
@@ -151,14 +142,13 @@ class Size:
         corners = [positions[corner] for corner in np.ascontiguousarray(faces.T)]
         sides = [corners[0] - corners[1], corners[1] - corners[2], corners[2] - corners[0]]
         lengths = np.sqrt([np.einsum("fd,fd->f", side, side) for side in sides])
-        crosses = np.cross(sides[0], sides[1])
         ends = np.array([box_around(corner) for corner in corners])
         extent = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
         edge = float(lengths.sum()) / (3 * len(faces))
         if not edge > 0.0:
             return cls(LEAST_PIXELS, 0.0)
         # On average over all sides, a face covers half of its area, and has rows for half of its longest side.
-        areas = np.sqrt(np.einsum("fd,fd->f", crosses, crosses)) / 2.0
+        areas = areas_and_normals(positions, np.ascontiguousarray(faces, np.int32))[0]
         covered = float(areas.sum()) / (2.0 * extent**2)
         rows = ROW * float(lengths.max(axis=0).sum()) / (2.0 * extent)
         room = MOST_COVERED + COVERED_BY_FACE * len(faces)

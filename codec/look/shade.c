@@ -292,7 +292,7 @@ INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on
     }
     cover(&g, (int)most, (double)on.picture.columns, inside);
     for (int k = 0; k < count; k++) {
-        if (!(g.first[k] < g.end[k]) || !(g.left[k] < g.right[k])) continue;
+        if (small[k] ? !inside[k] : !(g.first[k] < g.end[k]) || !(g.left[k] < g.right[k])) continue;
         Plane plane = plane_of(model, numbers[k], g.inverse[k]);
         if (!small[k])
             draw_rows(&g, k, &plane, on);
@@ -335,13 +335,11 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
     int64_t pixels = picture.rows * picture.columns;
     if (positions.columns != 3 || placed.columns != 3 || placed.rows < positions.rows || faces.columns != 3 ||
         away.size < faces.rows || normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA ||
-        faces.rows > INT32_MAX ||
-        owner.rows * owner.columns < pixels || depth.rows != picture.rows || depth.columns != picture.columns ||
-        picture.rows < TILE || picture.columns < TILE || farthest.rows * TILE < picture.rows ||
-        farthest.columns * TILE < picture.columns)
+        faces.rows > INT32_MAX || owner.rows * owner.columns < pixels || depth.rows != picture.rows ||
+        depth.columns != picture.columns || picture.rows < TILE || picture.columns < TILE ||
+        farthest.rows * TILE < picture.rows || farthest.columns * TILE < picture.columns)
         return MISUSED;
-    for (int64_t k = 0; k < 3 * faces.rows; k++)
-        if (faces.data[k] < 0 || faces.data[k] >= positions.rows) return MISUSED;
+    if (!all_below(faces.data, 3 * faces.rows, positions.rows)) return MISUSED;
     const double *m = camera.data;
     for (int64_t v = 0; v < positions.rows; v++) {
         const double *p = positions.data + 3 * v;
@@ -396,10 +394,7 @@ INLINE void values_at(Face face, const double *values, int64_t each, int64_t row
 }
 
 INLINE bool is_corner(ConstInts2 faces, int64_t face, ConstDoubles2 placed) {
-    const int32_t *corners = faces.data + 3 * face;
-    bool is = face < faces.rows;
-    for (int i = 0; is && i < 3; i++) is = corners[i] >= 0 && corners[i] < placed.rows;
-    return is;
+    return face < faces.rows && all_below(faces.data + 3 * face, 3, placed.rows);
 }
 
 /* `picture` times the color that corners have, three numbers of each in `values`: red, green, and blue below each

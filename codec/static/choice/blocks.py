@@ -10,6 +10,7 @@ from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
@@ -27,8 +28,9 @@ from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
-SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
-"""Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %."""
+SMOOTHING_STEPS = tuple(2.0**k if k > -4 else 0.0 for k in range(-4, 7))
+"""Amounts that are tried, from the middle on, up and down, while they help; a factor of sqrt 2 between them is worth
+0.1 %."""
 WIDEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
 are worth."""
@@ -78,7 +80,7 @@ class RefinementBase:
         levels, known = levels.copy(), self.known_steps(layer, levels)
         for _ in range(9):  # heights that are mended change steps of others
             error = levels * known - self.offsets
-            far = np.square(error).sum(axis=1) > reaches**2
+            far = squares_of(error) > reaches**2
             if not far.any():
                 break
             levels[far] = np.rint(self.offsets[far] / known[far])
@@ -152,13 +154,12 @@ class Spectral:
     def _smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers the error of the options most."""
         spectrum = smoothing_spectrum(self._prepared.graph, blended)
-        best, least = 0.0, self._badness(spectrum.smoothed(0.0))
-        for amount in SMOOTHING_STEPS:
-            badness = self._badness(spectrum.smoothed(amount))
-            if badness >= least:
-                break
-            best, least = amount, badness
-        return best
+        badness = lru_cache(None)(lambda place: self._badness(spectrum.smoothed(SMOOTHING_STEPS[place])))
+        place = len(SMOOTHING_STEPS) // 2
+        for aside in (1, -1):
+            while 0 <= place + aside < len(SMOOTHING_STEPS) and badness(place + aside) < badness(place):
+                place += aside
+        return SMOOTHING_STEPS[place]
 
     def _rules(self) -> ChainRules:
         paper = self._options.paper
@@ -285,7 +286,7 @@ class Refined:
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""
-        return np.asarray(np.minimum(self._bounds.reaches, SPIKE * steps.max(axis=1)))
+        return np.asarray(np.minimum(self._bounds.reaches, SPIKE * np.maximum(steps[:, 0], steps[:, 1])))
 
     def _evened(self, step: float) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""

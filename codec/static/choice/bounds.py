@@ -10,7 +10,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Matrix
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
@@ -108,6 +108,7 @@ class Bounds:
         self.contract = contract
         self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
+        self._last: tuple[Matrix, tuple[float, float, float, float]] | None = None
 
     def excess(self, candidate: Candidate) -> float:
         """The logarithm of the largest share of a bound that depends on the step."""
@@ -169,13 +170,16 @@ class Bounds:
 
     def _shares(self, positions: Matrix, look: float | None = None) -> tuple[float, float, float, float]:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
-        look = self._look(positions) if look is None else look
-        return *self._measured(positions), look / self.contract.look
+        if look is not None:
+            return *self._measured(positions), look / self.contract.look
+        if self._last is None or self._last[0] is not positions:
+            self._last = positions, (*self._measured(positions), self._look(positions) / self.contract.look)
+        return self._last[1]
 
     def _measured(self, positions: Matrix) -> tuple[float, float, float]:
         """Shares of the bounds that are not in pictures."""
         contract, measures = self.contract, self.measures
-        moved = np.sqrt(np.square(positions - measures.prepared.positions).sum(axis=1))
+        moved = np.sqrt(squares_of(positions - measures.prepared.positions))
         farther = float(np.divide(moved, self.reaches, out=np.zeros_like(moved), where=moved > 0.0).max(initial=0.0))
         angle = measures.original.angle(positions) / contract.angle if contract.angle < ANY_ANGLE else 0.0
         visual = measures.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0

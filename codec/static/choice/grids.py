@@ -16,7 +16,7 @@ from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.bitstream.fields.grid import ordered
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
-from bsm.codec.geometry.mesh import extent_of
+from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
@@ -162,7 +162,7 @@ class Gridded:
     def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
         self._worth = worth
-        low = prepared.mesh.positions.min(axis=0)
+        low = box_around(prepared.mesh.positions)[0]
         narrow = low.astype(np.float32)
         fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
         self._hold = single if fine else float
