@@ -1,8 +1,6 @@
 // Numpy arrays to the arrays of kernel.h, checked: type, dimensions, contiguity. Nothing is copied or converted.
 #pragma once
 
-#include <tuple>
-
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 

@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._engine import Decoder
-from bsm.bitstream.coefficients.adaptive import CoefficientModel, code_block
+from bsm.bitstream import _kernels
+from bsm.bitstream.coefficients.adaptive import CoefficientModel
 from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of, write_levels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
 from bsm.bitstream.container.writer import Writer
@@ -62,7 +63,7 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
     if count > model.width:
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     levels, coder = np.zeros((count, 3), np.int32), start_reading(payload)
-    code_block(coder, model, levels)
+    _kernels.code_block(coder, model.bank, model.past, model.expectations, levels)
     finish_reading(coder)
     return levels
 

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import Coder, bank_of, finish_writing, start_writing
+from bsm.bitstream.entropy.range_coder import bank_of, finish_writing, start_writing
 from bsm.bitstream.fields.corners import Corners
 from bsm.bitstream.once import cached_property
 
@@ -68,13 +68,9 @@ def find_seams(corners: Corners, values: npt.ArrayLike) -> Flags:
 
 def encode_seams(corners: Corners, seams: Flags, earlier: tuple[Flags, ...] = ()) -> bytes:
     coder = start_writing(len(seams) + 64)
-    code_edges(coder, corners, seams.copy(), earlier)
-    return finish_writing(coder)
-
-
-def code_edges(coder: Coder, corners: Corners, seams: Flags, earlier: tuple[Flags, ...]) -> None:
     ends = np.empty((len(corners.rank), 3), np.int32)
-    _kernels.code_edges(coder, bank_of("code_edges"), corners, seams, _others(earlier, len(seams)), ends)
+    _kernels.code_edges(coder, bank_of("code_edges"), corners, seams.copy(), _others(earlier, len(seams)), ends)
+    return finish_writing(coder)
 
 
 def _others(earlier: tuple[Flags, ...], size: int) -> Flags:

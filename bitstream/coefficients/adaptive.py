@@ -24,14 +24,8 @@ COSTS = np.rint(_BIT * -np.log2(np.minimum(_PROBABILITIES, 1.0))).astype(np.int6
 """Cost of a decision by its probability, in 1 / 256 bit."""
 
 
-@dataclass(frozen=True, eq=False)
-class Choice:
-    levels: Levels
-    width: int
-
-
-def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weight: float) -> Choice:
-    """Choose the levels that `encode_coefficients` should code next; `model` stays as it is."""
+def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weight: float) -> tuple[Levels, int]:
+    """Choose the levels that `encode_coefficients` should code next, and how many rows; `model` stays as it is."""
     if len(targets) > model.width or np.abs(targets).max(initial=0) > MAX_LEVEL * TARGET_UNIT:
         raise OptionError(f"targets must be at most {model.width} rows of levels up to {MAX_LEVEL}")
     price = weight * TARGET_UNIT**2 / _BIT
@@ -42,7 +36,7 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
         model.bank, model.past, model.expectations, targets, price, COSTS, ways, origins, levels, kept
     )
     dropped = np.square(targets[::-1].astype(np.float64)).sum(axis=1).cumsum()[::-1]
-    return Choice(levels, 1 + int(np.argmin(kept + np.append(dropped[1:], 0.0))) if len(targets) else 0)
+    return levels, 1 + int(np.argmin(kept + np.append(dropped[1:], 0.0))) if len(targets) else 0
 
 
 Magnitudes = npt.NDArray[np.int32]
@@ -58,12 +52,6 @@ class Past(NamedTuple):
     before: Magnitudes
     usual: Magnitudes
     blocks: npt.NDArray[np.int64]
-
-
-def make_past(width: int) -> Past:
-    """The past of a chain that has none, for blocks of at most `width` rows."""
-    shape = (_ABOVE + width + _BEYOND, 3)
-    return Past(np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(1, np.int64))
 
 
 Levels = npt.NDArray[np.int32]
@@ -110,7 +98,8 @@ class CoefficientModel:
         expectations, mixing, slots = (array.astype(np.int64) for array in self.experience)
         self.bank.slots[:] = (slots >> 4) << 20 | 1 << 19 | (slots & 15) << 2
         self.bank.weights[:] = mixing.reshape(self.bank.weights.shape) << 4
-        self.past = make_past(self.width)
+        blank = np.zeros((_ABOVE + self.width + _BEYOND, 3), np.int32)
+        self.past = Past(blank, blank.copy(), blank.copy(), np.zeros(1, np.int64))
         self.expectations = expectations.astype(np.int32).reshape(-1, NEIGHBORS)
 
 
@@ -119,9 +108,6 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
     if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
         raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
     coder = entropy.start_writing(_BYTES_PER_LEVEL * levels.size)
-    code_block(coder, model, np.array(levels, np.int32, order="C"))
+    own = np.array(levels, np.int32, order="C")
+    _kernels.code_block(coder, model.bank, model.past, model.expectations, own)
     return entropy.finish_writing(coder)
-
-
-def code_block(coder: entropy.Coder, model: CoefficientModel, levels: Levels) -> None:
-    _kernels.code_block(coder, model.bank, model.past, model.expectations, levels)

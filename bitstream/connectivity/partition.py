@@ -4,7 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import Coder, bank_of, finish_writing, start_writing
+from bsm.bitstream.entropy.range_coder import bank_of, finish_writing, start_writing
 
 Indices = npt.NDArray[np.int32]
 
@@ -12,9 +12,6 @@ Indices = npt.NDArray[np.int32]
 def encode_labels(offsets: Indices, neighbors: Indices, labels: Indices, parts: int) -> bytes:
     """Code `labels`, shape (n,), numbered by first appearance, over the graph that the decoder will have."""
     coder = start_writing(8 * len(labels) + 64)
-    code_labels(coder, offsets, neighbors, np.array(labels, np.int32, order="C"), parts)
+    own = np.array(labels, np.int32, order="C")
+    _kernels.code_labels(coder, bank_of("code_labels"), offsets, neighbors, own, parts)
     return finish_writing(coder)
-
-
-def code_labels(coder: Coder, offsets: Indices, neighbors: Indices, labels: Indices, parts: int) -> int:
-    return _kernels.code_labels(coder, bank_of("code_labels"), offsets, neighbors, labels, parts)

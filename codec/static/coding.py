@@ -76,12 +76,12 @@ class Adaptive:
 
     def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
         offered = _offered(ground, wanted, self.width, sizes)
-        choice = adaptive.choose_levels(
+        levels, rows = adaptive.choose_levels(
             self.model,
             transform.targets(offered, self.step, adaptive.TARGET_UNIT, adaptive.MAX_LEVEL),
             transform.BIT_WORTH,
         )
-        return choice.levels if sizes is not None else choice.levels[: choice.width]
+        return levels if sizes is not None else levels[:rows]
 
     def write(self, levels: Integers) -> bytes:
         return adaptive.encode_coefficients(self.model, np.asarray(levels, np.int32))

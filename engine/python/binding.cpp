@@ -264,9 +264,7 @@ class Decoder : public Shared {
             (int)error.status, text_of(error.message), error.offset, error.frame, error.block, given, state());
     }
 
-    [[noreturn]] void raise_error() {
-        raise(error_of(*bsmdec_last_error(decoder)));
-    }
+    [[noreturn]] void raise_error() { raise(error_of(*bsmdec_last_error(decoder))); }
 
     void check(bsmdec_status status) {
         if (status == BSMDEC_OK) return;

@@ -40,7 +40,7 @@ def coded_bits(blocks: list[np.ndarray]) -> int:
 def chosen(seeds: range, weight: float) -> list[np.ndarray]:
     model, blocks = CoefficientModel(64), []
     for seed in seeds:
-        blocks.append(choose_levels(model, targets(seed), weight).levels)
+        blocks.append(choose_levels(model, targets(seed), weight)[0])
         encode_coefficients(model, blocks[-1])
     return blocks
 
@@ -48,24 +48,24 @@ def chosen(seeds: range, weight: float) -> list[np.ndarray]:
 @given(st.lists(st.tuples(UNITS, UNITS, UNITS), min_size=1, max_size=12), st.floats(0.0, 4.0))
 def test_a_point_is_within_a_step_or_zero(rows: list[tuple[int, int, int]], weight: float) -> None:
     wanted = np.array(rows, np.int64)
-    choice = choose_levels(CoefficientModel(12), wanted, weight)
-    distance = np.abs(points_of_levels(choice.levels).astype(np.int64) * TARGET_UNIT // 2 - wanted)
-    assert ((choice.levels == 0) | (distance <= TARGET_UNIT)).all()
-    assert (choice.levels * wanted >= 0).all()
-    assert 1 <= choice.width <= len(rows)
+    levels, width = choose_levels(CoefficientModel(12), wanted, weight)
+    distance = np.abs(points_of_levels(levels).astype(np.int64) * TARGET_UNIT // 2 - wanted)
+    assert ((levels == 0) | (distance <= TARGET_UNIT)).all()
+    assert (levels * wanted >= 0).all()
+    assert 1 <= width <= len(rows)
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_bits_for_nothing_mean_the_least_error_of_all_ways(seed: int) -> None:
     wanted = np.random.default_rng(seed).integers(-2 * TARGET_UNIT, 2 * TARGET_UNIT, (2, 3))
-    choice = choose_levels(CoefficientModel(64), wanted, 0.0)
+    levels, _ = choose_levels(CoefficientModel(64), wanted, 0.0)
     every = (np.array(way, np.int32).reshape(2, 3) for way in itertools.product(range(-3, 4), repeat=6))
-    assert squared_error(choice.levels, wanted) == pytest.approx(min(squared_error(way, wanted) for way in every))
+    assert squared_error(levels, wanted) == pytest.approx(min(squared_error(way, wanted) for way in every))
 
 
 def test_the_trellis_saves_a_decibel_of_error() -> None:
     wanted = np.random.default_rng(7).integers(20 * TARGET_UNIT, 60 * TARGET_UNIT, (2000, 3))
-    levels = choose_levels(CoefficientModel(2000), wanted, 0.0).levels
+    levels = choose_levels(CoefficientModel(2000), wanted, 0.0)[0]
     assert 10 * np.log10(squared_error(levels, wanted) / wanted.size * 12) == pytest.approx(-1.09, abs=0.05)
 
 
