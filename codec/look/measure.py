@@ -341,11 +341,7 @@ def key_of(*arrays: Matrix | Normals) -> bytes:
 
 def summed(sums: Matrix) -> Look:
     """The look of pairs of pictures, of which `difference` has these rows, shape (k, 2)."""
-    return judged(float(sums[:, 0].mean()), float(sums[:, 1].max()))
-
-
-def judged(unlike: float, gone: float) -> Look:
-    """The distance of these differences."""
+    unlike, gone = float(sums[:, 0].mean()), float(sums[:, 1].max())
     return Look(max((unlike / UNLIKE) ** POWER, (gone / GONE) ** GONE_POWER), unlike, gone)
 
 

@@ -38,6 +38,8 @@ CHECKS, DARK, TEXELS = 8, 0.35, 128  # of a checker: squares a side, how bright 
 STEADY = 0.02  # variance of shades that hides half of a squared difference
 _GRID = 2.0**24
 _SPREAD, _REACH = 1.5, 5  # standard deviation of the blur, and its reach, in pixels
+_BELL = np.exp(-0.5 * (np.arange(_REACH + 1) / _SPREAD) ** 2)
+_BLUR = (_BELL / (2.0 * _BELL.sum() - _BELL[0])).astype(np.float32)  # one side of it
 _SCRATCH_ROWS, _SCRATCH_COLUMNS, _TILE = 52, 18, 8
 
 
@@ -178,11 +180,3 @@ def difference(first: Picture, second: Picture) -> Matrix:
     _kernels.contrast(first, second, _BLUR, STEADY, scratch, sums)
     sums[0] = math.sqrt(sums[0] / first.size)
     return sums
-
-
-def _half_blur() -> Picture:
-    weights = [math.exp(-0.5 * (k / _SPREAD) ** 2) for k in range(_REACH + 1)]
-    return np.array([weight / (2 * sum(weights) - weights[0]) for weight in weights], np.float32)
-
-
-_BLUR = _half_blur()

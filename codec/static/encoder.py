@@ -242,14 +242,8 @@ class Encoder:
 
     def _at_step(self, target: Target, near: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
-
-        def attempt(step: float) -> Attempt:
-            draft = self._spectral.base(step, near.within()).draft
-            return self._judged(self._input.dressed(draft) if target.shrinks_with_step else draft)
-
-        with as_of_decoders(self.options.limits):
-            best = search_step(attempt, target, self.options.first_step, smallest_step(self._input.prepared.size))
-        return best if target.shrinks_with_step else replace(best, draft=self._input.dressed(best.draft))
+        finest = smallest_step(self._input.prepared.size)
+        return search_step(lambda step: self.attempt(step, near.within()), target, self.options.first_step, finest)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and compare the decoded mesh."""

@@ -15,7 +15,7 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
-from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
+from bsm.codec.signal.transform import packed_range, project, smallest_step
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.choice.shaping import Aim
@@ -181,7 +181,7 @@ class Spectral:
             return min(options.coefficients, size)
         if options.keep is not None:
             return min(max(1, round(options.keep * size)), size)
-        return self._spectrum.worthwhile_size(step, self._widest)
+        return self._prepared.spectrum(options.paper.shift).worthwhile_size(step, self._widest)
 
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
@@ -205,10 +205,6 @@ class Spectral:
         chains = rules.chains(blocks.count)
         first, others = np.max(list(ordered_map(largest, chains, self._options.threads)), axis=0)
         return Packed(width, bits, *packed_range(first, others, bits))
-
-    @property
-    def _spectrum(self) -> MeasuredSpectrum:
-        return self._prepared.spectrum(self._options.paper.shift)
 
     @cached_property
     def _reference(self) -> Reference:

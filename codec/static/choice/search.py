@@ -48,9 +48,10 @@ class Search:
         bounds = Bounds(self._measures, contract)
         grid = Gridded(self._prepared, bounds)
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
+        seen = contract.look < math.inf
         for way in self._ways(bounds, grid):
             least = min((candidate.size for candidate in kept), default=math.inf)
-            if isinstance(way, Gridded) and kept and SHAPED * grid.at(grid.first).size > least:
+            if seen and isinstance(way, Gridded) and kept and SHAPED * grid.at(grid.first).size > least:
                 continue
             found = widest(way, bounds, least, tries=self._tries)
             kept += [] if found is None else [found]
@@ -101,8 +102,7 @@ class Search:
         metric = self._measures.look
         if metric is None:
             return "nothing is visible"
-        look = metric.look(self._prepared.units.into(draft.decoded))
-        return f"look {look.distance:.3g}"
+        return f"look {metric.distance(self._prepared.units.into(draft.decoded)):.3g}"
 
     def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
         """Ways that may be smallest, first those that are smaller at their first step."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bsm import Attribute, MeshError, TriangleMesh
-from bsm.codec.look.measure import LookMetric, judged, look
+from bsm.codec.look.measure import Look, LookMetric, look, summed
 from bsm.codec.look.pictures import CREASE, LEAST_PIXELS, Canvas, Shape, Size, axes, cameras, difference
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, soup, tetrahedron, together, torus
@@ -164,6 +164,9 @@ def test_positions_are_looked_at_by_normals_that_the_original_has():
 
 
 def test_the_distance_is_one_at_its_bounds():
+    def judged(unlike: float, gone: float) -> Look:
+        return summed(np.array([[unlike, gone]]))
+
     assert judged(0.0155, 0.0).distance == judged(0.0, 0.08).distance == 1
     assert judged(0.031, 0.08).distance == pytest.approx(2 ** (4 / 3))
     assert judged(0.0155, 0.16).distance == 4
