@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 60_009,
-    "product Python, lines": 32_417,
+    "product in all languages, lines": 59_989,
+    "product Python, lines": 32_397,
     "product C and C++, lines": 20_679,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_005,
     "product lines over 120 columns": 216,
-    "all Python, lines": 72_225,
+    "all Python, lines": 72_208,
     "product modules": 201,
     "product C files and headers": 73,
     "docstring lines of the product, percent": 12,
