@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from types import SimpleNamespace
 from typing import Any
 
@@ -80,6 +81,7 @@ def defended(kernel: Callable[..., Any], name: str, refusals: dict[str, int]) ->
 @pytest.fixture
 def refusals(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
     """How often each kernel that was called refused."""
+    import_module("bsm.codec.sequence.encoder")  # modules that come later are not watched
     counts: dict[str, int] = {}
     wrapped = {name: defended(kernel, name, counts) for name, kernel in KERNELS.items()}
     for library, room in ((of_bytes, "bsm.bitstream."), (of_arrays, "bsm.codec.")):
