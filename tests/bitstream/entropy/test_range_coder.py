@@ -92,20 +92,16 @@ def test_a_full_buffer_is_an_error_and_not_a_crash() -> None:
         finish_writing(coder)
 
 
-def _one_bank(slots: int = 40, selectors: int = 40) -> Bank:
-    return make_bank(slots, selectors, 1)
-
-
 @pytest.mark.parametrize(
     "call",
     [
         lambda coder: code_uniform(coder, 0, 0),
         lambda coder: code_uniform(coder, 0, (1 << 32) + 1),
-        lambda coder: code_unsigned(coder, _one_bank(), np.array([40]), 0, 0, 7),
-        lambda coder: code_unsigned(coder, _one_bank(), np.array([-1]), 0, 0, 7),
-        lambda coder: code_unsigned(coder, _one_bank(), np.array([15]), 0, 0, 7),
-        lambda coder: code_unsigned(coder, _one_bank(), np.array([0]), 15, 0, 7),
-        lambda coder: code_unsigned(coder, _one_bank(), np.array([0]), 0, 15, 7),
+        lambda coder: code_unsigned(coder, make_bank(40, 40, 1), np.array([40]), 0, 0, 7),
+        lambda coder: code_unsigned(coder, make_bank(40, 40, 1), np.array([-1]), 0, 0, 7),
+        lambda coder: code_unsigned(coder, make_bank(40, 40, 1), np.array([15]), 0, 0, 7),
+        lambda coder: code_unsigned(coder, make_bank(40, 40, 1), np.array([0]), 15, 0, 7),
+        lambda coder: code_unsigned(coder, make_bank(40, 40, 1), np.array([0]), 0, 15, 7),
         lambda coder: code_unsigned(coder, make_bank(40, 40, 1, limit=1024), np.array([0]), 0, 0, 7),
         lambda coder: code_unsigned(coder, make_bank(40, 40, 1, rate=0), np.array([0]), 0, 0, 7),
         lambda coder: code_unsigned(coder, make_bank(40, 40, 2), np.array([0]), 0, 0, 7),
