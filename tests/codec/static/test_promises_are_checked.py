@@ -50,8 +50,8 @@ BROKEN = {
     "a visual error": (MESH, {"target": Target("nmsve_db", -60.0)}, Search, "smallest", rounded),
     "a bound": (MESH, {"contract": Contract(1e-4)}, Search, "smallest", rounded),
     "whether bounds are kept": (MESH, {}, search, "widest", lambda way, *_, **__: way.at(0.05)),
-    "normals": (shaded(MESH), {}, attributes, "_first", lambda _, low, high: low),
-    "texture coordinates": (textured(MESH), {}, attributes, "_first", lambda _, low, high: low),
+    "normals": (shaded(MESH), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
+    "texture coordinates": (textured(MESH), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
     "a step": (
         MESH,
         {"target": Target("nmsve_db", -60.0), "coefficients": 30},
