@@ -105,7 +105,7 @@ TOOLS: dict[str, Tool] = {
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),
-    "smoothing": Tool({}, [(blocks, "SMOOTHING_STEPS", ())]),
+    "smoothing": Tool({}, [(blocks, "SMOOTHING_STEPS", (0.0,))]),
     "z = 3 (z = 1)": Tool({"power": 1}),
     "second iteration of key blocks": Tool({"key_iterations": 1}),
     "parts that both sides derive (METIS, sent)": Tool({"partition": "metis"}),
