@@ -40,14 +40,14 @@ def check_options(
         if name in choices and value not in choices[name]:
             raise OptionError(f"{name} must be one of {', '.join(choices[name])}, not {value!r}")
         if name in ranges and not ranges[name][0] <= value <= ranges[name][1]:
-            raise OptionError(f"{name} = {value:g} is outside {ranges[name][0]:.7g}..{ranges[name][1]:.7g}")
+            raise OptionError(f"{name} = {value!r:.20} is outside {ranges[name][0]:.7g}..{ranges[name][1]:.7g}")
 
 
 def checked(name: str, value: Any, hint: Any) -> Any:
     """Return a value as the type that a field has; raise `ArgumentError` if it is of another."""
     kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
     for kind in kinds:
-        with suppress(TypeError):
+        with suppress(TypeError, OverflowError):
             return _as(kind, value)
     words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
     expected = " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)

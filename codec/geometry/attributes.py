@@ -17,7 +17,7 @@ Semantic = Literal["generic", "color", "normal", "texcoord"]
 
 MOST_COMPONENTS = 4
 MOST_NAME_BYTES = 255
-_KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
+KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 
 
 @public
@@ -137,7 +137,7 @@ def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
         if values.size and not np.iinfo(narrow).min <= values.min() <= values.max() <= np.iinfo(narrow).max:
             raise MeshError(f"the values of {what} do not fit into 32 bits")
         values = values.astype(narrow)
-    if values.dtype.name not in _KINDS:
+    if values.dtype.name not in KINDS:
         raise MeshError(f"the values of {what} must be integers or floats of at most 64 bits, not {values.dtype}")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise MeshError(f"a value of {what} is not finite")

@@ -126,7 +126,7 @@ class SequenceEncoder:
         self._attributes = tuple(attributes)
         self._metadata = checked_metadata(metadata)
         if self.options.frame_rate:
-            self._metadata = {**metadata, "frame_rate": float(self.options.frame_rate)}
+            self._metadata = {**self._metadata, "frame_rate": float(self.options.frame_rate)}
         packets.Metadata(self._metadata).require_readable()
 
     @property
@@ -181,6 +181,8 @@ class SequenceEncoder:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and compare the decoded ones."""
         shown: list[Positions] = []
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, shown))
+        if len(self.run_starts) > 1:
+            raise MeshError(f"joined vertices part at frame {self.run_starts[1]}: a target is for frames of one run")
         decoded = np.array(shown)
         original = np.array([_positions(frame)[self.vertex_order] for frame in frames])
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, self._verifier.faces))

@@ -109,7 +109,7 @@ class SequenceOptions:
         if self.promise is not None and self.target is not None:
             raise OptionError("promise and target are mutually exclusive")
         if self.target is not None:
-            self.target.require_kind(SEQUENCE_TARGETS, "a sequence")
+            self.target._require_kind(SEQUENCE_TARGETS, "a sequence")
         if (bounds := self.promise) and bounds != Contract(bounds.farthest, absolute=bounds.absolute, look=bounds.look):
             raise OptionError(f"a sequence promises vertex errors and looks only, not {bounds}")
         if self.gop is not None and self.low_delay > self.gop:

@@ -196,7 +196,7 @@ class EncodeOptions:
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
         if self.target is not None:
-            self.target.require_kind(TARGETS, "a mesh")
+            self.target._require_kind(TARGETS, "a mesh")
         if self.quick and self.effort == "best":
             raise OptionError("quick means effort 'quick', and excludes another effort")
         object.__setattr__(self, "effort", "quick" if self.quick else self.effort)

@@ -181,11 +181,11 @@ class Target:
     value: float
 
     def __post_init__(self) -> None:
-        self.require_kind(tuple(UNITS), "a mesh or sequence")
+        self._require_kind(tuple(UNITS), "a mesh or sequence")
         if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
             raise OptionError(f"{self.worded(self.value)} cannot be a target")
 
-    def require_kind(self, kinds: tuple[str, ...], what: str) -> None:
+    def _require_kind(self, kinds: tuple[str, ...], what: str) -> None:
         if self.kind not in kinds:
             raise OptionError(f"a target of {what} must be one of {', '.join(kinds)}, not {self.kind!r}")
 

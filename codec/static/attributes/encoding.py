@@ -22,13 +22,12 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.fields.corners import Corners, corners_of
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Matrix, Order
-from bsm.codec.geometry.attributes import Attribute, Semantic
+from bsm.codec.geometry.attributes import KINDS, Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import of_length_1, painted
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.levels import (
-    KINDS,
     Surface,
     Words,
     field_of,

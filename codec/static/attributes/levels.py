@@ -13,13 +13,13 @@ from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, RECOM
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError, TargetError
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix
+from bsm.codec.geometry.attributes import KINDS
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
 
 Values = npt.NDArray[Any]
 Words = npt.NDArray[np.int64]
 Reals = npt.NDArray[np.float64]
 
-KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 MOST_LEVEL = 2**32 - 1
 _NEAR_ZERO = 1 << 20  # what is below costs less than an offset
 _SLACK = 1.0 - 2.0**-20

@@ -25,9 +25,8 @@ from bsm.codec.static.ways.grid import Grid, encode_grid, sampled_ratio
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
-SAMPLE = (
-    1 << 11
-)  # vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at
+SAMPLE = 1 << 11
+"""Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
 
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False) -> Draft:

@@ -29,6 +29,7 @@ class Search:
     ) -> None:
         self._measures, self._prepared = measures, measures.prepared
         self._options = options
+        self._tries = {"quick": TRIES - 1, "best": 3 * TRIES}.get(options.effort, TRIES)
         self._size = size
 
     @property
@@ -94,15 +95,10 @@ class Search:
         found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c.positions)]
         return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
 
-    @property
-    def _tries(self) -> int:
-        return {"quick": TRIES - 1, "best": 3 * TRIES}.get(self._options.effort, TRIES)
-
     def seen(self, draft: Draft) -> str:
-        metric = self._measures.look
-        if metric is None:
+        if self.metric is None:
             return "nothing is visible"
-        return f"look {metric.distance(self._prepared.units.into(draft.decoded)):.3g}"
+        return f"look {self.metric.distance(self._prepared.units.into(draft.decoded)):.3g}"
 
     def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
         """Ways that may be smallest, first those that are smaller at their first step."""

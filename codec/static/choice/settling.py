@@ -27,9 +27,8 @@ ASIDE, RATIO = 0.35, 10.0
 """Cost of rounding along a tangent over that along the normal, where steps are as of a layer of this
 ratio."""
 SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and over those along the surface
-CREASED = (
-    2.5  # what a crease costs that is in one of two pictures only, over an error of a step at its share of vertices
-)
+CREASED = 2.5
+"""What a crease costs that is in one of two pictures only, over an error of a step at its share of vertices."""
 WITHIN = 8.0  # degrees, on both sides of the angle that makes a crease, in which bends are watched
 
 

@@ -243,6 +243,21 @@ def test_a_face_of_a_part_has_no_vertices_of_the_next(tmp_path):
         read_mesh(tmp_path / "a.usda")
 
 
+def test_attributes_of_instances_are_counted_before_they_are_made(tmp_path):
+    needs("usdc")
+    zeros = ", ".join(["0"] * 300)
+    heats = "".join(f'float[] primvars:a{k} = [{zeros}] (interpolation = "vertex")\n' for k in range(400))
+    points = f"point3f[] points = [{', '.join(['(0, 0, 0)'] * 300)}]"
+    mesh = f'def Mesh "m" {{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n{points}\n{heats}}}\n'
+    places = (
+        f"int[] protoIndices = [{', '.join(['0'] * 2000)}]\npoint3f[] positions = [{', '.join(['(0, 0, 0)'] * 2000)}]"
+    )
+    stage = f'#usda 1.0\ndef PointInstancer "a" {{\nrel prototypes = </a/m>\n{places}\n{mesh}}}\n'
+    (tmp_path / "a.usda").write_text(stage)
+    with pytest.raises(LimitError, match="memory"):
+        read_mesh(tmp_path / "a.usda")
+
+
 def test_what_a_stage_loses_is_noted(tmp_path):
     pytest.importorskip("pxr.Usd")
     from pxr import Sdf, UsdGeom

@@ -1,6 +1,7 @@
 """What mesh files hold beside positions and faces, and who can be asked to read them."""
 
 import gzip
+import io
 import json
 
 import numpy as np
@@ -46,6 +47,21 @@ def test_damaged_compressed_files():
         read_mesh(whole[:-20])
     with pytest.raises(CorruptError, match="damaged"):
         read_mesh(whole[:-6] + bytes(6))
+
+
+def test_an_array_of_an_npz_is_as_long_as_it_says():
+    file, faces = io.BytesIO(), np.tile(np.arange(3), (79_202, 1))
+    np.savez(file, positions=np.eye(3), faces=faces)
+    with pytest.raises(CorruptError, match="more than"):
+        read_mesh(file.getvalue().replace(b"(79202, 3)", b"(19202, 3)"))
+
+
+def test_the_first_places_in_a_texture_of_a_ply_are_u_and_v():
+    names = "".join(f"property float {name}\n" for name in "xyzuvst")
+    rows = "0 0 0 .1 .2 .3 .4\n" * 3
+    head = f"ply\nformat ascii 1.0\nelement vertex 3\n{names}element face 1\nproperty list uchar int vertex_indices\n"
+    mesh = read_mesh(f"{head}end_header\n{rows}3 0 1 2\n".encode()).mesh
+    assert np.allclose([a.values[0] for a in mesh.attributes], [[0.1, 0.2], [0.3, 0.4]])
 
 
 # ------------------------------------------------------------------------------------------------------------ trimesh

@@ -1,6 +1,8 @@
 """VTP: every way in which VTK writes one, what VTK reads of ours, and what is refused."""
 
+import base64
 import itertools
+import struct
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import bsm
 from bsm.files.mesh import read_mesh, written_mesh
 from tests.bsm.test_libraries import painted
 from tests.shapes import torus
+from tests.streams import memory_below
 
 WAYS = list(
     itertools.product(("Ascii", "Binary", "Appended"), ("None", "ZLib"), (0, 1), ("32", "64"), ("Little", "Big"))
@@ -54,6 +57,19 @@ def test_what_vtk_writes_is_read(tmp_path, mode, compressor, encoded, head, orde
     getattr(writer, f"SetByteOrderTo{order}Endian")()
     writer.Write()
     equal(bsm.load(tmp_path / "b.vtp"), bsm.load(tmp_path / "a.vtp"))
+
+
+def test_fields_of_many_strings_take_little_memory_and_surplus_base64_is_left():
+    letters = " ".join(["97"] * 20_000 + ["0"] * 20_000)
+    surplus = base64.b64encode(struct.pack("<Q", 1) + b"x").decode() + "A"
+    arrays = f'<Array type="String" Name="a" format="ascii">{letters}</Array>'
+    arrays += f'<DataArray type="UInt8" Name="b" format="binary">{surplus}</DataArray>'
+    data = written_mesh(torus(), "vtp").data.replace(
+        b"<PolyData>", f"<PolyData><FieldData>{arrays}</FieldData>".encode()
+    )
+    with memory_below(32 << 20):
+        read = read_mesh(data)
+    assert read.dropped == ("a",) and read.mesh.metadata["b"] == b"x"
 
 
 def test_polygons_and_lines(tmp_path):

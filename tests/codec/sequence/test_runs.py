@@ -83,6 +83,13 @@ def test_a_target_is_for_frames_that_share_their_faces():
         encoded(meshes((10, 3), (7, 2)), target=bsm.SequenceTarget("kg", 0.5))
     same = meshes((10, 3))
     assert frames_in(moving_events_of(encoded(same, target=bsm.SequenceTarget("kg", 5.0))))
+    faces, positions = same[0].faces.copy(), np.concatenate([same[0].positions, same[0].positions[:10]])
+    ours = faces[::2]  # a seam of joined vertices, which parts
+    ours[ours < 10] += len(same[0].positions)
+    apart = positions + 0.1 * (np.arange(len(positions)) >= len(same[0].positions))[:, None]
+    parting = [bsm.TriangleMesh(places, faces) for places in (positions, positions, apart, apart)]
+    with pytest.raises(bsm.MeshError, match="part at frame 2"):
+        encoded(parting, target=bsm.SequenceTarget("kg", 0.5), gop=2)
 
 
 # ---------------------------------------------------------------------------------------------------- loss and joining

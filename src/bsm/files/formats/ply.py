@@ -101,7 +101,9 @@ def parse_header(data: bytes) -> Header:
     end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:\r?\n|\r|\Z)").search(data, begin.end() - 1, MOST_HEADER)
     if end is None:
         raise TruncatedError(f"the PLY header has no end_header in its first {MOST_HEADER} bytes")
-    ends = end.end() - 1 if _ends_in_return(data, end) else end.end()
+    # Where all lines before end in \r, \n after the last one is the first byte of the body.
+    in_body = end[0].endswith(b"\r\n") and b"\n" not in data[: end.start() + 1]
+    ends = end.end() - 1 if in_body else end.end()
     order: str | None = None
     elements: list[Element] = []
     comments: list[tuple[str, str]] = []
@@ -135,11 +137,6 @@ def parse_header(data: bytes) -> Header:
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
     return Header(order, tuple(elements), ends, tuple(comments))
-
-
-def _ends_in_return(data: bytes, end: re.Match[bytes]) -> bool:
-    """Return whether all lines before end in \r, so that \n after the last one is the first byte of the body."""
-    return end[0].endswith(b"\r\n") and b"\n" not in data[: end.start() + 1]
 
 
 def _extend(elements: list[Element], column: Property) -> None:
@@ -267,12 +264,12 @@ _GROUPS: tuple[tuple[Semantic, tuple[str, ...]], ...] = (
     ("color", ("red", "green", "blue")),
     ("color", ("diffuse_red", "diffuse_green", "diffuse_blue")),
     ("color", ("r", "g", "b")),
-    ("texcoord", ("s", "t")),
     ("texcoord", ("u", "v")),
+    ("texcoord", ("s", "t")),
     ("texcoord", ("texture_u", "texture_v")),
     ("texcoord", ("texture_s", "texture_t")),
 )
-"""Properties that are one value together; the first of a meaning and a width are written."""
+"""Properties that are one value together; the first of a meaning and a width are written, but s and t for u and v."""
 _NAMES = {"texnumber": "material", "material_index": "material"}
 """What properties are called here, unless by their own names."""
 
@@ -417,7 +414,7 @@ def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:
 
 def _property_names(attribute: Attribute, taken: list[str]) -> list[str]:
     """The names of an attribute's properties: those that everybody knows, or its own."""
-    groups = (group for meaning, group in _GROUPS if meaning == attribute.semantic)
+    groups = (group for meaning, group in _GROUPS if meaning == attribute.semantic and group != ("u", "v"))
     known = next((group for group in groups if len(group) == attribute.components), ())
     if known and not set(known) & set(taken):
         return list(known)

@@ -112,7 +112,7 @@ class _Numbers:
         found = bytearray()
         try:
             for part in _PADDED.finditer(given.split(b"<", 1)[0]):
-                found += base64.b64decode(part[0])
+                found += base64.b64decode(part[0][: len(part[0]) // 4 * 4])
         except binascii.Error as error:
             raise CorruptError(f"what should be base64 is not: {error}") from error
         return bytes(found)
@@ -227,9 +227,9 @@ def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> t
 
 
 def _field(values: Array, array: ElementTree.Element) -> Array:
-    """Numbers, or the texts that they are the letters of."""
+    """Numbers, or the text that they are the letters of, and the rest as another, since several are left out."""
     is_text = array.get("type") == "String"
-    return np.array(values.tobytes().decode(errors="replace").removesuffix("\0").split("\0")) if is_text else values
+    return np.array(values.tobytes().decode(errors="replace").removesuffix("\0").split("\0", 1)) if is_text else values
 
 
 def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:

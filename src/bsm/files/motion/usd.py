@@ -233,7 +233,7 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
     return written
 
 
-PER_PART = 4000.0  # bytes of a mesh or an instance
+PER_PART, PER_VALUE = 4000.0, 24.0  # bytes of a mesh or an instance, and of each number of its attributes
 MOST_PRIMS, MOST_NAMED = 1 << 16, 12
 PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
@@ -468,6 +468,10 @@ class _Stage:
             self._limits.check_memory(PER_PART * count, vertices, self._size)
             if shape.rows["face"] or shape.rows["corner"]:
                 yield _Part(shape, prim, instance)
+        widths = {(c.name, c.domain): c.values.shape[1] for shape in known.values() for c in shape.columns}
+        # Each part gets each attribute, which has no more values than there are corners.
+        numbers = sum(widths.values()) * (3 * triangles + vertices)
+        self._limits.check_memory(PER_VALUE * numbers, vertices, self._size)
 
     def _placed(self) -> Iterator[tuple[Any, _Instance | None]]:
         """Yield the visible meshes, and the instances of instancers."""
@@ -534,7 +538,7 @@ class _Stage:
             return shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name)
 
         counts = [(part.shape.vertices, max(part.shape.triangles, 0)) for part in self.parts]
-        found = shapes.joined_parts(map(made, self.parts), counts, self._limits, self._size)
+        found = shapes.joined_parts(map(made, self.parts), counts, self._limits, 1 << 62)  # parts were checked
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
