@@ -28,7 +28,7 @@ ASIDE, RATIO = 0.35, 10.0
 ratio."""
 SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and over those along the surface
 CREASED = 2.5
-"""What a crease costs that is in one of two pictures only, over an error of a step at its share of vertices."""
+"""The cost of a crease in one of two pictures only, over an error of a step at its share of vertices."""
 WITHIN = 8.0  # degrees, on both sides of the angle that makes a crease, in which bends are watched
 
 

@@ -144,7 +144,7 @@ class NpzArray:
         values = self._taken(self.shape)
         with _reading(self._name):
             if self._entry.read(1):  # zipfile also checks the sum of an entry at its end
-                raise CorruptError(f"the array {self._name} has more than the {self.size} bytes that it should")
+                raise CorruptError(f"the array {self._name} takes more than {self.size} bytes")
         return values
 
     def pieces(self, rows: int) -> Iterator[Array]:
