@@ -42,15 +42,13 @@ def _number(value: float) -> str:
     return str(int(value)) if value == int(value) and abs(value) < 2**53 else repr(value)
 
 
-def _content(value: Any) -> str:
-    return f"[{', '.join(map(_number, value))}]" if isinstance(value, tuple) else _number(value)
-
-
 def _field(name: str, field: Field) -> str:
     kind = _PLAIN[field.item if field.type is tuple else field.type]
     parts = [f"key: {field.key}", f'type: "{kind}"', f"low: {_number(field.low)}", f"high: {_number(field.high)}"]
     if name in HEADER_DEFAULTS:
-        parts.append(f"default: {_content(HEADER_DEFAULTS[name])}")
+        usual: Any = HEADER_DEFAULTS[name]
+        numbers = f"[{', '.join(map(_number, usual))}]" if isinstance(usual, tuple) else _number(usual)
+        parts.append(f"default: {numbers}")
     if field.type is tuple:
         parts.append(f"lengths: [{field.lengths[0]}, {field.lengths[1]}]")
     return f"{{ {', '.join(parts)} }}"

@@ -46,11 +46,6 @@ WEB = ROOT / "web"
 SLOT = re.compile(r'<script type="application/json" id="bsm-streams">(.*?)</script>', re.DOTALL)
 
 
-def sent_to(growing: Growing) -> bytes:
-    """What a page is sent of a stream that has ended meanwhile."""
-    return b"".join(growing.chunks())
-
-
 def frames_sent(data: bytes) -> tuple[list[np.ndarray], list[int]]:
     """Frames of a stream that may begin late, and how many are missing where."""
     events = moving_events_of(data, tolerant=True)
@@ -156,7 +151,7 @@ def test_late_joiners_enter_at_the_newest_group():
     frames, lost = frames_sent(head + b"".join(late))
     assert lost == [6]
     np.testing.assert_array_equal(frames, everything[6:])
-    assert sent_to(growing) == whole
+    assert b"".join(growing.chunks()) == whole
 
 
 def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():

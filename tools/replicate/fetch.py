@@ -75,7 +75,8 @@ def unpacked(package: dict[str, Any], root: Path) -> None:
     beside.mkdir(parents=True, exist_ok=True)
     name, version = package["package"], package["version"]
     if package["registry"] == "pypi":
-        _run([*_pip(), "download", "-q", "--no-deps", "--only-binary", ":all:", "-d", beside, f"{name}=={version}"])
+        pip = [sys.executable, "-m", "pip"] if importlib.util.find_spec("pip") else ["pip"]
+        _run([*pip, "download", "-q", "--no-deps", "--only-binary", ":all:", "-d", beside, f"{name}=={version}"])
         with zipfile.ZipFile(next(beside.glob("*.whl"))) as wheel:
             wheel.extractall(beside)
     elif package["registry"] == "npm":
@@ -101,10 +102,6 @@ def meshopt_package(folder: Path, note: Callable[[str], None]) -> Path | None:
         note(f"missing: meshoptimizer ({error})")
         return None
     return folder / name / "package"
-
-
-def _pip() -> list[str]:
-    return [sys.executable, "-m", "pip"] if importlib.util.find_spec("pip") else ["pip"]
 
 
 def _run(words: list[Any], cwd: Path | None = None) -> None:

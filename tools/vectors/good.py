@@ -34,10 +34,6 @@ def _small() -> TriangleMesh:
     return torus(12, 10)
 
 
-def _shuffled() -> TriangleMesh:
-    return shuffled(_small())
-
-
 def _uneven() -> TriangleMesh:
     """Rough on one side only."""
     mesh = torus(18, 12)
@@ -121,7 +117,9 @@ STATIC: dict[str, Good] = {
     "good-hub": _static("a vertex with more neighbors than a block has rows", hub, block_size=12),
     "good-boundary": _static("a disc: one boundary loop", lambda: patch(12, 11)),
     "good-genus": _static("closed, genus one", lambda: torus(9, 8)),
-    "good-ordered": _static("ORDER: vertices, faces and first corners as given", _shuffled, keep_order=True),
+    "good-ordered": _static(
+        "ORDER: vertices, faces and first corners as given", lambda: shuffled(_small()), keep_order=True
+    ),
     "good-labels": _static("PARTITION: labels of the parts are stored", _small, partition="metis"),
     "good-packed": _static("packed coefficients of 12 bits", _small, bits=12),
     "good-packed-7": _static("packed coefficients of 7 bits, which do not end at a byte", _small, bits=7),

@@ -103,10 +103,6 @@ def header_of(stream: bytes) -> Header:
 LAYER = Layer(2.0**-9, 3.0)
 
 
-def _deep() -> bytes:
-    return refined(hub(), Layer(2.0**-20, 3.0), (len(hub().positions),))
-
-
 def _large() -> bytes:
     """A regular mesh of 17,161 vertices, all at one place, and one of no order behind it."""
     mesh = together(torus(131, 131), tangled())
@@ -164,7 +160,10 @@ FIELDS: dict[str, Good] = {
     "good-refined-tangled": Good(
         "refinement where faces have no area", lambda: refined(tangled(), LAYER, (len(tangled().positions),))
     ),
-    "good-refined-deep": Good("levels of many bits, of a vertex with many neighbors", _deep),
+    "good-refined-deep": Good(
+        "levels of many bits, of a vertex with many neighbors",
+        lambda: refined(hub(), Layer(2.0**-20, 3.0), (len(hub().positions),)),
+    ),
     "good-refined-large": Good(
         "refinement of more vertices than are looked back on", lambda: refined(torus(30, 24), LAYER, (720,))
     ),

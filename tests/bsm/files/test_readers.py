@@ -58,9 +58,8 @@ def test_an_array_of_an_npz_is_as_long_as_it_says():
 
 def test_the_first_places_in_a_texture_of_a_ply_are_u_and_v():
     names = "".join(f"property float {name}\n" for name in "xyzuvst")
-    rows = "0 0 0 .1 .2 .3 .4\n" * 3
     head = f"ply\nformat ascii 1.0\nelement vertex 3\n{names}element face 1\nproperty list uchar int vertex_indices\n"
-    mesh = read_mesh(f"{head}end_header\n{rows}3 0 1 2\n".encode()).mesh
+    mesh = read_mesh((head + "end_header\n" + "0 0 0 .1 .2 .3 .4\n" * 3 + "3 0 1 2\n").encode()).mesh
     assert np.allclose([a.values[0] for a in mesh.attributes], [[0.1, 0.2], [0.3, 0.4]])
 
 
