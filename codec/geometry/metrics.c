@@ -226,8 +226,8 @@ static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 lo
     return best;
 }
 
-/* The largest distance of a point to the nearest triangle, and all of them if `distances` has room: what is nearer than
- * the largest so far need not be known exactly else. `triangles` has nine numbers a row, in the order of the tree. */
+/* The largest distance of a point to the nearest triangle, and all of them if `distances` has room; else smaller
+ * distances need not be exact. `triangles` has nine numbers a row, in the order of the tree. */
 double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
                          ConstLongs first, ConstLongs count, Doubles distances) {
     int64_t found = 0;

@@ -324,7 +324,7 @@ INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
 }
 
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of
- * what is at one depth the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` for a
+ * faces at one depth, the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` for a
  * picture, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1.
  *
  * Of a closed surface one half faces the camera, and hides the other: that half comes first, and most of the other one

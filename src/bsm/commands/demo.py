@@ -63,7 +63,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         pictures = [render(placed, sample.faces, bounds=bounds, colors=colors) for placed, colors in drawn]
         titles = (f"original, {plain / 1000:,.0f} kB", f"decoded, {len(stream) / 1000:,.1f} kB", "error")
         try:
-            picture = with_titles(pictures, titles, 100.0 * top * error.max_error_relative / (error.max_error or 1.0))
+            picture = with_titles(pictures, titles, 100.0 * top / sample.diagonal)
         except DependencyError as problem:
             console.note(f"no titles: {problem}")
             picture = png(np.hstack(pictures))
