@@ -11,7 +11,4 @@ python=$(cd "$(dirname "$python")" && pwd)/$(basename "$python")
 cmake -S . -B build/kernels -DPython_EXECUTABLE="$python" "$@" > /dev/null
 cmake --build build/kernels -j 2
 cmake --install build/kernels --prefix src > /dev/null
-for package in bsm bsm/bitstream bsm/codec; do
-    PYTHONPATH=src "$python" -m nanobind.stubgen -q -m "${package//\//.}._kernels" -o src/$package/_kernels.pyi
-done
-PYTHONPATH=src "$python" -m nanobind.stubgen -q -m bsm._engine -o src/bsm/_engine.pyi
+PYTHONPATH=src tools/write_stubs.sh "$python"
