@@ -21,8 +21,8 @@ import bsm
 from bsm import Attribute, TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
+from tests.bsm.program import declare_entry_points
 from tests.bsm.test_libraries import painted
-from tests.plugins import declare_entry_points
 from tools.docs_pages import exit_codes
 from tools.noise import gaussian_along_normals
 from tools.pictures import PICTURES

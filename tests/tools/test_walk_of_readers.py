@@ -1,4 +1,4 @@
-"""A part of the walk over all readers of files; `python -m tools.attack readers` is the whole."""
+"""A part of the walk over all readers of files, ours and others; `python -m tools.attack readers` is the whole."""
 
 import json
 import os
@@ -11,6 +11,7 @@ import pytest
 from bsm import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
+from tools.attack.doors import Apart, attempt, compared
 from tools.attack.growth import growth
 from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up, written
 from tools.attack.taken import Taken
@@ -98,3 +99,22 @@ def test_uses_are_counted_once_and_before_they_are_made(name):
 def test_files_have_the_size_that_is_asked_for():
     sizes = {case.name: len(case.make().data) for case in cases(20_000, (0.5,))}
     assert all(2000 < size < 40_000 for size in sizes.values()), sizes
+
+
+MOVING = Path(__file__).parents[1] / "bsm" / "files" / "moving"
+
+
+def test_usd_core_reads_our_samples_as_we_do():
+    pytest.importorskip("pxr")
+    apart = Apart()
+    try:
+        for name in ("skinned.usdc", "morphing.usdc", "painted.usdz"):
+            assert list(compared(MOVING / name, ["usd"], apart)) == [("usd", "same", "")]
+        assert apart.read("usd", MOVING / "three.mjs") is None
+    finally:
+        apart.close()
+
+
+def test_a_reader_that_is_missing_or_fails_reads_nothing(tmp_path):
+    (tmp_path / "a.ply").write_bytes(b"no mesh")
+    assert attempt("trimesh", tmp_path / "a.ply") is None

@@ -1,4 +1,4 @@
-"""Normals as levels, rings of vertices at one place, and how small values of real meshes are."""
+"""Normals as levels, rings of vertices at one place, the cost of seams, and how small values of real meshes are."""
 
 from pathlib import Path
 
@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bsm.bitstream.attributes.seams import encode_seams, find_seams
 from bsm.bitstream.attributes.values import canonical_levels, octahedral_normals
-from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.bitstream.fields.corners import MOST_LARGEST, corners_of
 from bsm.codec.static.attributes.levels import _places
 from tests.bitstream.fields.fields import decode, encode, field_of
 from tools.measure.grids import welded
@@ -44,3 +45,12 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
     chunks = encode(field, levels)
     np.testing.assert_array_equal(decode(field, chunks), levels)
     assert 8 * len(chunks[0][0]) / len(levels) < most
+
+
+def test_seams_of_an_attribute_before_cost_next_to_nothing():
+    random = np.random.default_rng(3)
+    faces = np.array([[i, i + 1, i + 2] for i in range(2000)])
+    corners = corners_of(faces, 2002)
+    seams = find_seams(corners, random.integers(0, 2, faces.shape))
+    alone, known = encode_seams(corners, seams), encode_seams(corners, seams, (seams,))
+    assert len(known) < len(alone) / 8

@@ -1,7 +1,8 @@
-"""Faces to bytes and back: exact for any triangles, small, stable, and safe on damaged payloads."""
+"""Faces, orders and parts as bytes: faces come back exactly, small and stable, and damage is safe."""
 
 import contextlib
 import dataclasses
+from math import lgamma, log
 from pathlib import Path
 from random import Random
 
@@ -10,9 +11,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import BsmError, CorruptError, LimitError, MeshError, TruncatedError
+from bsm import BsmError, CorruptError, LimitError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
+from bsm.bitstream.connectivity.order import write_permutation, write_rotations
+from bsm.bitstream.connectivity.partition import encode_labels
+from bsm.bitstream.entropy.range_coder import finish_writing, start_writing
 from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.files.mesh import read_mesh
 from tests.bitstream.fields.fields import SOUPS
 from tests.shapes import Faces, grid_faces
@@ -194,3 +199,32 @@ def test_real_meshes_round_trip_in_few_bits(meshes: Path) -> None:
         spent[path.stem] = 8 * len(check_round_trip(faces, count).payload) / count
     over = {name: spent[name] for name, budget in BUDGETS.items() if spent[name] > budget}
     assert not over
+
+
+def encode(write, values) -> bytes:
+    return finish_writing(write(start_writing(0), np.array(values, np.int32)))
+
+
+def test_random_order_costs_about_its_entropy_and_runs_cost_little() -> None:
+    size = 5000
+    order = np.random.default_rng(0).permutation(size)
+    assert 8 * len(encode(write_permutation, order)) < 1.1 * lgamma(size + 1) / log(2)
+    assert len(encode(write_permutation, np.arange(size))) < 40
+    assert len(encode(write_permutation, np.arange(size)[::-1])) < 60
+    assert len(encode(write_permutation, np.roll(np.arange(size), 1234))) < 50
+    assert len(encode(write_permutation, np.arange(size).reshape(50, 100).T.ravel())) < 0.2 * size
+
+
+@pytest.mark.parametrize("order", [[0, 0], [1, 2], [-1, 0], [[0, 1]]])
+def test_what_is_no_permutation_is_refused(order: list[int]) -> None:
+    with pytest.raises(OptionError):
+        encode(write_permutation, order)
+    with pytest.raises(OptionError):
+        encode(write_rotations, [0, 1, 3])
+
+
+def test_compact_parts_cost_little():
+    graph = graph_of_faces(grid_faces(60, 60), 3600)
+    labels = np.add.outer(np.arange(60) // 20 * 3, np.arange(60) // 20).ravel().astype(np.int32)
+    data = encode_labels(graph.offsets, graph.neighbors, labels, 9)
+    assert 8 * len(data) < 0.2 * len(labels)

@@ -3,6 +3,7 @@
 import json
 import shutil
 import struct
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -790,3 +791,36 @@ def test_colors_are_of_the_kind_that_they_are_first():
     for first, other, value in ((whole, part, 128), (part, whole, 1.0)):
         (now,) = painted_like(first, other).attributes
         assert now.values.dtype == first.attributes[0].values.dtype and (now.values == value).all()
+
+
+ROOT = Path(__file__).parents[3]
+MODULES = ROOT / "web" / "node_modules"
+
+
+def shown_by_three(path, rate, count):
+    if shutil.which("node") is None or not (MODULES / "three").is_dir():
+        pytest.skip("needs node, and three.js in web (npm ci)")
+    words = ["node", MOVING / "three.mjs", path, str(rate), str(count), MODULES]
+    done = subprocess.run(words, capture_output=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr.decode()
+    return np.frombuffer(done.stdout).reshape(count, -1, 3)
+
+
+@pytest.mark.parametrize("name", ["skinned", "morphing"])
+def test_what_blender_wrote(name):
+    """Bones that turn and targets that mix, as three.js' own mixer moves them."""
+    frames = np.array(list(open_sequence(str(MOVING / f"{name}.glb"), wanted=Wanted()).frames))
+    shown = shown_by_three(MOVING / f"{name}.glb", 24, len(frames))
+    distance, same = cKDTree(frames[0]).query(shown[0])
+    assert set(same) == set(range(frames.shape[1])) and distance.max() < 1e-5
+    diagonal = np.linalg.norm(np.ptp(frames[0], axis=0))
+    assert np.abs(frames[:, same] - shown).max() < 3e-6 * diagonal
+
+
+def test_what_we_write(tmp_path):
+    positions, faces = bending(9)
+    positions = positions.astype(np.float32).astype(np.float64)
+    shared = Shared(metadata=lambda: {"frame_rate": 25.0})
+    save_frames(tmp_path / "a.glb", "glb", positions, faces, shared)
+    shown = shown_by_three(tmp_path / "a.glb", 25, 9)
+    assert np.abs(shown - positions).max() < 1e-6

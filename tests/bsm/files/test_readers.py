@@ -1,14 +1,17 @@
-"""What mesh files hold beside positions and faces, and who can be asked to read them."""
+"""Mesh files: what goes in comes out, bad files are refused, and other readers are asked where ours end."""
 
 import gzip
 import io
 import json
+import sys
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, TruncatedError
-from bsm.files.mesh import read_mesh, written_mesh
+from bsm import BsmError, CorruptError, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
+from bsm.files.mesh import MESH_FORMATS, read_mesh, write_mesh, written_mesh
 from bsm.files.sequence import open_sequence
 from tests.gltf import Built
 from tests.shapes import tetrahedron, torus
@@ -120,3 +123,210 @@ def test_damaged_scenes(trimesh, data, tmp_path):
     (tmp_path / "a.glb").write_bytes(data)
     with pytest.raises((FormatError, TruncatedError), match=r"not a GLB|this GLB should|a GLB begins"):
         read_mesh(tmp_path / "a.glb")
+
+
+TETRAHEDRON = tetrahedron()
+PLY_HEADER = (
+    "ply\nformat {order} 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
+)
+SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+
+
+def write(tmp_path, name, content):
+    path = tmp_path / name
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+def ply(body, vertices=4, faces=1, order="ascii"):
+    return PLY_HEADER.format(order=order, vertices=vertices, faces=faces) + body
+
+
+@st.composite
+def triangle_meshes(draw):
+    """Any faces over points that float32 holds."""
+    count = draw(st.integers(3, 12))
+    number = st.floats(-100, 100, width=32).map(lambda value: value + 0.0)
+    positions = draw(st.lists(st.tuples(number, number, number), min_size=count, max_size=count))
+    index = st.integers(0, count - 1)
+    faces = draw(st.lists(st.tuples(index, index, index), min_size=1, max_size=20))
+    return TriangleMesh(np.array(positions), np.array(faces))
+
+
+@pytest.mark.parametrize("kind", ["npz", "obj", "off", "ply"])
+@settings(max_examples=40)
+@given(mesh=triangle_meshes())
+def test_any_mesh_survives(kind, mesh, tmp_path_factory):
+    path = tmp_path_factory.mktemp("files") / f"mesh.{kind}"
+    write_mesh(path, mesh)
+    back = read_mesh(path).mesh
+    assert np.array_equal(back.faces, mesh.faces)
+    assert np.array_equal(back.positions, mesh.positions) or np.allclose(
+        back.positions, mesh.positions, rtol=1e-8, atol=2e-6 * mesh.diagonal
+    )
+
+
+def test_stl_joins_equal_corners(tmp_path):
+    path = tmp_path / "mesh.stl"
+    write_mesh(path, TETRAHEDRON)
+    source = read_mesh(path)
+    assert len(path.read_bytes()) == 84 + 4 * 50
+    assert np.array_equal(source.mesh.positions[source.mesh.faces], TETRAHEDRON.positions[TETRAHEDRON.faces])
+    assert len(source.mesh.positions) == 4
+    assert "12 corners" in source.notes[0]
+
+
+@pytest.mark.parametrize("kind", ["npz", "obj", "off", "ply"])
+def test_double_precision_is_kept_where_it_matters(kind, tmp_path):
+    far = TriangleMesh(TETRAHEDRON.positions * 0.1 + 1e7, TETRAHEDRON.faces)
+    path = tmp_path / f"mesh.{kind}"
+    write_mesh(path, far)
+    assert np.array_equal(read_mesh(path).mesh.positions, far.positions)
+
+
+def test_stl_refuses_to_lose_precision(tmp_path):
+    path = tmp_path / "mesh.stl"
+    with pytest.raises(MeshError, match="double precision"):
+        write_mesh(path, TriangleMesh(TETRAHEDRON.positions * 0.1 + 1e7, TETRAHEDRON.faces))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_obj_counts_back_continues_lines_and_ignores_the_rest(tmp_path):
+    text = (
+        "# a comment\nmtllib no.mtl\no thing\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 # end\nvn 0 0 nan\nvt 0 0\n"
+        "f -3/1/1 -2//1 -1/1\nl 1 2\nv 0 0 1\nf 1 2 \\\n 4\nf 1 2\nusemtl x\n"
+    )
+    source = read_mesh(write(tmp_path, "a.obj", text))
+    assert source.mesh.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
+    assert len(source.mesh.positions) == 4
+    assert any("fewer than three corners were left out: 1" in note for note in source.notes)
+
+
+@pytest.mark.parametrize("line_end", ["\r\n", "\r"])
+@pytest.mark.parametrize("name", ["a.obj", "a.off", "a.ply"])
+def test_other_line_ends(name, line_end, tmp_path):
+    texts = {
+        "a.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+        "a.off": "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n",
+        "a.ply": ply("0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n", vertices=3),
+    }
+    assert len(read_mesh(write(tmp_path, name, texts[name].replace("\n", line_end))).mesh.faces) == 1
+
+
+def test_the_content_tells_the_format_where_the_name_does_not(tmp_path):
+    for kind in MESH_FORMATS:
+        source = read_mesh(write(tmp_path, f"{kind}.dat", written_mesh(TETRAHEDRON, kind).data))
+        assert len(source.mesh.faces) == 4
+
+
+@pytest.mark.parametrize("kind", MESH_FORMATS)
+def test_no_library_is_needed_for_our_formats(kind, tmp_path, monkeypatch):
+    write_mesh(tmp_path / f"a.{kind}", TETRAHEDRON)
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    assert len(read_mesh(tmp_path / f"a.{kind}").mesh.faces) == 4
+
+
+NUMBER = "{} 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+BAD = {
+    "empty.obj": ("", FormatError),
+    "words.obj": ("hello, this is no mesh\n", MeshError),
+    "binary.obj": (b"v 0 0 0\n\x00\x01\x02", FormatError),
+    "nan.obj": ("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", MeshError),
+    "zero.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", MeshError),
+    "outside.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", MeshError),
+    "far_back.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", MeshError),
+    "fraction.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2.5\n", MeshError),
+    "corner.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 /2 3 1\n", MeshError),
+    "short.obj": ("v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", MeshError),
+    "underscore.obj": ("v 1_0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", MeshError),
+    "points.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\n", MeshError),
+    "magic.off": ("FOO\n4 1 0\n", FormatError),
+    "four.off": ("4OFF\n4 1 0\n", MeshError),
+    "binary.off": ("OFF BINARY\n4 1 0\n", MeshError),
+    "inf.off": ("OFF\n4 1 0\n" + NUMBER.format("inf") + "4 0 1 2 3\n", MeshError),
+    "huge.off": ("OFF\n12000000 12000000 0\n" + SQUARE, TruncatedError),
+    "cut.off": ("OFF\n4 1 0\n" + SQUARE, TruncatedError),
+    "negative.off": ("OFF\n4 1 0\n" + SQUARE + "3 0 1 -2\n", MeshError),
+    "negative_size.off": ("OFF\n4 1 0\n" + SQUARE + "-3 0 1 2\n", MeshError),
+    "long_list.off": ("OFF\n4 1 0\n" + SQUARE + "400000000 0 1 2\n", MeshError),
+    "magic.ply": ("plx\n", FormatError),
+    "no_end.ply": ("ply\nformat ascii 1.0\n", TruncatedError),
+    "no_format.ply": ("ply\nelement vertex 0\nend_header\n", FormatError),
+    "type.ply": ("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n", FormatError),
+    "nan.ply": (ply(NUMBER.format("nan") + "4 0 1 2 3\n"), MeshError),
+    "large.ply": (ply(NUMBER.format("1e999") + "4 0 1 2 3\n"), MeshError),
+    "outside.ply": (ply(SQUARE + "3 0 1 7\n"), MeshError),
+    "points.ply": (ply(SQUARE, faces=0), MeshError),
+    "huge.ply": (ply("", 12000000, 12000000), TruncatedError),
+    "huge_binary.ply": (ply("", 12000000, 12000000, "binary_little_endian"), TruncatedError),
+    "strips.ply": (ply(SQUARE).replace("element face 1", "element tristrips 1") + "4 0 1 2 3\n", MeshError),
+    "flat.ply": (ply(SQUARE + "3 0 1 2\n").replace("float y", "float u"), MeshError),
+    "no_list.ply": (ply(SQUARE + "3 0 1 2\n").replace("vertex_indices", "strange"), MeshError),
+    "cut.stl": (b"\0" * 80 + (1000).to_bytes(4, "little") + bytes(50), TruncatedError),
+    "short.stl": (b"\0" * 20, FormatError),
+    "nan.stl": (b"\0" * 80 + (1).to_bytes(4, "little") + b"\xff" * 50, MeshError),
+    "cut_text.stl": ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n", TruncatedError),
+    "none.stl": ("solid a\nendsolid a\n", MeshError),
+    "magic.npz": (b"PK\x03\x04 and then nothing", FormatError),
+    "unknown.xyz": ("0 0 0\n", FormatError),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_files_are_refused(name, tmp_path):
+    content, error = BAD[name]
+    with pytest.raises(error):
+        read_mesh(write(tmp_path, name, content))
+
+
+@pytest.mark.parametrize("kind", ["obj", "off", "ply", "stl", "npz"])
+def test_every_truncation_is_an_error_or_fewer_faces(kind, tmp_path):
+    whole = written_mesh(TETRAHEDRON, kind).data
+    for length in range(len(whole)):
+        try:
+            faces = len(read_mesh(write(tmp_path, f"a.{kind}", whole[:length])).mesh.faces)
+        except BsmError:
+            continue
+        # A text file may lose its last line end, and an OBJ, which has no counts, whole lines.
+        assert faces == 4 or kind == "obj", length
+
+
+def npz(**arrays):
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("arrays", "error"),
+    [
+        ({"positions": np.zeros((3, 3))}, FormatError),
+        ({"positions": np.zeros((3, 3)), "faces": np.array([[0, 1, 2.0]])}, MeshError),
+        ({"positions": np.zeros((3, 3)), "faces": np.array([["a", "b", "c"]])}, MeshError),
+        ({"positions": np.zeros((5, 3, 3)), "faces": np.array([[0, 1, 2]])}, MeshError),
+        ({"positions": np.zeros((3, 3)), "faces": np.array([[0, 1, 3]])}, MeshError),
+        ({"positions": np.array([object()]), "faces": np.array([[0, 1, 2]])}, MeshError),
+        ({"positions": np.float64(1), "faces": np.array([[0, 1, 2]])}, MeshError),
+    ],
+)
+def test_bad_arrays_are_refused(arrays, error, tmp_path):
+    with pytest.raises(error):
+        read_mesh(write(tmp_path, "a.npz", npz(**arrays)))
+
+
+def test_an_array_that_claims_too_much_is_refused_without_allocating(tmp_path):
+    content = npz(positions=np.zeros((3, 3)), faces=np.array([[0, 1, 2]], np.int32))
+    huge = content.replace(b"'shape': (3, 3), }        ", b"'shape': (3000000000, 3)} ")
+    assert len(huge) == len(content) and huge != content
+    with pytest.raises(CorruptError):
+        read_mesh(write(tmp_path, "a.npz", huge))
+
+
+def test_limits_bound_the_mesh(tmp_path):
+    path = tmp_path / "a.ply"
+    write_mesh(path, TETRAHEDRON)
+    with pytest.raises(LimitError, match="vertices"):
+        read_mesh(path, limits=Limits(vertices=3))
+    with pytest.raises(LimitError, match="faces"):
+        read_mesh(path, limits=Limits(faces=3))

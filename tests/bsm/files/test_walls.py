@@ -1,21 +1,28 @@
-"""Files that claim, hide or repeat: refused in a sentence, before they take time or memory."""
+"""Files that claim, hide, repeat or multiply: refused in a sentence, before they take time or memory."""
 
+import gzip
 import io
 import json
 import os
+import sys
 import time
 import zipfile
+from contextlib import suppress
 
 import numpy as np
 import pytest
 
 import bsm
-from bsm import Limits
+from bsm import CorruptError, LimitError, Limits, MeshError, TruncatedError
 from bsm.cli import main
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import format_of_bytes, read_mesh, written_mesh
+from bsm.files.room import gunzipped
 from bsm.files.sequence import open_sequence
+from tests.bsm.program import bsm as program
 from tests.gltf import Built
 from tests.streams import memory_below
+from tools.attack.readers import Case, _grown, chained_objects, problems, three_mf, warm_up
+from tools.vectors.meshes import torus
 
 
 def npy(array):
@@ -145,3 +152,162 @@ def test_an_npz_of_too_many_vertices(tmp_path):
     moving(tmp_path / "a.npz", 0, 1000)
     with pytest.raises(bsm.LimitError, match="vertices = 1,000 is over the limit of 999; cut it into parts"):
         open_sequence(str(tmp_path / "a.npz"), limits=Limits(vertices=999))
+
+
+LARGE = (
+    *("ply, quads of bytes", "ply, long polygons of bytes", "glb, accessors of no bytes"),
+    *("3mf, components", "3mf, some components", "3mf, a chain"),
+)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
+@pytest.mark.parametrize("limits", ["service", "default"])
+def test_what_multiplies_is_refused_or_within_the_promised_memory_and_time(limits):
+    pytest.importorskip("trimesh")
+    warm_up()
+    made = _grown(1 << 19)
+    assert not list(problems([Case(name, made[name]) for name in LARGE], limits))
+
+
+def test_a_3mf_file_is_read_as_a_whole_or_not_at_all(tmp_path):
+    pytest.importorskip("trimesh")
+    path = tmp_path / "a.3mf"
+    path.write_bytes(three_mf(chained_objects(3), '<item objectid="3"/>'))
+    assert len(read_mesh(path).mesh.faces) == 8
+    path.write_bytes(three_mf(chained_objects(3), '<item objectid="3"/><item objectid="0"/>'))
+    assert len(read_mesh(path).mesh.faces) == 9
+    path.write_bytes(three_mf(chained_objects(39), '<item objectid="39"/>'))
+    with pytest.raises(LimitError, match="vertices"):
+        read_mesh(path, limits=Limits.service())
+    loop = '<object id="1"><components><component objectid="1"/></components></object>'
+    path.write_bytes(three_mf(loop, '<item objectid="1"/>'))
+    with pytest.raises(MeshError, match="component of itself"):
+        read_mesh(path)
+
+
+@pytest.mark.parametrize(("times", "read"), [(5, True), (6, False)])
+def test_placements_that_trimesh_does_not_follow_are_a_limit(tmp_path, times, read):
+    pytest.importorskip("trimesh")
+    components = '<component objectid="0"/>' * times
+    used = f'<object id="9"><components>{components}</components></object>'
+    path = tmp_path / "a.3mf"
+    path.write_bytes(three_mf(chained_objects(0) + used, '<item objectid="9"/>' * times))
+    if read:
+        assert len(read_mesh(path).mesh.faces) == times**2
+    else:
+        with pytest.raises(LimitError, match="of which trimesh reads"):
+            read_mesh(path)
+
+
+def test_a_part_of_a_3mf_file_is_an_error(tmp_path, monkeypatch):
+    trimesh = pytest.importorskip("trimesh")
+    path = tmp_path / "a.3mf"
+    path.write_bytes(three_mf(chained_objects(2), '<item objectid="2"/>'))
+    whole = trimesh.load_scene(path, file_type="3mf")
+
+    def part(*_, **__):
+        whole.delete_geometry(next(iter(whole.geometry)))
+        return whole
+
+    monkeypatch.setattr(trimesh, "load_scene", part)
+    with pytest.raises(MeshError, match="0 of the 4 triangles"):
+        read_mesh(path)
+
+
+def test_an_element_without_properties_is_no_obstacle_to_tiles(tmp_path):
+    head = (
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    )
+    body = bytes(12) + b"\0\0\x80?" + bytes(12) + b"\0\0\x80?" + bytes(4) + b"\3\0\1\2"
+    lists = "element nothing 7\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n"
+    (tmp_path / "a.ply").write_bytes((head + lists).encode() + body)
+    done = program("tile", tmp_path / "a.ply", "-o", tmp_path / "t")
+    assert done.returncode == 0, done.stderr
+
+
+MIB = 1 << 20
+SMALL = Limits(memory=8 * MIB)
+TEXTS = {
+    "vertices": ("obj", b"v 0 0 0\n"),
+    "empty lines": ("obj", b"\n"),
+    "words": ("obj", b"f" + b" 1" * 200_000 + b"\n"),
+    "corners": ("obj", b"f" + b" 1/1/1" * 100_000 + b"\n"),
+    "keywords": ("obj", b"a\n"),
+    "off": ("off", b"OFF\n1 1\n" + b"0 0 0\n" * 200_000),
+    "ply": ("ply", b"ply\nformat ascii 1.0\nelement vertex 1\nend_header\n" + b"1\n" * 300_000),
+    "stl": ("stl", b"solid\n" + b"x\n" * 300_000),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_texts_take_what_is_granted_or_are_refused(name):
+    kind, piece = TEXTS[name]
+    data = piece * max(1, 500_000 // len(piece))
+
+    granted = SMALL.memory_for(data.count(b"\n") // 3, len(data))
+    refused = LimitError, MeshError, TruncatedError, CorruptError, ValueError
+    with memory_below(granted + 4 * MIB), pytest.raises(refused):
+        read_mesh(data, kind, SMALL)
+
+
+def test_more_vertices_than_granted_are_refused_before_they_are_numbers():
+    data = b"v 0 0 0\n" * 100_000
+    with memory_below(4 * MIB), pytest.raises(LimitError, match="vertices"):
+        read_mesh(data, "obj", Limits(vertices=1000))
+
+
+def test_what_gzip_has_compressed_is_bounded():
+    bomb = gzip.compress(b"v 0 0 0\n" * 8_000_000)
+    most = 2 * SMALL.memory_for(0, len(bomb)) + 4 * MIB
+    with memory_below(most), pytest.raises(LimitError, match="compressed bytes"):
+        read_mesh(bomb, limits=SMALL)
+
+
+def test_gzip_of_several_members():
+    mesh = torus(6, 6)
+    text = written_mesh(mesh, "obj").data
+    both = gzip.compress(text[:100]) + gzip.compress(text[100:]) + bytes(10)
+    assert gunzipped(both, Limits()) == text
+    with pytest.raises(TruncatedError):
+        gunzipped(both[:40], Limits())
+    with pytest.raises(CorruptError):
+        gunzipped(both[:20] + b"\xff" * 40 + both[60:], Limits())
+
+
+def archive_of(**arrays):
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize("name", ["positions", "faces", "extra", "metadata"])
+def test_arrays_of_an_npz_are_bounded(name):
+    mesh = torus(6, 6)
+    arrays = {"positions": mesh.positions, "faces": mesh.faces}
+    arrays[name] = np.zeros(30_000_000, np.uint8) if name == "metadata" else np.zeros((2_000_000, 3))
+    data = archive_of(**arrays)
+    with memory_below(SMALL.memory_for(0, len(data))), suppress(LimitError):
+        assert read_mesh(data, "npz", SMALL).dropped == (name,)
+
+
+def test_archives_for_other_readers_are_bounded():
+    pytest.importorskip("trimesh")
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("3D/3dmodel.model", b"<model>" + b" " * 50_000_000)
+    with pytest.raises(LimitError, match="compressed bytes"):
+        read_mesh(buffer.getvalue(), "3mf", SMALL)
+
+
+@pytest.mark.parametrize("piece", [b"\n", b" \n", b"\r\n", b"\n ", b"v", b" v\n"])
+def test_looking_at_content_is_linear(piece):
+    data = piece * (65536 // len(piece))
+    begin = time.thread_time()
+    format_of_bytes(data)
+    assert time.thread_time() - begin < 0.25
+
+
+def test_an_obj_is_known_by_its_content():
+    assert format_of_bytes(b"# remark\n\n  v 0 0 0\n") == "obj"
+    assert format_of_bytes(b"v\t0 0 0") == "obj"
+    assert format_of_bytes(b"vt 0 0\n") is None

@@ -17,7 +17,7 @@ from bsm.codec.basis.orthogonal_iteration import (
 )
 from bsm.codec.blocks.overlap import Block
 from bsm.options import encode_options
-from tests.codec.basis.test_fronts import unordered as whole
+from tests.codec.basis.test_laplacian import unordered as whole
 from tests.shapes import patch, torus
 
 

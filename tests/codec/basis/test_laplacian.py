@@ -1,10 +1,21 @@
+"""Laplacians: solved by fronts on any graph, and cotangent weights on triangles whose angles are known."""
+
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from bsm import NumericError
 from bsm.codec import _kernels
-from bsm.codec.basis.laplacian import dense_laplacian, factorize, find_fronts, laplacian_of, solving_room
+from bsm.codec.basis.laplacian import (
+    cotangent_weights,
+    dense_laplacian,
+    factorize,
+    find_fronts,
+    laplacian_of,
+    solving_room,
+)
 from bsm.codec.basis.orthogonal_iteration import hash_columns
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
@@ -64,3 +75,45 @@ def test_any_graph_can_be_solved(faces, shift):
     expected = np.linalg.solve(shifted, columns)
     found = solve(factorize(laplacian_of(block), shift), columns)
     assert np.allclose(found, expected, rtol=0, atol=1e-4 / shift**0.5 * np.abs(expected).max())
+
+
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+HALVES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+
+
+def weights_of(positions: np.ndarray, faces: np.ndarray) -> dict[tuple[int, int], float]:
+    graph = graph_of_faces(faces, len(positions))
+    weights = cotangent_weights(graph, faces, positions)
+    tails = np.repeat(np.arange(graph.size), np.diff(graph.offsets))
+    return {(int(a), int(b)): float(w) for a, b, w in zip(tails, graph.neighbors, weights, strict=True)}
+
+
+def bounded(cotangents: float) -> float:
+    """The weight of an edge with a given half sum of cotangents."""
+    positive = (cotangents + np.sqrt(cotangents**2 + 1 / 64)) / 2
+    return 1 / 32 + 8 * positive / (8 + positive)
+
+
+def test_equilateral_triangles() -> None:
+    height = np.sqrt(3) / 2
+    positions = np.array([[0, 0, 0], [1, 0, 0], [0.5, height, 0], [0.5, -height, 0]])
+    found = weights_of(positions, np.array([[0, 1, 2], [1, 0, 3]], np.int32))
+    assert found[0, 1] == pytest.approx(bounded(1 / np.sqrt(3)), rel=3e-3)
+    assert found[0, 2] == found[1, 3] == pytest.approx(bounded(0.5 / np.sqrt(3)), rel=3e-3)
+    larger = weights_of(1024.0 * positions, np.array([[0, 1, 2], [1, 0, 3]], np.int32))
+    assert larger == pytest.approx(found, rel=5e-3)
+    with pytest.raises(NumericError):
+        weights_of(1e200 * SQUARE, HALVES)
+
+
+@pytest.mark.parametrize("length", [1.0, 1e-2, 1e-4, 1e-6, 1e-9, 0.0])
+@pytest.mark.parametrize("flatness", [1.0, 1e-3, 1e-9, 0.0])
+def test_weights_make_little_of_little(length: float, flatness: float) -> None:
+    """Whatever the triangle, a change of the positions by d changes no weight by more than about 2^13 d."""
+    triangle = length * np.array([[0, 0, 0], [1, 0, 0], [0.4, flatness, 0]])
+    faces = np.array([[0, 1, 2]], np.int32)
+    change = 1e-10
+    for seed in range(8):
+        moved = triangle + change * np.random.default_rng(seed).choice([-1.0, 1.0], (3, 3))
+        weights, other = weights_of(triangle, faces), weights_of(moved, faces)
+        assert max(abs(weights[edge] - other[edge]) for edge in weights) < 2**13 * change
