@@ -255,8 +255,9 @@ class Encoder:
         return self._input.search(Contract(WIDEST), None).seen(attempt.draft)
 
     def _judged(self, draft: Draft) -> Attempt:
-        decoded = self._input.prepared.units.into(draft.decoded)
-        return Attempt(draft, self._reference.compare(decoded))
+        units = self._input.prepared.units
+        found = self._reference.compare(units.into(draft.decoded))
+        return Attempt(draft, replace(found, rms=found.rms * units.scale, max_error=found.max_error * units.scale))
 
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""

@@ -354,13 +354,13 @@ def encode_frames(
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
     given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
     chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
-    frames = map(_as_frame if chosen is None or chosen.runs else as_mesh, meshes)
+    entries, frames = checked_metadata(metadata), map(_as_frame if chosen is None or chosen.runs else as_mesh, meshes)
     first = next(frames, None)
     if first is None:
         raise MeshError("a sequence needs at least one frame")
     attributes = [a for a in first.attributes if a.semantic != "normal" and not is_empty([a])]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
-    encoder = SequenceEncoder(first.faces, chosen, count, checked_metadata(metadata), attributes)
+    encoder = SequenceEncoder(first.faces, chosen, count, entries, attributes)
     return _joined(encoder, chain([first], frames), progress)
 
 

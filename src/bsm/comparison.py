@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError, public
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -21,8 +21,6 @@ from bsm.codec.static.preamble_encoding import join
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
-
-Order = npt.NDArray[np.int64]
 
 
 def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.integer], *, overwrite: bool) -> None:

@@ -154,4 +154,7 @@ def test_meshes_of_different_faces_are_compared_as_surfaces(tmp_path):
     a, b = (bsm.load(tmp_path / name) for name in ("a.ply", "b.ply"))
     expected = surface_distance(a.positions, a.faces, b.positions, b.faces)
     assert json.loads(done.stdout)["hausdorff"] == expected.hausdorff
-    assert "vertices are not compared" in done.stderr
+    assert "vertices are not compared: the meshes have different faces" in done.stderr
+    bsm.save(bsm.TriangleMesh(1e150 * torus().positions, torus().faces), tmp_path / "b.ply")
+    done = program("compare", tmp_path / "a.ply", tmp_path / "b.ply", "--surface", "--json", text=True)
+    assert done.returncode == 3 and "e+150 from the origin" in done.stderr

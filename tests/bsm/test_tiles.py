@@ -469,7 +469,7 @@ def test_grids_that_cannot_be_stored_exactly(mesh, tmp_path):
     tile(source, tmp_path / "out", "--grid-cell", power, "--finest")
 
 
-def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path):
+def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path, monkeypatch):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
     done = program("tile", tmp_path / "a.obj", "-o", tmp_path / "out", "--work", tmp_path, "--grid-cell", 1, text=True)
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
@@ -480,6 +480,10 @@ def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path):
     )
     printed = tile(tmp_path / "b.ply", tmp_path / "commented", "--grid-cell", 1).stderr
     assert "left out: lines of comment; tiles have" in printed
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    tile(tmp_path / "b.ply", "", "--grid-cell", 1)
+    assert (tmp_path / "here" / "manifest.json").exists()
 
 
 def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces(tmp_path):

@@ -14,7 +14,7 @@ import numpy as np
 from bsm.bitstream.errors import MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
@@ -109,10 +109,10 @@ def run(args: argparse.Namespace, console: Console) -> None:
         try:
             order = order_of_used(read_permutation(args.permutation), *whole) if args.permutation else None
             compared = _compared(original, decoded, pair(original, decoded, order), args, console)
-        except MeshError:
+        except MeshError as error:
             if seen is None and not args.surface:
                 raise
-            console.note("the meshes have different faces, so vertices are not compared")
+            console.note(f"vertices are not compared: {str(error).partition(';')[0]}")
             compared = _apart(original, decoded) if args.surface else {}
     attributes = compared.pop("attributes", {})
     if args.json:
@@ -163,6 +163,8 @@ def _compared(
 
 def _apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, float]:
     """The distances between two surfaces."""
+    for mesh in (original, decoded):
+        require_sizes(mesh.positions, done="compared")
     found = surface_distance(original.positions, original.faces, decoded.positions, decoded.faces)
     relative = found.hausdorff / (original.diagonal or 1.0)
     return {"hausdorff": found.hausdorff, "surface_distance": found.mean, "hausdorff_relative": relative}
@@ -189,10 +191,11 @@ def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
     paths = (args.original, args.decoded)
     if not all(Path(path).suffix[1:].lower() in GLTF for path in paths):
         return False
+    from bsm.files.room import as_format_error
     from bsm.gltf.compress import as_shares
-    from bsm.gltf.document import as_format_error, read_document
+    from bsm.gltf.document import read_document
 
-    with as_format_error():
+    with as_format_error("glTF"):
         sides = [read_document(path, limits_of(args.limits)) for path in paths]
         listed = [[len(mesh["primitives"]) for mesh in side.items("meshes")] for side in sides]
         whole = args.map or args.picture or args.look or args.permutation

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError, counted
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
@@ -23,7 +24,7 @@ from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
-from bsm.files.stream import SequenceStream, decode_whole, numbered, numbers_of, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, peek_header
 from bsm.jobs.plan import plan
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Task, anywhere, came_to
@@ -157,8 +158,9 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     expected = max(last - first, 0) if header.frames and not args.tolerant else 0
     order: npt.NDArray[np.int64] | slice = slice(None)
     if args.permutation:
-        mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
-        order, faces = numbers_of(mesh.positions), mesh.faces
+        numbers = np.repeat(np.arange(faces.max() + 1.0)[:, None], 3, axis=1)  # as positions, which tell the order
+        mesh = reorder(TriangleMesh(numbers, faces), read_permutation(args.permutation))
+        order, faces = mesh.positions[:, 0].astype(np.int64), mesh.faces
     shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata, first=first)
     count = vertices = 0
     with (

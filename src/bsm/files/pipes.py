@@ -71,7 +71,7 @@ def file_beside(folder: Path, name: str) -> Path:
 
 
 def inside(folder: str, name: str) -> str:
-    return f"{folder.rstrip('/')}/{name}"
+    return posixpath.join(folder, name)
 
 
 def place_of(folder: str, name: str) -> str:

@@ -7,15 +7,16 @@ import codecs
 import gzip
 import io
 import re
-import zipfile
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
+from zipfile import BadZipFile, ZipFile
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import CorruptError, FormatError, LimitError, MeshError, TruncatedError
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import NoFacesError
 
@@ -132,6 +133,7 @@ AS_NUMBERS = 8  # bytes of a coordinate or an index as readers make it, however 
 TREE = 32  # bytes that a byte of JSON may become
 TAG = 150  # bytes that a tag of XML becomes in the tree of a library
 _PIECE = 1 << 18
+_ENDING = 16  # bytes with which a member of gzip may end that are 0; gzip takes those after it one at a time
 _COUNTED = {b"vertex": "vertices", b"face": "faces"}
 _PLY_COUNTS = re.compile(rb"[\r\n][ \t]*element[ \t]+(vertex|face)[ \t]+(\d{1,18})\b")
 _OFF_COUNTS = re.compile(rb"\s*[A-Zn4]{3,9}\s+(\d{1,18})\s+(\d{1,18})\b")
@@ -169,10 +171,22 @@ def require_inflated(size: int, compressed: int, limits: Limits, vertices: int =
         )
 
 
+@contextmanager
+def as_format_error(kind: str) -> Iterator[None]:
+    """Make an error of ours of whatever a tree leads to that holds anything anywhere."""
+    try:
+        yield
+    except BsmError:
+        raise
+    except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError, BadZipFile) as error:
+        words = " ".join(str(error).split())
+        raise FormatError(f"this {kind} makes no sense: {type(error).__name__}: {words}") from error
+
+
 def require_archive(data: bytes, limits: Limits) -> None:
     """Raise `LimitError` if a zip archive becomes too much: as it says, or as a tree of the tags that are in it."""
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        with ZipFile(io.BytesIO(data)) as archive:
             size = sum(entry.file_size for entry in archive.infolist())
             require_inflated(size, len(data), limits)
             for name in archive.namelist():
@@ -180,7 +194,7 @@ def require_archive(data: bytes, limits: Limits) -> None:
                     while piece := entry.read(_PIECE):
                         size += TAG * piece.count(b"<")
                         require_inflated(size, len(data), limits)
-    except (zipfile.BadZipFile, NotImplementedError, ValueError, RuntimeError, EOFError, zlib.error) as error:
+    except (BadZipFile, NotImplementedError, ValueError, RuntimeError, EOFError, zlib.error) as error:
         raise FormatError(f"cannot read this archive: {error}") from error
 
 
@@ -188,7 +202,7 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
     """What gzip has compressed, in one member or several."""
     found = bytearray()
     try:
-        with gzip.open(io.BytesIO(data)) as file:
+        with gzip.open(io.BytesIO(data[: len(data.rstrip(b"\0")) + _ENDING])) as file:
             while piece := file.read(_PIECE):
                 found += piece
                 require_inflated(2 * len(found), len(data), limits)  # these, and a copy of them

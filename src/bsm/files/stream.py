@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from itertools import chain
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.wire import MAGIC
@@ -120,15 +119,6 @@ class SequenceStream:
                     first, last = frames.start, frames.stop - 1
                     what = f"frame {first} is" if first == last else f"frames {first} to {last} are"
                     self._note(f"{what if frames else f'what follows frame {first} is'} lost: {error}")
-
-
-def numbered(faces: Faces, vertices: int) -> TriangleMesh:
-    """A mesh whose positions are the numbers of its vertices: what reorders meshes then tells their order."""
-    return TriangleMesh(np.repeat(np.arange(vertices, dtype=np.float64)[:, None], 3, axis=1), faces)
-
-
-def numbers_of(positions: Positions) -> npt.NDArray[np.int64]:
-    return positions[:, 0].astype(np.int64)
 
 
 def decode_through(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> int:

@@ -25,6 +25,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.threads import ordered_map
+from bsm.files.room import as_format_error
 from bsm.gltf import document as gltf
 from bsm.gltf.coding import (
     COMPONENTS,
@@ -415,12 +416,12 @@ class Compressed:
     error: tuple[float, float] = (0.0, 0.0)
 
 
-@gltf.as_format_error()
+@as_format_error("glTF")
 def count_primitives(document: gltf.Document) -> int:
     return len(list(document.primitives()))
 
 
-@gltf.as_format_error()
+@as_format_error("glTF")
 def compress(
     document: gltf.Document,
     options: Mapping[str, Any],
@@ -472,7 +473,7 @@ def compress(
     return Compressed(data, done, dict(left), b"".join(scene.plain) if fallback else b"", notes, worst)
 
 
-@gltf.as_format_error()
+@as_format_error("glTF")
 def restore(document: gltf.Document) -> bytes:
     """A .glb without compressed geometry."""
     for number, mesh in enumerate(document.items("meshes")):

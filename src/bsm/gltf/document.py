@@ -7,7 +7,6 @@ import json
 import shutil
 import struct
 from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
 from typing import IO, Any
@@ -16,7 +15,7 @@ from urllib.parse import unquote, unquote_to_bytes
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.welding import degenerate
@@ -35,17 +34,6 @@ WEBP = "EXT_texture_webp"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
-
-
-@contextmanager
-def as_format_error() -> Iterator[None]:
-    """Make an error of ours of whatever a tree leads to that holds anything anywhere."""
-    try:
-        yield
-    except BsmError:
-        raise
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError, OverflowError) as error:
-        raise FormatError(f"this glTF makes no sense: {type(error).__name__}: {error}") from error
 
 
 class Document:

@@ -17,9 +17,9 @@ from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, START, Frames, Wanted, between, painted_like, rate_of_times
-from bsm.files.room import Doubles, Ints, require_count
+from bsm.files.room import Doubles, Ints, as_format_error, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
-from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, as_format_error, read_document, triangles_of
+from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, read_document, triangles_of
 
 INSTANCING, PER_INSTANCE = "EXT_mesh_gpu_instancing", 2000  # bytes of the node of an instance, at most
 _REST = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
@@ -498,13 +498,13 @@ USUAL_RATE = 30.0
 
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
     document = read_document(path, limits)
-    with as_format_error(), np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
+    with as_format_error("glTF"), np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
         return _frames(document, wanted, limits)
 
 
 def read_gltf_mesh(document: Document) -> shapes.MeshFile:
     """Read a scene at rest as one mesh: vertices and faces in the order of the file."""
-    with as_format_error(), np.errstate(all="ignore"):  # a later check refuses infinite values
+    with as_format_error("glTF"), np.errstate(all="ignore"):  # a later check refuses infinite values
         scene = Scene(document, None, document.limits)
         document.limits.check_work(3 * scene.work, scene.vertices, document.received)
         found = _joined(scene, document, 0.0, document.limits)
@@ -637,7 +637,9 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
         metadata |= described(words) | images
     colors = scene.colors(time)
     columns = (*whole.columns, *([shapes.color_column(colors, "vertex")] if len(colors) else []))
-    notes = (*whole.notes, *_absent_images(document))
+    absent = {str(image.get("uri", "")): document.why_absent(image) for image in document.items("images")}
+    lost = (f"the image {unquote(uri)[:80]} was left out: {why}" for uri, why in absent.items() if why)
+    notes = (*whole.notes, *lost)
     return replace(whole, notes=notes, columns=columns, metadata={**metadata, **whole.metadata})
 
 
@@ -657,12 +659,6 @@ def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:
     for extras in (entry.get("extras") for entry in (scene, *document.items("meshes"), asset)):
         yield from (extras if isinstance(extras, dict) else {"extras": extras} if extras else {}).items()
     yield from [("copyright", asset["copyright"])] if "copyright" in asset else []
-
-
-def _absent_images(document: Document) -> list[str]:
-    """Notes about images that a document names, and that do not lie in its folder or below."""
-    absent = {str(image.get("uri", "")): document.why_absent(image) for image in document.items("images")}
-    return [f"the image {unquote(uri)[:80]} was left out: {why}" for uri, why in absent.items() if why]
 
 
 def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material], dict[str, Value]]:

@@ -163,12 +163,8 @@ def sizes_of(jobs: Sequence[Job]) -> list[int]:
     return [max(size or 0, LEAST) for size in local]
 
 
-def _processes(run: Run, count: int) -> int:
-    return min(run.jobs or available_threads(), count) or 1
-
-
 def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
-    processes = _processes(run, len(sizes))
+    processes = min(run.jobs or available_threads(), len(sizes)) or 1
     if run.dask is None and processes == 1:
         return _one_by_one(console, work, tasks, sizes)
     # Where there is one process there is no need to load this.

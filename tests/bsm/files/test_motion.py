@@ -351,9 +351,18 @@ def test_stages_that_are_no_sequence(tmp_path, capsys):
     Usd.Stage.CreateNew(str(tmp_path / "empty.usda")).Save()
     with pytest.raises(FormatError, match="no meshes"):
         open_sequence(str(tmp_path / "empty.usda"))
-    (tmp_path / "wrong.usdc").write_bytes(b"PXR-USDC and no more")
-    with pytest.raises(FormatError, match="usd-core"):
-        open_sequence(str(tmp_path / "wrong.usdc"))
+    unknown = b'#usda 1.0\ndef Mesh "a" {\nfloats[] points = [1]\n}\n'
+    package = (MOVING / "painted.usdz").read_bytes()
+    directory = package.rindex(b"PK\1\2")
+    for name, data, message in (
+        ("wrong.usdc", b"PXR-USDC and no more", "usd-core"),
+        ("latin.usda", b"#usda 1.0\n\xe9", "no sense"),
+        ("unknown.usda", unknown, "no sense"),
+        ("wrong.usdz", package[:directory] + b"PK\0\0" + package[directory + 4 :], "no sense"),
+    ):
+        (tmp_path / name).write_bytes(data)
+        with pytest.raises(FormatError, match=message):
+            open_sequence(str(tmp_path / name))
     mesh, stage = stage_of(tmp_path / "other.usda", [SQUARE, SQUARE, SQUARE], (0, 1, 2))
     mesh.GetFaceVertexIndicesAttr().Set([0, 1, 2, 0, 2, 3], 0)
     mesh.GetFaceVertexIndicesAttr().Set([0, 1, 3, 1, 2, 3], 2)
@@ -393,11 +402,7 @@ def test_what_is_wrong_with_a_folder_is_named(tmp_path, capsys):
     positions, faces = bending(5)
     for name, spoil, expected in (
         ("gap", lambda files: files[2].unlink(), "frame 9 is missing between"),
-        (
-            "nan",
-            lambda files: files[3].write_bytes(ascii_ply(positions[3], faces, 11)),
-            "walk_10.ply (frame 3): vertex 11",
-        ),
+        ("nan", lambda files: files[3].write_bytes(with_nan(files[3].read_bytes(), 11)), "(frame 3): vertex 11"),
         ("cut", lambda files: files[1].write_bytes(files[1].read_bytes()[:-9]), "walk_8.ply (frame 1)"),
     ):
         written(tmp_path / name, positions, faces)
@@ -407,15 +412,9 @@ def test_what_is_wrong_with_a_folder_is_named(tmp_path, capsys):
         assert [file.name for file in tmp_path.iterdir() if "x.bsm" in file.name] == [], "nothing half-written"
 
 
-def ascii_ply(positions, faces, bad):
-    points = positions.copy()
-    points[bad, 1] = np.nan
-    head = (
-        f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\n"
-    )
-    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
-    rows = [" ".join(map(str, row)) for row in points.tolist()] + [f"3 {a} {b} {c}" for a, b, c in faces.tolist()]
-    return (head + "\n".join(rows) + "\n").encode()
+def with_nan(ply, vertex):
+    place = ply.index(b"end_header\n") + 11 + 12 * vertex
+    return ply[:place] + b"\xff" * 4 + ply[place + 4 :]
 
 
 def test_how_frames_differ_is_reported(tmp_path):

@@ -64,6 +64,7 @@ def test_fields_of_many_strings_take_little_memory_and_surplus_base64_is_left():
     surplus = base64.b64encode(struct.pack("<Q", 1) + b"x").decode() + "A"
     arrays = f'<Array type="String" Name="a" format="ascii">{letters}</Array>'
     arrays += f'<DataArray type="UInt8" Name="b" format="binary">{surplus}</DataArray>'
+    arrays += '</FieldData><Lines><DataArray type="Int64" format="appended" offset=""/></Lines><FieldData>'  # not read
     data = written_mesh(torus(), "vtp").data.replace(
         b"<PolyData>", f"<PolyData><FieldData>{arrays}</FieldData>".encode()
     )

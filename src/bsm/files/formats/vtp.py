@@ -27,7 +27,7 @@ from bsm.files.room import AS_NUMBERS, TAG, Ints, require_count, require_inflate
 _WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
 _TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {"Float32": "f4", "Float64": "f8"}
 _NAMES = {kind: name for name, kind in _TYPES.items()}
-_UNDERSCORE, _PADDED = re.compile(rb"\s*_"), re.compile(rb"[^=]+={0,2}")
+_UNDERSCORE, _PADDED, _COUNT = re.compile(rb"\s*_"), re.compile(rb"[^=]+={0,2}"), re.compile(r"\d{1,18}")
 _TAGS = ("VTKFile", "Piece", "PointData", "CellData")  # elements whose attributes are of use
 _HEADS = {"UInt32": "u4", "UInt64": "u8"}
 _ARRAYS, _MOST_ARRAYS = ("DataArray", "Array"), 1024
@@ -66,7 +66,8 @@ class _Numbers:
         self._head = np.dtype(self._order + head)
         self._compressor = file.get("compressor")
         self._appended, self._raw = appended, raw
-        begins = {_count(element.attrib, "offset", 0) for _, element in document.arrays}
+        offsets = (_COUNT.fullmatch(element.get("offset", "0")) for _, element in document.arrays)
+        begins = {int(offset[0]) for offset in offsets if offset}  # others may be of arrays that are not read
         self._ends = dict(pairwise([*sorted(begins), len(appended)]))
         self._limits, self._size, self._made = limits, size, 0
 
@@ -161,7 +162,7 @@ class _Numbers:
 def _count(attrs: dict[str, str], name: str, default: int) -> int:
     """A whole number among what an element says."""
     text = attrs.get(name, str(default))
-    if not re.fullmatch(r"\d{1,18}", text):
+    if not _COUNT.fullmatch(text):
         raise FormatError(f"{name} should be a number, not {text[:40]!r}")
     return int(text)
 

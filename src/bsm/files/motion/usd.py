@@ -25,7 +25,7 @@ from bsm.codec.sequence.runs import EMPTY, empty_frame, is_empty
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import START, STEP, TIMES, USUAL_RATE, Frames, Shared, Wanted, between, painted_like
-from bsm.files.room import Doubles, Ints, require_count, single_suffices
+from bsm.files.room import Doubles, Ints, as_format_error, require_count, single_suffices
 from bsm.lengths import metres
 
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
@@ -549,6 +549,7 @@ class _Stage:
         return replace(found, notes=tuple(notes), dropped=tuple(left), metadata=metadata).checked(self._limits)
 
 
+@as_format_error("stage")
 def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:
     """The frames of a stage, sampled at its rate or the one that is wanted; None if nothing moves."""
     stage = _Stage(path, limits)
@@ -589,6 +590,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     return Frames(mesh.faces, count, map(stage.at, every), mesh.attributes, notes, rate, metadata, meshes)
 
 
+@as_format_error("stage")
 def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile:
     """The mesh of a stage at its first time; errors as of `read_usd`."""
     stage = _Stage(path, limits)
