@@ -50,6 +50,15 @@ def torus(rows: int = 40, columns: int = 24, bumps: float = 0.05) -> TriangleMes
     return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), faces)
 
 
+def ply_head(
+    vertices: int = 3, faces: int = 1, order: str = "ascii", more: str = "", corners: str = "uchar int", last: str = ""
+) -> str:
+    """The header of a PLY with x, y and z, more lines for vertices, and last ones for faces."""
+    axes = "".join(f"property float {axis}\n" for axis in "xyz")
+    rows = f"element face {faces}\nproperty list {corners} vertex_indices\n{last}end_header\n"
+    return f"ply\nformat {order} 1.0\nelement vertex {vertices}\n{axes}{more}{rows}"
+
+
 def at_corners(mesh: TriangleMesh, attribute: Attribute) -> NDArray[Any]:
     """The value that an attribute has at each corner of each face, shape (m, 3, c)."""
     if attribute.domain == "face":

@@ -2,11 +2,11 @@
 
 import os
 import re
+import select
 import signal
 import socket
 import subprocess
 import sys
-import time
 import urllib.error
 import urllib.request
 from concurrent.futures import ThreadPoolExecutor
@@ -107,8 +107,6 @@ def off(mesh):
 
 
 SECONDS = 10.0
-SOON = 2.0
-"""Return seconds: ten times those of a request when nothing is wrong, and longer on slower machines."""
 
 
 @pytest.fixture(scope="module")
@@ -154,10 +152,8 @@ def workers_of(process):
     return [pid for pid in children if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
 
 
-def answered_in(service):
-    begin = time.monotonic()
-    assert post(f"{service}/encode?preset=small", off(knot(200)))[0] == 200
-    return time.monotonic() - begin
+def answers(service):
+    return post(f"{service}/encode?preset=small", off(knot(200)))[0] == 200
 
 
 def test_a_service_that_takes_uploads(service):
@@ -195,27 +191,25 @@ def test_a_service_takes_no_odd_heads(service, lines, status):
 @pytest.mark.skipif(sys.platform != "linux", reason="workers are looked for as on Linux")
 def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
     process, service = server
-    soon = max(SOON, 10.0 * max(answered_in(service) for _ in range(3)))
+    assert answers(service)
     for pid in workers_of(process):
         os.kill(pid, signal.SIGSTOP)
     with ThreadPoolExecutor(2) as clients:
         hanging = [clients.submit(post, f"{service}/encode", off(knot(200))) for _ in range(2)]
-    answers = [c.result() for c in hanging]  # the second one may find a process that took the place of the first's
-    assert any(status.startswith(b"TimeoutError: ") for _, status in answers)
-    assert {status for status, _ in answers} <= {200, 503}
+    results = [c.result() for c in hanging]  # the second one may find a process that took the place of the first's
+    assert any(text.startswith(b"TimeoutError: ") for _, text in results)
+    assert {status for status, _ in results} <= {200, 503}
     for pid in workers_of(process):
         os.kill(pid, signal.SIGKILL)
-    waits = [answered_in(service), answered_in(service)]
+    assert answers(service) and answers(service)
     head = b"POST /encode HTTP/1.0\r\nContent-Length: 1000\r\n\r\n"
     silent = [send(service, words, more=True) for words in (head, head + b"OFF", b"POST /enc")]
-    waits.append(answered_in(service))
-    assert max(waits) < soon, waits
+    assert answers(service) and not select.select(silent, [], [], 0)[0], "no silent one was waited for"
     for connection, status in zip(silent, (b" 408 ", b" 408 ", b"")):
         with connection, connection.makefile("rb") as file:
             assert status in file.read(), "it is let go of"
-    assert answered_in(service) < soon
+    assert answers(service)
     crowd = [send(service, b"POST", more=True) for _ in range(40)]
-    answers = [connection.makefile("rb").readline() for connection in crowd[20:]]
-    assert all(b" 503 " in answer for answer in answers)
+    assert all(b" 503 " in connection.makefile("rb").readline() for connection in crowd[20:])
     for connection in crowd:
         connection.close()

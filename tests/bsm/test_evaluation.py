@@ -1,4 +1,4 @@
-"""Evaluation: rates against hand-computed cases, Draco's order of vertices, results as JSON, pictures from JSON."""
+"""Evaluation: rates, the bench, Draco's order of vertices, results as JSON, and pictures from JSON."""
 
 import importlib.util
 import json
@@ -9,7 +9,12 @@ import pytest
 
 from bsm import CorruptError, EncodeOptions, MeshError, TriangleMesh
 from bsm.cli import main
+from bsm.codec.basis.laplacian import dense_laplacian
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
+from bsm.evaluation.bench import EXACT, POWERS, SHIFT, bench_tables, iterated, run_bench
 from bsm.evaluation.curve import (
     STYLES,
     Curve,
@@ -30,7 +35,7 @@ from bsm.evaluation.curve import (
     table,
 )
 from bsm.evaluation.sample import knot
-from bsm.files.mesh import write_mesh
+from bsm.files.mesh import write_mesh, written_mesh
 from bsm.pictures import render, view_matrix
 from tests.shapes import patch, torus
 from tools.vectors.meshes import shuffled
@@ -268,3 +273,47 @@ def test_the_nearest_face_is_drawn():
         assert blue > 0.3
         assert red == green == 0
     assert image[0, 0] == pytest.approx([1, 1, 1])
+
+
+@pytest.fixture(scope="module")
+def block():
+    graph = graph_of_faces(patch(14, 14).faces, 196)
+    return grow_blocks(graph, derive_partition(graph, 1), 196).block(0)
+
+
+@pytest.mark.parametrize("solver", EXACT, ids=lambda solver: solver.name)
+def test_exact_solvers_span_the_lowest_eigenspace(solver, block):
+    """By Ky Fan: among orthonormal columns, they have the least trace."""
+    laplacian = dense_laplacian(block)
+    basis = solver.solve(laplacian, 12)
+    assert np.allclose(basis.T @ basis, np.eye(12), atol=1e-6)
+    least = np.linalg.eigvalsh(laplacian)[:12].sum()
+    assert np.einsum("ij,ij->", basis, laplacian @ basis) == pytest.approx(least, rel=1e-8)
+
+
+@pytest.mark.parametrize("power", POWERS)
+def test_iterations_are_those_of_dense_solvers(power, block):
+    found = iterated(block, 12, power)
+    columns = cosine_columns(block.size, 12)
+    for _ in range(power):
+        # Orthonormalized every time: the same subspaces in exact arithmetic, and no loss of precision.
+        columns = np.linalg.qr(np.linalg.solve(dense_laplacian(block) + SHIFT * np.eye(block.size), columns))[0]
+    aligned = columns * np.where(np.einsum("ij,ij->j", columns, found) < 0, -1.0, 1.0)
+    assert np.abs(aligned - found).max() < 1e-6
+
+
+def test_a_bench_of_a_small_mesh_is_complete_and_fit_for_json(tmp_path):
+    pytest.importorskip("DracoPy")
+    path = tmp_path / "patch.ply"
+    path.write_bytes(written_mesh(patch(30, 30), "ply").data)
+    result = run_bench([str(path)], sample=1, repeats=1, note=print)
+    (row,) = result["meshes"]
+    exact, ours = ([timing for timing in row["dictionaries"] if timing["exact"] is kind] for kind in (True, False))
+    assert len(exact) == 4 * len(EXACT) and len(ours) == 4 * len(POWERS)
+    for found in ours:
+        rivals = [timing for timing in exact if timing["keep"] == found["keep"]]
+        assert found["against_fastest"] == min(timing["seconds"] for timing in rivals) / found["seconds"]
+        assert found["nmsve_db"] > rivals[0]["nmsve_db"] - 0.1
+    assert set(row["files"]) == {f"{who} {what}" for who in ("ours", "draco") for what in ("encode", "decode")}
+    json.dumps(result, allow_nan=False)
+    assert "patch, 900 vertices" in bench_tables(result)

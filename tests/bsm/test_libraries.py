@@ -213,7 +213,8 @@ def test_pyvista_by_its_entry_points(pyvista, tmp_path):
     bsm.save(painted(), tmp_path / "a.bsm", **EXACT)
     (tmp_path / "c.bsm").write_bytes(b"nothing")
     streams = (tmp_path / f"{name}.bsm" for name in "abc")
-    done = python("-c", SCRIPT, *streams, env={**os.environ, "PYTHONPATH": str(site)}, text=True)
+    path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
+    done = python("-c", SCRIPT, *streams, env={**os.environ, "PYTHONPATH": path}, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip() == "FormatError"
     assert bsm.load(tmp_path / "b.bsm").metadata["unit"] == "mm"

@@ -13,6 +13,7 @@ from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
 from tests.bsm.program import run
 from tests.motion import capture
+from tests.shapes import ply_head
 from tools.vectors.meshes import torus
 
 RUNS = ("--runs", "--set", "step=0.002")
@@ -113,9 +114,7 @@ def test_frames_without_faces_come_back(tmp_path, capsys, kind, places):
         elif kind == "stl":
             paths[place].write_bytes(bytes(84))
         else:
-            head = ["ply", "format ascii 1.0", "element vertex 1", "property float x", "property float y"]
-            head += ["property float z", "element face 0", "property list uchar int vertex_indices", "end_header"]
-            paths[place].write_text("\n".join([*head, "1 2 3", ""]))
+            paths[place].write_text(ply_head(1, 0) + "1 2 3\n")
     assert run("encode", tmp_path / "capture", "-o", tmp_path / "a.bsm", "--runs", "--look", 1) == 0
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "back" / f"%03d.{kind}") == 0
     assert run("encode", tmp_path / "capture", "-f", "-o", tmp_path / "b.bsm") == 3

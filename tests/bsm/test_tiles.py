@@ -493,12 +493,3 @@ def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces(tmp_path):
         tile(tmp_path / f"{name}.ply", tmp_path / name)
         cells.append(bsm.open_tiles(str(tmp_path / name)).lattice.cell)
     assert cells[0] == cells[1] and np.log2(cells[0]) % 1 == 0 and 1e-5 < cells[0] < 0.1
-
-
-def test_the_error_of_a_mesh_that_is_too_large_names_tiles(tmp_path):
-    (tmp_path / "big.ply").write_text(
-        "ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty float x\nproperty float y\n"
-        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-    )
-    done = program("encode", tmp_path / "big.ply", text=True)
-    assert done.returncode == 6 and "bsm tile" in done.stderr

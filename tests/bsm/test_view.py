@@ -214,10 +214,14 @@ def test_a_file_that_is_begun_again_has_ended(tmp_path):
     assert list(chunks) == []
 
 
-def test_following_needs_no_whole(tmp_path, capsys):
-    for more in (["--save", str(tmp_path / "page.html")], ["--original", "ball.ply"]):
+@pytest.mark.parametrize("more", [("--save", "page.html"), ("--original", "ball.ply"), ("--follow",)])
+def test_what_grows_and_tiles_are_looked_at_alone(tmp_path, capsys, more):
+    if more != ("--follow",):
         assert main(["view", "--follow", str(VECTORS / "good-chain.bsm"), *more]) == 2
         assert "--follow" in capsys.readouterr().err
+    (tmp_path / "manifest.json").write_text("{}")
+    assert main(["view", "--no-open", str(tmp_path), *more]) == 2
+    assert "loaded on demand" in capsys.readouterr().err
 
 
 @pytest.mark.slow
@@ -281,13 +285,6 @@ def test_files_are_sent_by_ranges(tmp_path, asked, code):
         (tmp_path / "a").unlink()
         with pytest.raises(urllib.error.HTTPError, match="No such file" if code == 206 else str(code)):
             urllib.request.urlopen(request)
-
-
-def test_tiles_are_looked_at_alone(tmp_path, capsys):
-    (tmp_path / "manifest.json").write_text("{}")
-    for more in (["--save", str(tmp_path / "page.html")], ["--original", "ball.ply"], ["--follow"]):
-        assert main(["view", "--no-open", str(tmp_path), *more]) == 2
-        assert "loaded on demand" in capsys.readouterr().err
 
 
 def javascript(tests: str, **environment: str) -> None:

@@ -4,6 +4,7 @@ import math
 import warnings
 from dataclasses import fields
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,23 +13,14 @@ import bsm
 from tools.vectors.meshes import torus
 
 
-class Five:
-    """A file whose bytes are a number."""
-
-    def read(self, size=-1):
-        return 5
-
-
-class Text:
-    """A file of text."""
-
-    def read(self, size=-1):
-        return "x"
+def file_of(piece):
+    """A file that gives the same piece for ever."""
+    return SimpleNamespace(read=lambda size=-1: piece)
 
 
 WRONG = [
     None, 5, -1, 1.5, math.nan, math.inf, "text", "a\0b", b"", [], {}, object(), True, print, np.full(3, np.nan),
-    np.array([None]), Five(), Text(), 1j, (1, 2, 3),
+    np.array([None]), file_of(5), file_of("x"), 1j, (1, 2, 3),
 ]  # fmt: skip
 
 

@@ -11,6 +11,7 @@ import pytest
 
 from tests.engine.decoding import WARNINGS, build, compiled, decode, of_sequence
 from tools.amalgamate import ROOT, amalgamated, interface
+from tools.processors.__main__ import NotHere, complaint, lines, prepare, program
 from tools.release.windows import build_dll, compare, find_wine
 from tools.vectors.store import read_manifest
 
@@ -233,3 +234,19 @@ def test_a_checkout_is_built_by_the_same_command(tmp_path: Path) -> None:
     linked = ["-I", tmp_path / "p/include", tmp_path / "p/lib/libbsmdec.a", "-lm", "-o", tmp_path / "obj"]
     run("cc", ROOT / "engine/examples/obj.c", *linked)
     assert run(tmp_path / "obj", STREAM).count("\nf ") == 4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["aarch64", "s390x"])
+def test_another_processor_decodes_the_same(name: str) -> None:
+    """A sample; `python -m tools.processors` takes all vectors and processors."""
+    folder, streams = ROOT / ".cache/processors", sorted((ROOT / "spec/vectors").glob("*/*.bsm"))[::8]
+    prepare(folder)
+    here = program(folder, "here", ["cc", "-O1"])
+    assert isinstance(here, Path)
+    expected = lines([str(here)], folder, streams)
+    assert len(expected) == len(streams)
+    try:
+        assert complaint(folder, name, expected, streams, "-O1") is None
+    except NotHere as error:
+        pytest.skip(str(error))

@@ -167,18 +167,12 @@ def test_every_changed_byte_is_refused(name):
 
 
 @named([vector for vector in VECTORS if vector.error])
-def test_no_thread_is_left_behind(vector):
+def test_errors_stay_and_no_thread_is_left_behind(vector):
     before = threading.active_count()
-    with pytest.raises(errors.BsmError):
-        decode(vector.stream.read_bytes(), threads=3)
-    assert threading.active_count() == before
-
-
-@named([vector for vector in VECTORS if vector.error])
-def test_errors_stay(vector):
-    with Decoder(threads=1) as decoder:
+    with Decoder(threads=3) as decoder:
         with pytest.raises(errors.BsmError) as first:
             list(all_events(decoder, [vector.stream.read_bytes()]))
         with pytest.raises(errors.BsmError) as second:
             decoder.next_event()
         assert second.value is first.value
+    assert threading.active_count() == before

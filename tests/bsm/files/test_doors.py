@@ -14,7 +14,7 @@ from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import attribute, png
 from tests.bsm.program import bsm as program
-from tests.shapes import at_corners, torus
+from tests.shapes import at_corners, ply_head, torus
 from tools.attack.readers import chained_objects, three_mf
 
 
@@ -234,11 +234,8 @@ def test_other_programs_read_the_seams_of_a_ply(tmp_path):
 
 
 def test_a_ply_with_whole_numbers_of_64_bits_and_lists_of_vertices():
-    head = (
-        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-    )
-    head += "property list uchar float weights\nproperty int64 id\nelement face 1\n"
-    head += "property list uchar uint64 vertex_indices\nend_header\n"
+    more = "property list uchar float weights\nproperty int64 id\n"
+    head = ply_head(order="binary_little_endian", more=more, corners="uchar uint64")
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0)]
     body = b"".join(struct.pack("<3fB", *p, i) + bytes(4 * i) + struct.pack("<q", -i) for i, p in enumerate(points))
     read = read_mesh(head.encode() + body + struct.pack("<B3Q", 3, 0, 1, 2))
@@ -551,18 +548,14 @@ def test_a_3mf_file_names_its_colors_and_one_without_a_build_says_so(tmp_path):
 
 
 def test_what_a_ply_has_twice_or_for_some_faces_only():
-    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{}"
-    face = "element face {}\nproperty list uchar int vertex_indices\n{}end_header\n{}"
-    points = "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n"
-    twice = head.format("property float q\n" * 2) + face.format(1, "", points + "3 0 1 2\n")
+    twice = ply_head(more="property float q\n" * 2) + "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n3 0 1 2\n"
     read = read_mesh(twice.encode(), "ply")
     assert read.notes == ("left out: the first q, of which there are several",)
     assert attribute(read.mesh, "q").values[:, 0].tolist() == [2, 4, 6]
     with pytest.raises(MeshError, match="the element vertex several times"):
         read_mesh(twice.replace("element face", "element vertex 0\nelement face").encode(), "ply")
-    more = "property list uchar float texcoord\n"
-    rows = "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 0\n"
-    read = read_mesh((head.format("") + face.format(2, more, "0 0 0\n1 0 0\n0 1 0\n" + rows)).encode(), "ply")
+    rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 0\n"
+    read = read_mesh((ply_head(faces=2, last="property list uchar float texcoord\n") + rows).encode(), "ply")
     assert read.notes == ("faces without texture coordinates were given zeros: 1",)
 
 

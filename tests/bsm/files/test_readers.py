@@ -14,7 +14,7 @@ from bsm import BsmError, CorruptError, FormatError, LimitError, Limits, MeshErr
 from bsm.files.mesh import MESH_FORMATS, read_mesh, write_mesh, written_mesh
 from bsm.files.sequence import open_sequence
 from tests.gltf import Built
-from tests.shapes import tetrahedron, torus
+from tests.shapes import ply_head, tetrahedron, torus
 
 OURS = ("obj", "off", "ply", "stl")
 
@@ -30,11 +30,8 @@ def test_compressed_files(kind, tmp_path):
 
 @pytest.mark.parametrize("kind", ["obj", "off", "ply"])
 def test_a_byte_order_mark_is_no_part_of_a_file(kind):
-    text = {"obj": "v {}\nv {}\nv {}\nf 1 2 3\n", "off": "OFF\n3 1 0\n{}\n{}\n{}\n3 0 1 2\n"}.get(
-        kind,
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-        "element face 1\nproperty list uchar int vertex_indices\nend_header\n{}\n{}\n{}\n3 0 1 2\n",
-    )
+    rows = "{}\n{}\n{}\n3 0 1 2\n"
+    text = {"obj": "v {}\nv {}\nv {}\nf 1 2 3\n", "off": "OFF\n3 1 0\n" + rows}.get(kind, ply_head() + rows)
     data = text.format("5 0 0", "1 0 0", "0 1 0").encode("utf-8-sig")
     assert read_mesh(data).mesh.positions.tolist() == [[5, 0, 0], [1, 0, 0], [0, 1, 0]]
 
@@ -60,9 +57,8 @@ def test_an_array_of_an_npz_is_as_long_as_it_says():
 
 
 def test_the_first_places_in_a_texture_of_a_ply_are_u_and_v():
-    names = "".join(f"property float {name}\n" for name in "xyzuvst")
-    head = f"ply\nformat ascii 1.0\nelement vertex 3\n{names}element face 1\nproperty list uchar int vertex_indices\n"
-    mesh = read_mesh((head + "end_header\n" + "0 0 0 .1 .2 .3 .4\n" * 3 + "3 0 1 2\n").encode()).mesh
+    head = ply_head(more="".join(f"property float {name}\n" for name in "uvst"))
+    mesh = read_mesh((head + "0 0 0 .1 .2 .3 .4\n" * 3 + "3 0 1 2\n").encode()).mesh
     assert np.allclose([a.values[0] for a in mesh.attributes], [[0.1, 0.2], [0.3, 0.4]])
 
 
@@ -126,10 +122,6 @@ def test_damaged_scenes(trimesh, data, tmp_path):
 
 
 TETRAHEDRON = tetrahedron()
-PLY_HEADER = (
-    "ply\nformat {order} 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n"
-    "element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
-)
 SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 
 
@@ -140,7 +132,7 @@ def write(tmp_path, name, content):
 
 
 def ply(body, vertices=4, faces=1, order="ascii"):
-    return PLY_HEADER.format(order=order, vertices=vertices, faces=faces) + body
+    return ply_head(vertices, faces, order) + body
 
 
 @st.composite

@@ -1,28 +1,35 @@
-"""Files that claim, hide, repeat or multiply: refused in a sentence, before they take time or memory."""
+"""Files that claim, hide, repeat, multiply or choke other tools: refused in a sentence, in little time and memory."""
 
 import gzip
 import io
 import json
 import os
+import resource
 import sys
 import time
 import zipfile
 from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bsm
 from bsm import CorruptError, LimitError, Limits, MeshError, TruncatedError
+from bsm.bitstream import errors
 from bsm.cli import main
 from bsm.files.mesh import format_of_bytes, read_mesh, written_mesh
 from bsm.files.room import gunzipped
 from bsm.files.sequence import open_sequence
 from tests.bsm.program import bsm as program
+from tests.bsm.program import python
 from tests.gltf import Built
+from tests.shapes import ply_head
 from tests.streams import memory_below
 from tools.attack.readers import Case, _grown, chained_objects, problems, three_mf, warm_up
 from tools.vectors.meshes import torus
+
+LITTLE = "binary_little_endian"
 
 
 def npy(array):
@@ -93,11 +100,9 @@ def test_a_header_of_an_array_is_bounded():
 
 
 def test_rows_of_a_ply_without_properties_take_no_memory():
-    head, vertex = b"ply\nformat binary_little_endian 1.0\nelement free 999999999999999999\n", b"element vertex 3\n"
-    axes = b"".join(b"property float %c\n" % axis for axis in b"xyz")
-    face = b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    head = ply_head(order=LITTLE).replace("element vertex", "element free 999999999999999999\nelement vertex")
     body = np.eye(3, dtype="<f4").tobytes() + b"\3" + np.arange(3, dtype="<i4").tobytes()
-    found = read_mesh(head + vertex + axes + face + body)
+    found = read_mesh(head.encode() + body)
     assert found.mesh.faces.tolist() == [[0, 1, 2]] and found.dropped == ("free",)
 
 
@@ -129,8 +134,7 @@ def test_a_gltf_is_not_granted_what_it_claims():
 
 
 HEADS = {
-    "ply": b"ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty float x\nproperty float y\n"
-    b"property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n",
+    "ply": ply_head(20_000_000, order=LITTLE).encode(),
     "stl": bytes(80) + (40_000_000).to_bytes(4, "little"),
     "off": b"# a scan\nOFF\n20000000 1 0\n",
 }
@@ -145,7 +149,7 @@ def test_too_many_vertices_are_refused_from_the_head(tmp_path, kind, capsys):
     with memory_below(10e6), pytest.raises(bsm.LimitError, match=r"over the limit of .*; cut it into parts"):
         read_mesh(path)
     assert main(["encode", str(path), "-o", str(tmp_path / "a.bsm")]) == 6
-    assert "cut it into parts" in capsys.readouterr().err
+    assert "cut it into parts, as bsm tile does" in capsys.readouterr().err
 
 
 def test_an_npz_of_too_many_vertices(tmp_path):
@@ -215,12 +219,9 @@ def test_a_part_of_a_3mf_file_is_an_error(tmp_path, monkeypatch):
 
 
 def test_an_element_without_properties_is_no_obstacle_to_tiles(tmp_path):
-    head = (
-        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-    )
+    head = ply_head(order=LITTLE, more="element nothing 7\n", corners="uchar uchar")
     body = bytes(12) + b"\0\0\x80?" + bytes(12) + b"\0\0\x80?" + bytes(4) + b"\3\0\1\2"
-    lists = "element nothing 7\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n"
-    (tmp_path / "a.ply").write_bytes((head + lists).encode() + body)
+    (tmp_path / "a.ply").write_bytes(head.encode() + body)
     done = program("tile", tmp_path / "a.ply", "-o", tmp_path / "t")
     assert done.returncode == 0, done.stderr
 
@@ -311,3 +312,82 @@ def test_an_obj_is_known_by_its_content():
     assert format_of_bytes(b"# remark\n\n  v 0 0 0\n") == "obj"
     assert format_of_bytes(b"v\t0 0 0") == "obj"
     assert format_of_bytes(b"vt 0 0\n") is None
+
+
+SECONDS = 10
+BYTES = 1 << 30
+PROGRAM = f"""
+import json, os, signal, sys
+from bsm.bitstream.errors import BsmError
+from bsm.codec.geometry.mesh import NoFacesError
+from bsm.files.mesh import read_mesh
+for path in sys.argv[1:]:
+    child = os.fork()
+    if child == 0:
+        signal.alarm({SECONDS})
+        try:
+            mesh = read_mesh(path).mesh
+            result = len(mesh.positions), len(mesh.faces)
+        except BsmError as error:
+            result = "MeshError" if isinstance(error, NoFacesError) else type(error).__name__
+        print(json.dumps([path, result]), flush=True)
+        os._exit(0)
+    status = os.waitpid(child, 0)[1]
+    if status:
+        print(json.dumps([path, f"died with status {{status}}"]), flush=True)
+"""
+# Vertices and faces as each file's own text or header has them, polygons cut into triangles.
+EXPECTED = {
+    "c3d_beetle_nonmanifold.obj": [1148, 2053],
+    "igl_truck.obj": [2956, 4770],
+    "cgal_tet-shuffled.off": [4, 4],
+    "trimesh_cycloidal.ply": [21384, 43368],
+    "made_duplicate_faces.obj": [4, 4],
+    "made_offset_1e7.obj": [4, 2],
+    "trimesh_quadknot.obj": [1440, 2880],
+    "trimesh_joined_tetrahedra.obj": [5, 8],
+    "trimesh_two_objects.obj": [12, 16],
+    "trimesh_comments.off": [8, 12],
+    "draco_extra_vertex.obj": [10, 3],
+    "draco_Box.ply": [24, 12],
+    "pmp_icosahedron_binary.stl": [12, 20],
+    "trimesh_multibody.stl": [20, 32],
+    "made_negative_index.off": "MeshError",
+    "made_index_out_of_range.ply": "MeshError",
+    "made_truncated.ply": "TruncatedError",
+    "made_huge_count.ply": "LimitError",
+    "draco_inf_nan.obj": "MeshError",
+    "draco_int_point_cloud.ply": "MeshError",
+    "trimesh_empty.stl": "MeshError",
+}
+
+
+def bound_memory():
+    resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+
+
+def read_all(paths):
+    """Read each file in a process of its own, of limited time and memory: what came of it, by name."""
+    single = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    done = python("-c", PROGRAM, *paths, timeout=20 * SECONDS, preexec_fn=bound_memory, env=single)
+    assert done.returncode == 0, done.stderr
+    return {Path(path).name: result for path, result in map(json.loads, done.stdout.splitlines())}
+
+
+def test_the_helper_notices_a_file_that_kills_the_process(tmp_path):
+    pipe = tmp_path / "never_written.obj"
+    os.mkfifo(pipe)
+    program = PROGRAM.replace(f"alarm({SECONDS})", "alarm(1)")
+    assert b"died" in python("-c", program, pipe).stdout
+
+
+@pytest.mark.real
+def test_every_hostile_file_loads_or_is_refused(meshes):
+    paths = sorted((meshes / "hostile").iterdir())
+    results = read_all(paths)
+    assert set(results) == {path.name for path in paths}
+    refused = {name: result for name, result in results.items() if isinstance(result, str)}
+    unknown = {name: result for name, result in refused.items() if not hasattr(errors, result)}
+    assert unknown == {}
+    assert {name: results[name] for name in EXPECTED} == EXPECTED
+    assert len(refused) < 20, f"most of these files hold meshes: {refused}"
