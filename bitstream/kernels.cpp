@@ -1,12 +1,14 @@
 // The kernels of `bitstream` as functions of Python: one line each.
 #include "bitstream/kernel.hpp"
 
+#include <map>
 #include <string_view>
 
 extern "C" {
 #include "bitstream/attributes/attributes.h"
 #include "bitstream/coefficients/coefficients.h"
 #include "bitstream/connectivity/connectivity.h"
+#include "bitstream/container/container.h"
 #include "bitstream/entropy/entropy.h"
 #include "bitstream/fields/fields.h"
 }
@@ -18,27 +20,33 @@ BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 
 using namespace nb::literals;
 
-static const struct {
-    const char *kernel;
-    const BankPlan &plan;
-} PLANS[] = {{"code_steps", STEP_BANK}, {"code_turns", TURN_BANK}, {"code_labels", LABEL_BANK},
-    {"code_block", BLOCK_BANK}, {"code_matrix", MATRIX_BANK}, {"code_edges", EDGE_BANK}};
+static const std::map<std::string_view, BankPlan> PLANS = {{"code_steps", STEP_BANK}, {"code_turns", TURN_BANK},
+    {"code_labels", LABEL_BANK}, {"code_block", BLOCK_BANK}, {"code_matrix", MATRIX_BANK}, {"code_edges", EDGE_BANK}};
+
+#define CONSTANT(name) {#name, name}
+static const std::map<std::string_view, int> CONSTANTS = {CONSTANT(ABOVE), CONSTANT(BEYOND), CONSTANT(NEIGHBORS),
+    CONSTANT(MAX_LEVEL), CONSTANT(PRICED), CONSTANT(TARGET_UNIT), CONSTANT(TRELLIS_STATES), CONSTANT(CODER_POSITION),
+    CONSTANT(SEAM), CONSTANT(OPEN), CONSTANT(MOST_COMPONENTS), CONSTANT(MOST_WHOLE),
+    CONSTANT(PIECE_BITS), CONSTANT(MAJOR), CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_NAME), CONSTANT(MOST_GIVEN),
+    CONSTANT(MOST_COPIES), CONSTANT(FREE_COPIES), CONSTANT(METHODS), CONSTANT(RUNS), CONSTANT(WITH_ATTRIBUTES)};
 
 NB_MODULE(_kernels, m) {
     make_tables();
 
     m.def("code_uniform", checked<code_one_uniform>, "coder"_a, "value"_a, "count"_a);
+    m.def("finish_coder", checked<finish_coder>, "coder"_a);
     m.def("code_unsigned", checked<code_one_unsigned>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
         "value"_a, "node"_a = 0);
+
+    // A number of the format by its name in the headers.
+    m.def("constant", [](const char *name) { return CONSTANTS.at(name); }, "name"_a);
 
     m.def("priors", [] { return nb::bytes(PRIORS, PRIORS_BYTES); });
 
     // Slots, selectors, inputs, limit and rate of the bank that a kernel needs; 0: what most have.
     m.def("bank_plan", [](const char *kernel) {
-        for (const auto &[name, plan] : PLANS)
-            if (name == std::string_view(kernel))
-                return nb::make_tuple(plan.slots, plan.selectors, plan.inputs, plan.limit, plan.rate);
-        throw nb::key_error(kernel);
+        const BankPlan &plan = PLANS.at(kernel);
+        return nb::make_tuple(plan.slots, plan.selectors, plan.inputs, plan.limit, plan.rate);
     }, "kernel"_a, nb::sig("def bank_plan(kernel: str) -> tuple[int, int, int, int, int]"));
 
     m.def("code_steps", checked<code_steps>, "coder"_a, "bank"_a, "values"_a, "tree"_a, Unlocked());
@@ -46,7 +54,10 @@ NB_MODULE(_kernels, m) {
     m.def("code_labels", checked<code_labels>, "coder"_a, "bank"_a, "offsets"_a, "neighbors"_a, "labels"_a, "parts"_a,
         Unlocked());
 
-    m.def("points_of_levels", &points_of_levels, "levels"_a, "points"_a, Unlocked());
+    m.def("points_of_levels", [](ConstInts2 levels, Doubles2 points) {
+        int64_t count = least(levels.rows * levels.columns, points.rows * points.columns);
+        values_of_levels(levels.data, count, 1.0, points.data);
+    }, "levels"_a, "points"_a, Unlocked());
     m.def("code_block", checked<code_block>, "coder"_a, "bank"_a, "past"_a, "expectations"_a, "levels"_a, Unlocked());
     m.def("search_levels", checked<search_levels>, "bank"_a, "past"_a, "expectations"_a, "targets"_a, "price"_a,
         "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());

@@ -10,7 +10,6 @@ extern "C" {
 #include "codec/sequence/temporal.h"
 #include "codec/signal/signal.h"
 #include "codec/static/choice/choice.h"
-#include "codec/static/units.h"
 }
 
 template <>
@@ -46,7 +45,10 @@ NB_MODULE(_kernels, m) {
     m.def("averaged", checked<&averaged>, "samples"_a, "small"_a, Unlocked());
     m.def("contrast", checked<&contrast>, "first"_a, "second"_a, "half"_a, "steady"_a, "scratch"_a, "sums"_a,
           Unlocked());
-    m.def("hash_columns", &hash_columns, "columns"_a, Unlocked());
+    m.def("hash_columns", [](Doubles2 columns) {
+        for (int64_t r = 0; r < columns.rows; r++)
+            for (int64_t j = 0; j < columns.columns; j++) columns.data[r * columns.columns + j] = hash_at(r, j);
+    }, "columns"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
     m.def("refine_partition", &refine_partition, "offsets"_a, "neighbors"_a, "labels"_a, "passes"_a, "sizes"_a,

@@ -1,8 +1,8 @@
 #include "engine/assembly.h"
 
 #include "codec/blocks/blocks.h"
+#include "codec/geometry/geometry.h"
 #include "codec/signal/signal.h"
-#include "codec/static/units.h"
 
 bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena) {
     assembly->lossy = false;

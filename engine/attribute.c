@@ -3,8 +3,6 @@
 
 #include "codec/geometry/geometry.h"
 
-enum { MOST_WHOLE = (1 << 20) - 1, PIECE_BITS = 16 };
-
 bool take_values(Arena *arena, const Attribute *attribute, void **values) {
     return is_there(*values = find_zeros(arena, attribute->rows * attribute->declaration.components,
                         kind_size(attribute->declaration.kind)));
@@ -43,8 +41,6 @@ void relative_values(const Attribute *attribute, Doubles2 beyond) {
 }
 
 bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved) {
-    static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0},
-                        HIGH[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647.0};
     int kind = attribute->declaration.kind;
     for (int64_t i = 0; i < change.rows * change.columns; i++) {
         double number = load_number(attribute->values, i, kind) + change.data[i];
@@ -52,7 +48,7 @@ bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, v
         if (number * 0.0 != 0.0) return FAIL(context, NUMERIC, "values of an attribute that moves are not finite");
         if (kind < BSMDEC_FLOAT32) {
             number = __builtin_rint(number);
-            number = number < LOW[kind] ? LOW[kind] : number > HIGH[kind] ? HIGH[kind] : number;
+            number = number < LEAST_OF[kind] ? LEAST_OF[kind] : number > UNIT_OF[kind] ? UNIT_OF[kind] : number;
         }
         store_number(moved, i, kind, number);
     }

@@ -4,7 +4,6 @@
 #include "engine/costs.h"
 #include "engine/corners.h"
 
-enum { SEAM = 1, MOST_WHOLE = (1 << 20) - 1 };
 enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257,
     DIRECTIONS = 12 };
 static const double DECLARED_WORK = 6e5, ATTRIBUTE_WORK = 4e5;

@@ -11,21 +11,11 @@ static void begin_writing(Reading *writing) {
     writing->coder = (Coder){{writing->state, CODER_STATES}, {to->data + to->size, to->room - to->size}};
 }
 
-/* The fewest bytes that still tell the last decision (C 1.4). */
 static bool finish_writing(const Reading *writing) {
     Writing *to = writing->context->writing;
-    uint8_t *data = writing->coder.data.data;
-    int64_t low = writing->state[0], size = writing->state[CODER_POSITION], value = 0, kept = 0;
-    if (writing->state[4] != 0) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
-    for (; kept < 4; kept++) {
-        int64_t unit = INT64_C(1) << (32 - 8 * kept);
-        value = (low + unit - 1) / unit * unit;
-        if (value < low + writing->state[1]) break;
-    }
-    if (kept == 4) value = low;
-    for (int64_t i = size; value >> 32 && i > 0 && ++data[i - 1] == 0;) i--;
-    for (int64_t k = 0; k < kept; k++) data[size + k] = (uint8_t)(value >> (24 - 8 * k));
-    to->size += size + kept;
+    int64_t size = finish_coder(writing->coder);
+    if (size < 0) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
+    to->size += size;
     to->ends[to->count++] = to->size;
     return true;
 }

@@ -123,6 +123,9 @@ ARENA_ARRAYS(Words, uint32_t, words)
 ARENA_ARRAYS(Longs, int64_t, longs)
 ARENA_ARRAYS(Singles, float, singles)
 ARENA_ARRAYS(Doubles, double, doubles)
+INLINE Doubles2 rows_from(Doubles2 all, int64_t first, int64_t count) {
+    return (Doubles2){all.data + first * all.columns, count, all.columns};
+}
 
 /* Limits and charges: false where one is exceeded. */
 bool within_limit(Context *context, const char *name, double value, double limit);

@@ -6,7 +6,6 @@ enum {
     SEAMS_OF = 15,
 };
 
-#define MOST_LEVEL 4294967295.0
 static const Field FIELDS[] = {
     {.key = NAME, .type = TEXT_FIELD, .low = 1, .high = MOST_NAME, .required = true},
     {.key = DOMAIN_KEY, .type = METHOD_FIELD, .high = 2},
@@ -16,7 +15,7 @@ static const Field FIELDS[] = {
     {.key = COMPONENTS, .type = INT_FIELD, .low = 1, .high = 4, .fallback = 1},
     {.key = CODING, .type = METHOD_FIELD, .high = 3},
     {.key = ROWS, .type = INT_FIELD, .high = 2147483647.0},
-    {.key = LARGEST, .type = INTS_FIELD, .high = MOST_LEVEL, .most = MOST_WORDS},
+    {.key = LARGEST, .type = INTS_FIELD, .high = UINT32_MAX, .most = MOST_WORDS},
     {.key = OFFSET, .type = FLOATS_FIELD, .low = -1e300, .high = 1e300, .most = MOST_WORDS},
     {.key = STEP, .type = FLOATS_FIELD, .low = 1e-300, .high = 1e300, .most = 4},
     {.key = LEANS, .type = METHOD_FIELD, .high = 1},
@@ -72,14 +71,12 @@ static bool is_whole(double x) { return x >= -0x1p53 && x <= 0x1p53 && x == (dou
 
 /* Whether the values of the levels fit the kind. */
 static bool in_kind(const Declaration *d) {
-    static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0},
-        HIGH[] = {255, 127, 65535, 32767, MOST_LEVEL, 2147483647.0};
     for (int i = 0; i < d->words; i++) {
         double first = d->offset[i], last = first + d->step[i] * (double)d->largest[i];
-        if (d->coding == BITS && !(first >= 0.0 && is_whole(first) && last <= MOST_LEVEL)) return false;
+        if (d->coding == BITS && !(first >= 0.0 && is_whole(first) && last <= UINT32_MAX)) return false;
         if (d->coding != LEVELS) continue;
         if (d->kind < BSMDEC_FLOAT32) {
-            if (!(is_whole(first) && is_whole(d->step[i]) && first >= LOW[d->kind] && last <= HIGH[d->kind]))
+            if (!(is_whole(first) && is_whole(d->step[i]) && first >= LEAST_OF[d->kind] && last <= UNIT_OF[d->kind]))
                 return false;
         } else {
             double most = d->kind == BSMDEC_FLOAT32 ? 0x1.fffffep+127 : 1e308;

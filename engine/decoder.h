@@ -4,6 +4,9 @@
 
 #include "engine/state.h"
 
+/* Bytes of an index; a short one is below 65535, which restarts a strip in graphics APIs. */
+enum { SHORT_INDEX = 2, LONG_INDEX = 4 };
+
 /* Note why a call is refused; returns BSMDEC_MISUSED. */
 bsmdec_status refuse(bsmdec *decoder, Message message);
 #ifdef BSMDEC_TERSE

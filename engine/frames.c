@@ -9,10 +9,6 @@ static const PredictionRules RULES = {.forgetting = 0.985, .ridge = 0.004, .nois
 static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24, TRACK_MEMORY = 40;
 static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
 
-static Doubles2 rows_from(Doubles2 all, int64_t first, int64_t count) {
-    return (Doubles2){all.data + first * all.columns, count, all.columns};
-}
-
 /* Some columns of a matrix, in a matrix of their own or as part of one, from column `to` on. */
 static void copy_columns(ConstDoubles2 from, int64_t first, int64_t count, Doubles2 into, int64_t to) {
     for (int64_t r = 0; count > 0 && r < from.rows; r++)

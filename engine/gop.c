@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { MOST_EXPONENT = 400, METHODS = 8, RUNS = 32, WITH_ATTRIBUTES = 4, POSITIONS_KEPT = 1 << 19 };
+enum { MOST_EXPONENT = 400, POSITIONS_KEPT = 1 << 19 };
 
 static int64_t zigzag(int64_t code) { return code % 2 == 0 ? code / 2 : -(code / 2) - 1; }
 

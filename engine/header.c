@@ -6,14 +6,13 @@ enum {
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER,
 };
 
-#define COUNT 2147483647.0
 static const Field FIELDS[] = {
-    {.key = VERTICES, .type = INT_FIELD, .low = 1, .high = COUNT, .required = true},
-    {.key = FACES, .type = INT_FIELD, .low = 1, .high = COUNT, .required = true},
-    {.key = BLOCKS, .type = INT_FIELD, .high = COUNT},
-    {.key = BLOCK_SIZE, .type = INT_FIELD, .high = COUNT},
-    {.key = COEFFICIENTS, .type = INT_FIELD, .high = COUNT},
-    {.key = KEY_INTERVAL, .type = INT_FIELD, .high = COUNT},
+    {.key = VERTICES, .type = INT_FIELD, .low = 1, .high = INT32_MAX, .required = true},
+    {.key = FACES, .type = INT_FIELD, .low = 1, .high = INT32_MAX, .required = true},
+    {.key = BLOCKS, .type = INT_FIELD, .high = INT32_MAX},
+    {.key = BLOCK_SIZE, .type = INT_FIELD, .high = INT32_MAX},
+    {.key = COEFFICIENTS, .type = INT_FIELD, .high = INT32_MAX},
+    {.key = KEY_INTERVAL, .type = INT_FIELD, .high = INT32_MAX},
     {.key = STEP, .type = FLOAT_FIELD, .low = 0x1p-40, .high = 0x1p20, .fallback = 0x1p-8},
     {.key = CENTER, .type = FLOATS_FIELD, .low = -1e300, .high = 1e300, .least = 3, .most = 3},
     {.key = SCALE, .type = FLOAT_FIELD, .low = 1e-300, .high = 1e300, .fallback = 1},
@@ -21,11 +20,11 @@ static const Field FIELDS[] = {
     {.key = REFINEMENT, .type = FLOATS_FIELD, .high = 64, .most = 2},
     {.key = ATTRIBUTES, .type = INT_FIELD, .high = 255},
     {.key = GRID, .type = INTS_FIELD, .high = 0xfffff, .most = 3},
-    {.key = LATTICE, .type = INTS_FIELD, .low = 1, .high = COUNT, .most = 2},
-    {.key = CORNER, .type = INTS_FIELD, .low = -COUNT - 1, .high = COUNT, .most = 3},
+    {.key = LATTICE, .type = INTS_FIELD, .low = 1, .high = INT32_MAX, .most = 2},
+    {.key = CORNER, .type = INTS_FIELD, .low = INT32_MIN, .high = INT32_MAX, .most = 3},
     {.key = LIGHT_KEY, .type = METHOD_FIELD, .high = 2},
-    {.key = SEQUENCE, .type = INTS_FIELD, .high = COUNT, .most = 2},
-    {.key = RUN, .type = INTS_FIELD, .high = COUNT, .most = 2},
+    {.key = SEQUENCE, .type = INTS_FIELD, .high = INT32_MAX, .most = 2},
+    {.key = RUN, .type = INTS_FIELD, .high = INT32_MAX, .most = 2},
     {.key = PAPER, .type = FLOATS_FIELD, .high = 0x1p30, .most = 8},
 };
 
@@ -33,7 +32,7 @@ static const Field FIELDS[] = {
 static const uint32_t OF_A_GRID = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(ATTRIBUTES) | BIT(GRID)
     | BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY);
 static const uint32_t OF_A_RUN = BIT(VERTICES) | BIT(FACES) | BIT(SEQUENCE) | BIT(RUN);
-enum { MOST_HEADER = 1 << 16, EVERY_VERTEX = 16, FREE_COPIES = 1 << 16 };
+enum { MOST_HEADER = 1 << 16 };
 
 static bool agrees(Context *context, bool is_so, const char *what) {
     return is_so || FAIL(context, CORRUPT, what);
@@ -115,7 +114,7 @@ static bool check_blocks(Context *context, const Record *record, const Header *h
         && agrees(context, header->blocks <= header->vertices, "more blocks than vertices")
         && agrees(context, header->block_size <= header->vertices, "blocks larger than the mesh")
         && agrees(context, rows >= (double)header->vertices, "blocks too small to cover the mesh") && agrees(context,
-            rows <= (double)EVERY_VERTEX * (double)header->vertices + FREE_COPIES, "blocks that overlap too much")
+            rows <= (double)MOST_COPIES * (double)header->vertices + FREE_COPIES, "blocks that overlap too much")
         && agrees(context, header->coefficients <= header->block_size, "more coefficients than a block has vertices")
         && agrees(context, count[REFINEMENT] != 1, "a refinement that is not a step and a ratio")
         && agrees(context, !header->refined || (step >= 0x1p-40

@@ -2,6 +2,7 @@
 #ifndef BSMDEC_HEADER_H
 #define BSMDEC_HEADER_H
 
+#include "bitstream/container/container.h"
 #include "engine/maps.h"
 
 /* How blocks are coded; only the paper's codec has other than the law's constants (F 10). */
@@ -46,7 +47,11 @@ INLINE int64_t chain_length(const Header *header) {
 }
 
 enum { LEVELS, OCTAHEDRAL, BITS, RECOMPUTED };
-enum { MOST_ATTRIBUTES = 256, MOST_WORDS = 8, MOST_NAME = 255 };
+enum { MOST_ATTRIBUTES = 256, MOST_WORDS = 8 };
+
+/* By the kind of numbers: the least of integers; what a fraction of 1 is, the largest of integers. */
+static const double LEAST_OF[] = {0, INT8_MIN, 0, INT16_MIN, 0, INT32_MIN};
+static const double UNIT_OF[] = {UINT8_MAX, INT8_MAX, UINT16_MAX, INT16_MAX, UINT32_MAX, INT32_MAX, 1, 1};
 
 /* An attribute, but for its values. */
 typedef struct {

@@ -8,10 +8,6 @@
 enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5,
     LEVEL_RATE = 16, BENT_BY = 2 };
 
-static Doubles2 rows_of(Doubles2 all, int64_t first, int64_t count) {
-    return (Doubles2){all.data + first * all.columns, count, all.columns};
-}
-
 bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch) {
     int64_t n = header->vertices;
     *layer = (Layer){.context = context, .header = header, .faces = faces, .own = arena_of(context),
@@ -122,8 +118,8 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     layer->coded += count;
     ConstInts2 some;
     if (!mark_levels(layer, layer->refined.whole, first, count, scratch, &some)) return false;
-    ConstDoubles2 frames = const_doubles2(rows_of(layer->refined.frames, first, count));
-    add_heights(rows_of(layer->positions, first, count), frames, some, layer->header->refinement[0]);
+    ConstDoubles2 frames = const_doubles2(rows_from(layer->refined.frames, first, count));
+    add_heights(rows_from(layer->positions, first, count), frames, some, layer->header->refinement[0]);
     if (layer->coded < layer->positions.rows) return true;
     release_all(&layer->models);
     return slide(layer, scratch);

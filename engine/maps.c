@@ -152,7 +152,7 @@ bool parse_map(Context *context, Span payload, Map *map) {
     return at_end(&cursor);
 }
 
-enum { METHODS = 255 };
+enum { RESERVED = 255 };
 
 static const Field *field_of(const Field *fields, int count, uint64_t key) {
     for (int i = 0; i < count; i++)
@@ -168,7 +168,7 @@ static bool refuse_unknown(Context *context, const Map *map, const Field *fields
         const Field *field = field_of(fields, count, map->key[i].bits);
         if (field == NULL) return FAIL(context, UNSUPPORTED, "field # is unknown to this decoder", map->key[i].whole);
         if (field->type == METHOD_FIELD && value->kind == INTEGER && value->number > field->high
-            && value->whole <= METHODS)
+            && value->whole <= RESERVED)
             return FAIL(context, UNSUPPORTED, "field # names method #, unknown to this decoder", field->key,
                 value->whole);
     }

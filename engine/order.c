@@ -6,7 +6,6 @@
 #include "engine/costs.h"
 #include "engine/coding.h"
 
-enum { MOST_GIVEN = 1 << 24 };
 enum { FIRST, COPY, LOOSE };
 
 static bool read_permutation(Reading *reading, Arena *scratch, Ints values) {

@@ -2,12 +2,6 @@
 #include "engine/arithmetic.h"
 #include "engine/decoder.h"
 
-enum {
-    SHORT = 2,
-    WORD = 4,
-    MOST_SHORT = 65535
-}; /* bytes of an index; vertices: 65535 itself restarts a strip in graphics APIs */
-
 /* Sort corners by a key of each, below `keys`; corners of one key keep their order. */
 static bool sort_corners(ConstInts key, int64_t keys, Arena *scratch, Ints *order, Ints *room) {
     Ints starts;
@@ -125,16 +119,16 @@ bsmdec_status bsmdec_split_indices(bsmdec *decoder, size_t index_size, void *ind
     const Split *split = &decoder->split;
     ConstInts2 faces = decoder->mesh.numbering.faces;
     if (!split->is_made) return REFUSE(decoder, "call bsmdec_split first; a new mesh needs a new call");
-    if (index_size != SHORT && index_size != WORD)
+    if (index_size != SHORT_INDEX && index_size != LONG_INDEX)
         return REFUSE(decoder, "indices have 2 or 4 bytes, not #", (int64_t)index_size);
-    if (index_size == SHORT && split->vertices > MOST_SHORT)
+    if (index_size == SHORT_INDEX && split->vertices > UINT16_MAX)
         return REFUSE(
-            decoder, "# vertices are too many for indices of 2 bytes, at most #", split->vertices, MOST_SHORT);
+            decoder, "# vertices are too many for indices of 2 bytes, at most #", split->vertices, UINT16_MAX);
     if (!fits(decoder, indices, count, 3 * faces.rows) || !is_aligned(decoder, indices, 0, index_size))
         return BSMDEC_MISUSED;
     for (size_t i = 0; i < count; i++) {
         uint32_t vertex = split->is_needed ? split->indices.data[i] : (uint32_t)faces.data[i];
-        if (index_size == SHORT) ((uint16_t *)indices)[i] = (uint16_t)vertex;
+        if (index_size == SHORT_INDEX) ((uint16_t *)indices)[i] = (uint16_t)vertex;
         else ((uint32_t *)indices)[i] = vertex;
     }
     return BSMDEC_OK;
@@ -146,15 +140,10 @@ typedef struct {
     bool of_fractions;
 } Conversion;
 
-static double unit_of(int kind) {
-    static const double UNITS[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647, 1, 1};
-    return UNITS[kind];
-}
-
 static double as_fraction(double number, int kind) {
-    double unit = unit_of(kind), low = kind == BSMDEC_INT8 || kind == BSMDEC_INT16 || kind == BSMDEC_INT32 ? -1.0 : 0.0;
     if (kind >= BSMDEC_FLOAT32) return number;
-    return __builtin_rint(unit * (number >= 1.0 ? 1.0 : number >= low ? number : number < low ? low : 0.0));
+    double low = LEAST_OF[kind] < 0 ? -1.0 : 0.0;
+    return __builtin_rint(UNIT_OF[kind] * (number >= 1.0 ? 1.0 : number >= low ? number : number < low ? low : 0.0));
 }
 
 /* Write one value; components that the mesh has not are 0, a fourth is 1. */
@@ -162,7 +151,7 @@ static void convert(const Conversion *how, const void *values, int64_t row, char
     for (int j = 0; j < how->want; j++) {
         bool is_there = j < how->have && row >= 0;
         double number = is_there ? load_number(values, row * how->have + j, how->from) : j == 3 ? 1.0 : 0.0;
-        if (how->of_fractions) number = as_fraction(is_there ? number / unit_of(how->from) : number, how->to);
+        if (how->of_fractions) number = as_fraction(is_there ? number / UNIT_OF[how->from] : number, how->to);
         store_number(to, j, how->to, number);
     }
 }

@@ -12,7 +12,7 @@ typedef struct {
     bool finds_fields;
 } Whole;
 
-enum { SHORT_INDEX = 2, LONG_INDEX = 4, SPACE = 3 /* components of positions */ };
+enum { SPACE = 3 }; /* components of positions */
 
 static const bsmdec_error NO_ROOM = {BSMDEC_NO_MEMORY, -1, -1, -1, "there is no memory for a decoder"};
 static const bsmdec_mesh NOTHING = {.error = &NO_ROOM};
@@ -116,9 +116,8 @@ static bool make_buffers(Whole *whole, int64_t faces) {
     bsmdec_mesh *given = &whole->given;
     release_all(&whole->buffers);
     given->faces = faces;
-    given->index_size = whole->index_size > 0 ? whole->index_size
-        : given->vertices > UINT16_MAX        ? LONG_INDEX
-                                              : SHORT_INDEX;
+    size_t needed = given->vertices > UINT16_MAX ? LONG_INDEX : SHORT_INDEX;
+    given->index_size = whole->index_size > 0 ? whole->index_size : needed;
     given->vertex_bytes = (size_t)given->vertices * given->stride;
     return is_there(given->vertex_data = find_zeros(&whole->buffers, given->vertices, given->stride))
         && is_there(given->index_data = find_memory(&whole->buffers, 3 * faces, given->index_size))

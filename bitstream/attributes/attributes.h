@@ -4,9 +4,13 @@
 
 #include "bitstream/fields/fields.h"
 
+/* An edge, as seen by the corner that faces it; OPEN: none faces it from beyond, and nothing is shared across it. */
+enum { NO_SEAM, SEAM, OPEN, UNKNOWN };
+
 /* Values of attributes on vertices. See values.c, and for each kind scalars.c, texcoords.c, normals.c. */
 enum {
     MOST_COMPONENTS = 4,
+    MOST_WHOLE = (1 << 20) - 1, PIECE_BITS = 16, /* larger values are coded in two pieces, the second of these bits */
     BASES = 4, /* classes by number of known edges: 0 to 3 or more */
 };
 

@@ -2,8 +2,7 @@
 #include "bitstream/attributes/attributes.h"
 
 enum {
-    NO_SEAM, SEAM, OPEN, UNKNOWN, /* an edge, as seen by the corner that faces it; OPEN: none faces it from beyond */
-    KNOWN = 3, WRITTEN = 4,       /* what both sides know of it; that it is a seam, which only a writer knows yet */
+    KNOWN = 3, WRITTEN = 4, /* what both sides know of it; that it is a seam, which only a writer knows yet */
     INPUTS = 4,
     ENDS = 32, /* states of a vertex */
     OTHERS = 9,

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.entropy.range_coder import bank_of, finish_writing, start_writing
 from bsm.bitstream.fields.corners import Corners
 from bsm.bitstream.once import cached_property
@@ -13,8 +14,7 @@ from bsm.bitstream.once import cached_property
 Ints = npt.NDArray[np.int32]
 Flags = npt.NDArray[np.uint8]
 
-NO_SEAM, SEAM, OPEN = 0, 1, 2
-"""Of the edge that a corner faces; OPEN: no corner faces it from beyond, and nothing is shared across it."""
+SEAM, OPEN = constant("SEAM"), constant("OPEN")
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,16 +1,5 @@
 #include "bitstream/coefficients/coefficients.h"
 
-/* Levels of a block to points: coefficients in half steps (specification, M 9.11). */
-void points_of_levels(ConstInts2 levels, Ints2 points) {
-    int64_t count = least(levels.rows * levels.columns, points.rows * points.columns);
-    int state = 0;
-    for (int64_t i = 0; i < count; i++) {
-        int32_t level = levels.data[i];
-        points.data[i] = trellis_point(state, level);
-        state = trellis_following(state, level);
-    }
-}
-
 /* Adaptive coding of quantized coefficients (specification, M 9.2 to M 9.7). */
 
 INSIDE const BankPlan BLOCK_BANK = {

@@ -10,12 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream._kernels import bank_plan, priors
+from bsm.bitstream._kernels import bank_plan, constant, priors
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import ONE
 from bsm.bitstream.errors import OptionError
 
-TARGET_UNIT = 256  # targets are in 1 / TARGET_UNIT of a quantization step
+TARGET_UNIT = constant("TARGET_UNIT")  # targets are in 1 / TARGET_UNIT of a quantization step
 
 _BIT = 256
 _SHIFT = 4
@@ -40,9 +40,7 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
 
 
 Magnitudes = npt.NDArray[np.int32]
-NEIGHBORS = 20  # inputs of an expectation
-_ABOVE = 8  # rows of zeros in front of the first frequency, as far as any neighbor reaches
-_BEYOND = 3  # and behind the last
+_ABOVE, _BEYOND = constant("ABOVE"), constant("BEYOND")  # rows of zeros around those of the frequencies
 
 
 class Past(NamedTuple):
@@ -55,12 +53,12 @@ class Past(NamedTuple):
 
 
 Levels = npt.NDArray[np.int32]
-STATES = 8  # a state is the numbers of the last three grids, the latest in the lowest bit (`bitstream/trellis.h`)
+STATES = constant("TRELLIS_STATES")  # the numbers of the last three grids, the latest in the lowest bit
 
 
-def points_of_levels(levels: Levels) -> Levels:
+def points_of_levels(levels: Levels) -> npt.NDArray[np.float64]:
     """Coefficients of a block in half steps, shape (c, 3); levels follow each other row by row."""
-    points = np.empty_like(levels)
+    points = np.empty(levels.shape)
     _kernels.points_of_levels(levels, points)
     return points
 
@@ -82,7 +80,7 @@ def shipped_experience() -> Experience:
     return Experience(expectations, mixing.view(np.int16), slots)
 
 
-MAX_LEVEL = (1 << 23) - 1  # largest magnitude of a quantized coefficient
+MAX_LEVEL = constant("MAX_LEVEL")  # largest magnitude of a quantized coefficient
 _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
 
 
@@ -100,7 +98,7 @@ class CoefficientModel:
         self.bank.weights[:] = mixing.reshape(self.bank.weights.shape) << 4
         blank = np.zeros((_ABOVE + self.width + _BEYOND, 3), np.int32)
         self.past = Past(blank, blank.copy(), blank.copy(), np.zeros(1, np.int64))
-        self.expectations = expectations.astype(np.int32).reshape(-1, NEIGHBORS)
+        self.expectations = expectations.astype(np.int32).reshape(-1, constant("NEIGHBORS"))
 
 
 def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:

@@ -149,8 +149,6 @@ INLINE int64_t level_selector(const Chain *chain) { return *chain->blocks == 0 ?
 extern INSIDE const BankPlan BLOCK_BANK;
 int64_t code_block(Coder coder, Bank bank, Past past, ConstInts2 expectations, Ints2 levels);
 
-void points_of_levels(ConstInts2 levels, Ints2 points);
-
 /* Entropy coding of a sequence's levels. See matrices.py. */
 enum { PRICED = 6 }; /* magnitudes whose prices are computed */
 
@@ -160,7 +158,9 @@ int64_t code_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, 
 int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow, ConstLongs costs, Shorts prices);
 
-/* Choosing levels by what they cost. See rate_distortion.py. */
+/* Choosing levels by what they cost. See rate_distortion.c. */
+enum { TARGET_UNIT = 256 }; /* targets are in 1 / TARGET_UNIT of a step */
+
 int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
     ConstLongs costs, Ints2 ways, Bytes2 origins, Ints2 levels, Doubles kept);
 

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.coefficients.adaptive import COSTS
 from bsm.bitstream.entropy import range_coder as entropy
 
@@ -17,7 +18,7 @@ Lead: TypeAlias = tuple[int, int]
 _Extent: TypeAlias = tuple[int, int, int, int]  # a lead, the row from which on few columns are coded, and how many
 
 _NEVER = np.iinfo(np.int16).max
-PRICED = 6  # magnitudes, from 0 on, that `price_levels` tells the prices of
+PRICED = constant("PRICED")  # magnitudes, from 0 on, that `price_levels` tells the prices of
 
 
 def make_level_bank() -> entropy.Bank:

@@ -5,10 +5,8 @@
  */
 #include "bitstream/coefficients/coefficients.h"
 
-
 enum {
     STATES = TRELLIS_STATES,
-    TARGET_UNIT = 256,
     BIT_UNIT = 256,  /* bits are in 1 / BIT_UNIT */
     COST_SHIFT = 4,  /* a cost for each probability, less these bits */
     COSTS = (ONE >> COST_SHIFT) + 1,

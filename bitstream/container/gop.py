@@ -9,6 +9,7 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.container.wire import write_varint
 from bsm.bitstream.errors import OptionError
 
@@ -34,8 +35,8 @@ def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
 
 
 MAX_EXPONENT = 400
-METHODS, RUNS = 8, 32  # the first byte is the method plus METHODS times the number of the run modulo RUNS
-WITH_ATTRIBUTES = 4  # added to the method where there are attributes
+METHODS, RUNS, WITH_ATTRIBUTES = map(constant, ("METHODS", "RUNS", "WITH_ATTRIBUTES"))
+"""The first byte: the method, WITH_ATTRIBUTES where there are any, METHODS times the number of the run modulo RUNS."""
 
 
 class GopMethod(IntEnum):

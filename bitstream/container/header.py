@@ -6,14 +6,12 @@ import operator
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias
 
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.errors import OptionError
 
 COUNT = 2**31 - 1
-METHODS = 255
 Kind: TypeAlias = type[Any]
 MOST_GRID = 2**20 - 1
-MOST_COPIES, FREE_COPIES = 16, 1 << 16
-"""Rows of all blocks together, at most: a factor of the vertices, and a constant."""
 MOST_ATTRIBUTES = 255
 
 
@@ -25,7 +23,7 @@ class Field:
     type: type
     low: float
     high: float
-    reserved: float = 0  # for methods of later versions
+    is_method: bool = False  # later versions may have more of them
     lengths: tuple[int, int] = (0, 0)
     item: Kind = float
 
@@ -63,7 +61,7 @@ def wire(key: int, kind: Kind, low: float, high: float, default: Any = MISSING, 
 
 def method(key: int, known: int, default: int = 0) -> Any:
     """Declare a choice among `known` methods, numbered from 0."""
-    return wire(key, int, 0, known - 1, default, reserved=METHODS)
+    return wire(key, int, 0, known - 1, default, is_method=True)
 
 
 @dataclass(frozen=True)
@@ -227,8 +225,7 @@ AS_CODED, OTHERWISE = range(2)
 LEVELS, OCTAHEDRAL, BITS, RECOMPUTED = range(4)  # codings; see A 5
 GENERIC, COLOR, NORMAL, TEXCOORD = range(4)
 
-MOST_NAME = 255
-MOST_COMPONENTS = 4
+MOST_COMPONENTS = constant("MOST_COMPONENTS")
 MOST_WORDS = 2 * MOST_COMPONENTS  # numbers in a coded value: two for each component where they are doubles to the bit
 MOST_LEVEL = 2**32 - 1
 FLOAT32 = 6
@@ -238,7 +235,7 @@ FLOAT32 = 6
 class Declaration:
     """An attribute, but for its values; decoders refuse fields that contradict each other."""
 
-    name: str = wire(1, str, 1, MOST_NAME)
+    name: str = wire(1, str, 1, constant("MOST_NAME"))
     domain: int = method(2, known=3)  # what has a value in the stream: VERTEX, CORNER or FACE
     origin: int = method(3, known=2)  # given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices
     semantic: int = method(4, known=4)  # GENERIC, COLOR, NORMAL or TEXCOORD

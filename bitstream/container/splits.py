@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.coefficients.matrices import write_column
 from bsm.bitstream.connectivity.faces import EncodedConnectivity
 from bsm.bitstream.connectivity.order import write_arrangement, write_rotations
@@ -15,7 +16,6 @@ from bsm.bitstream.errors import OptionError
 Ints = npt.NDArray[np.int32]
 
 FIRST, COPY, LOOSE = 0, 1, 2  # a given vertex is the first at its place, at the place of one before it, or in no face
-MOST_GIVEN = 1 << 24  # given vertices, so that every number of one can be coded
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +33,7 @@ def encode_order(faces: npt.ArrayLike, encoded: EncodedConnectivity, splits: Spl
     copied, loose = 0, np.zeros((0, 3))
     if splits is not None:
         source, loose = splits.source, splits.loose
-        if len(source) >= MOST_GIVEN:
+        if len(source) >= constant("MOST_GIVEN"):
             raise OptionError(f"{len(source)} vertices are too many for an order that is kept")
         kinds = np.full(len(source), COPY, np.int32)
         kinds[source < 0] = LOOSE

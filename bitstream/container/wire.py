@@ -9,16 +9,17 @@ from typing import Any
 
 import msgpack
 
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.errors import OptionError, UnsupportedError
 
 MAGIC = b"\x89BSM"
-MAJOR, MINOR = 1, 0
-VERSION = 16 * MAJOR + MINOR
+MAJOR = constant("MAJOR")
+VERSION = 16 * MAJOR  # of minor version 0
 PREAMBLE_BYTES = len(MAGIC) + 1
 MAX_VARINT_BYTES = 5
 MAX_VARINT = (1 << 7 * MAX_VARINT_BYTES) - 1
 SKIPPABLE_TYPES = range(8, 12)
-SHORT = 128  # a payload of fewer bytes has a short checksum
+SHORT = constant("SHORT_PAYLOAD")  # a payload of fewer bytes has a short checksum
 
 
 class FrameType(IntEnum):

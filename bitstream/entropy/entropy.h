@@ -276,6 +276,10 @@ SHARED int64_t code_signed(RangeCoder *coder, const Mixer *mixer, int inputs, co
     return negative ? -magnitude : magnitude;
 }
 
+/* The bytes written, with the fewest that still tell the last decision (C 1.4); -1 without room for them. A coder
+ * is finished once. */
+int64_t finish_coder(Coder coder);
+
 /* Single symbols, for the few that are coded one by one. Each returns the coded number, or MISUSED. */
 int64_t code_one_uniform(Coder coder, int64_t value, int64_t count);
 int64_t code_one_unsigned(

@@ -5,12 +5,12 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream._kernels import bank_plan
+from bsm.bitstream import _kernels
 from bsm.bitstream.errors import OptionError
 
 ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
 
-POSITION, _FULL = 2, 4
+POSITION = _kernels.constant("CODER_POSITION")
 
 
 class Coder(NamedTuple):
@@ -30,7 +30,7 @@ class Bank(NamedTuple):
 
 def bank_of(kernel: str) -> Bank:
     """Make the bank that a kernel of this name starts from."""
-    slots, selectors, inputs, limit, rate = bank_plan(kernel)
+    slots, selectors, inputs, limit, rate = _kernels.bank_plan(kernel)
     return make_bank(slots, selectors, inputs, limit or 255, rate or 14)
 
 
@@ -61,15 +61,8 @@ def make_room(coder: Coder, capacity: int) -> Coder:
 
 
 def finish_writing(coder: Coder) -> bytes:
-    """Return the payload: everything written, and the fewest bytes that still tell the last decision."""
-    low, width, position = (int(x) for x in coder.state[:3])
-    if coder.state[_FULL]:
+    """Return the payload: everything written, and the fewest bytes that still tell the last decision; call it once."""
+    size = _kernels.finish_coder(coder)
+    if size < 0:
         raise OptionError(f"the payload needs more than the {len(coder.data) - 8} bytes of capacity given")
-    written = int.from_bytes(coder.data[:position].tobytes(), "big")
-    for kept in range(5):
-        unit = 1 << (32 - 8 * kept)
-        value = -(-low // unit) * unit
-        if value < low + width:
-            break
-    total = (written << 32) + value
-    return total.to_bytes(position + 4, "big")[: position + kept]
+    return coder.data[:size].tobytes()

@@ -1,7 +1,22 @@
-/* Single symbols, for the few that are coded one by one (specification, C 1 to C 3). */
+/* The end of a payload, and single symbols for the few that are coded one by one (specification, C 1 to C 3). */
 #include "bitstream/entropy/entropy.h"
 
 enum { MOST_UNARY = 1 << 10, MOST_VALUE = 1 << 25 };
+
+int64_t finish_coder(Coder given) {
+    RangeCoder coder;
+    int64_t size, unit = INT64_C(1) << 32, value;
+    if (!open_coder(&coder, given)) return MISUSED;
+    size = coder.position;
+    if (coder.full || size + 4 > coder.size) return -1;
+    while ((value = ((int64_t)coder.low + unit - 1) / unit * unit) >= (int64_t)(coder.low + coder.range)) {
+        unit >>= 8;
+        size++;
+    }
+    for (int64_t i = coder.position; value >> 32 && i > 0 && ++coder.data[i - 1] == 0;) i--;
+    for (int64_t i = coder.position, bits = 24; i < size; i++, bits -= 8) coder.data[i] = (uint8_t)(value >> bits);
+    return size;
+}
 
 int64_t code_one_uniform(Coder given, int64_t value, int64_t count) {
     RangeCoder coder;

@@ -1,7 +1,7 @@
 /* The tables of the mixer (specification, C 2.1, C 2.2, C 2.6), which take less room as a formula.
  *
- * No entry of them or of those of fields is nearer than 0.0001 to where rounding changes; what is computed here is off
- * by less than 0.00000001, however a processor rounds. */
+ * Every entry, also of the tables of fields, is more than 0.0001 away from where rounding changes. These formulas have
+ * errors below 0.00000001 on every processor. */
 #include "bitstream/entropy/entropy.h"
 
 INSIDE uint16_t SQUASH[2 * SQUASH_REACH];

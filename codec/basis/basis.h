@@ -32,7 +32,6 @@ int64_t ISA(completion_space)(int64_t h);
 int64_t ISA(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole);
 void ISA(cosines)(Doubles table, Doubles2 columns);
 void ISA(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns);
-void hash_columns(Doubles2 columns);
 bool ISA(are_vectors_exact)(void);
 
 /* Entry of a hash column (specification, M 8.6): the splitmix64 of row * 2^32 + column, as a number in [-1, 1). */

@@ -10,6 +10,7 @@ from bsm.bitstream.entropy.range_coder import Bank, copy_bank, finish_writing, s
 from bsm.bitstream.errors import OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.signal.transform import LARGEST_LEVEL
 
 LEADING = 24  # columns of a row that help to predict the following ones
 FORGETTING = 0.985  # how much the past counts, per row, in the weights of the prediction
@@ -22,7 +23,6 @@ DENSE_ROWS = 16
 """First rows of a block, each with its own weights; after them the weights are renewed every `RENEWAL` rows."""
 RENEWAL = 8
 RULES = (FORGETTING, RIDGE, NOISE, AROUND, DENSE_ROWS, RENEWAL)
-LARGEST_LEVEL = (1 << 23) - 1
 
 
 WEIGHT = 0.1  # squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones

@@ -16,10 +16,9 @@ from bsm.codec.progress import Nearing, Progress, silent
 from bsm.codec.sequence.frames import Group, distinct_frames, same_frames
 from bsm.codec.sequence.gop import GopEncoder, LearntGop
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.step_search import StepSearch
 from bsm.codec.sequence.tracks import Setting, make_setting
-from bsm.codec.signal.transform import smallest_step
+from bsm.codec.signal.transform import LARGEST_LEVEL, smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single

@@ -8,10 +8,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
+from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.writer import Writer
@@ -189,7 +190,7 @@ class Prepared:
         """Vertices of the largest block, n_d."""
         parts, vertices = self.partition.parts, self.graph.size
         size = block_size(self.partition, self.parts.overlap)
-        if parts * size > MOST_COPIES * vertices + FREE_COPIES:
+        if parts * size > constant("MOST_COPIES") * vertices + constant("FREE_COPIES"):
             raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
         return size
 

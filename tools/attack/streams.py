@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._engine import write_faces
-from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, encode_seams
+from bsm.bitstream.attributes.seams import OPEN, encode_seams
 from bsm.bitstream.coefficients.matrices import Levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
@@ -361,7 +361,7 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     blocks = {"blocks": 1 + size // 4000, "block_size": min(size, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
     corners = corners_of(_coded("torus", rows, columns).faces, size)
-    none = np.where(corners.opposite < 0, OPEN, NO_SEAM).astype(np.uint8)
+    none = np.where(corners.opposite < 0, OPEN, 0).astype(np.uint8)
     seams = [encode_seams(corners, none, (none,) * earlier) for earlier in range(3)]
     values: dict[str, Any] = {"rows": size, "largest": (1,), "kind": 0, "domain": CORNER}
     declared = [

@@ -15,7 +15,7 @@ function sourcesIn(folder) {
 }
 
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
-const SOURCES = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/[^g])|^engine\/(examples|python|ahead)|rate_distortion/.test(path));
+const SOURCES = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^engine\/(examples|python|ahead)|rate_distortion/.test(path));
 
 /** Functions for the page (engine/wasm/page.c, engine/bsmdec.h). */
 const PAGE = [

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._engine import Field
+from bsm.bitstream._kernels import constant
 from bsm.bitstream.attributes import values as coders
 from bsm.bitstream.attributes.seams import Joins
 from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration, entries_of
@@ -263,8 +264,7 @@ def _of_bits(words: Words, kind: np.dtype[Any]) -> Values:
     return np.where(np.isfinite(values), values, kind.type(0))
 
 
-MOST_WHOLE = (1 << 20) - 1  # larger levels are coded in two pieces
-PIECE_BITS = 16
+MOST_WHOLE, PIECE_BITS = constant("MOST_WHOLE"), constant("PIECE_BITS")  # larger levels are coded in two pieces
 
 
 def to_pieces(declaration: Declaration, levels: Words) -> Levels:

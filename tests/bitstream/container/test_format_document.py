@@ -29,7 +29,7 @@ def row(name: str, record: type = Header) -> str:
     """The line of the document's table for one field, without its meaning."""
     declared = fields_of(record)[name]
     least, most = declared.lengths
-    kind = {int: "method" if declared.reserved else "int", float: "float", tuple: "floats", str: "text"}[declared.type]
+    kind = {int: "method" if declared.is_method else "int", float: "float", tuple: "floats", str: "text"}[declared.type]
     if declared.type is tuple:
         kind = "ints" if declared.item is int else kind
         kind += f" [{least}]" if least == most else f" [{least} to {most}]"

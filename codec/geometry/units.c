@@ -1,5 +1,5 @@
 /* From BSM units to the unit of the mesh. */
-#include "codec/static/units.h"
+#include "codec/geometry/geometry.h"
 
 enum { AXES = 3, TOGETHER = 8 * AXES };
 
