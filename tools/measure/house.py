@@ -34,15 +34,15 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 59_989,
-    "product Python, lines": 32_397,
-    "product C and C++, lines": 20_679,
+    "product in all languages, lines": 59_964,
+    "product Python, lines": 32_380,
+    "product C and C++, lines": 20_671,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_005,
     "product lines over 120 columns": 216,
-    "all Python, lines": 72_007,
+    "all Python, lines": 71_961,
     "product modules": 201,
-    "product C files and headers": 73,
+    "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "numbers of a header": 36,
     "fields of EncodeOptions and Paper": 29,
