@@ -153,8 +153,7 @@ class Treatments:
 
 def blend(results: list[Positions]) -> Positions:
     """The mean of several results, each of shape (n, 3): errors of different recipes partly cancel."""
-    mean: Positions = results[0] if len(results) == 1 else np.mean(results, axis=0)
-    return mean
+    return results[0] if len(results) == 1 else np.asarray(np.mean(results, axis=0))
 
 
 class Patient:

@@ -13,10 +13,11 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Mask
 
-MOST = 1.25  # movement along the normals over noise, from which on more has gone than noise
-MOST_CORRELATED = 3.0
+MOST = 1.9
+"""Movement along the normals over noise, from which on more has gone than noise. Windows of correlated noise differ in
+it by chance, as slanted surfaces do in scans of one view: 1.25 put noise back."""
+MOST_CORRELATED = 4.0
 """Correlated noise is stronger than its finest frequencies, in a ratio that is the same everywhere: at most this."""
-MOST_SEEN = 1.9  # in scans of one view, whose noise is stronger on slanted surfaces and in broad steps
 FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
 """Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
@@ -60,16 +61,12 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
-    most = MOST_SEEN if finding.kind in ("view", "fused", "uneven fused", "grid") else MOST
-    if finding.kind in ("correlated", "view", "fused", "uneven fused"):
-        most *= min(max(movement, 1.0), MOST_CORRELATED)
-    bad = windows.valid & ~(ratio <= most)
+    shared = finding.kind in ("correlated", "view", "fused", "uneven fused")
+    bad = windows.valid & ~(ratio <= MOST * (min(max(movement, 1.0), MOST_CORRELATED) if shared else 1.0))
     failed = float(bad[judged].mean()) if judged.any() else 0.0
-    reason = ""
-    if failed > FAILED_SHARE:
-        reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
+    reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
     good: Mask = ~bad[windows.labels]
-    return Verdict(good, movement, reason)
+    return Verdict(good, movement, reason if failed > FAILED_SHARE else "")
 
 
 def restraint(movement: float, finding: Finding) -> float:

@@ -10,7 +10,7 @@ from bsm.codec.denoise.noise.synthesis import estimate_noise
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.metrics import mean_edge_length, rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
-from tools.noise import gaussian_along_normals, gaussian_isotropic
+from tools.noise import correlated_along_normals, gaussian_along_normals, gaussian_isotropic
 
 
 @pytest.mark.parametrize("sigma", [0.1, 0.2, 0.6])
@@ -47,6 +47,13 @@ def test_the_angle_that_it_expects_is_the_one_that_comes(shape) -> None:  # type
         came = theta(clean, denoised, faces)
         assert choice.untreated == pytest.approx(theta(clean, noisy, faces), rel=0.15)
         assert choice.expected / 1.3 < came < 1.3 * choice.at_most
+
+
+def test_noise_that_neighbors_share_leaves_every_flat_face() -> None:
+    clean, faces = cube(30)
+    noisy = correlated_along_normals(clean, faces, 0.2, 3, rounds=4)
+    denoised = denoise_automatically(noisy, faces)[0]
+    assert theta(clean, denoised, faces) < 0.25 * theta(clean, noisy, faces)
 
 
 def test_no_angle_is_estimated_where_noise_turns_faces_anywhere() -> None:
