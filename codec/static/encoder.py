@@ -206,7 +206,7 @@ class Encoder:
         else:
             contract = self._within_error(target)
             found = self._judged(smallest(self._input, contract, near))
-        self._verified(found.draft, near, None if self.options.sets_coding else contract)
+        self._verified(found.draft, near, contract)
         over = target.excess(found)
         require(over <= MARGIN, f"the target is {target.value:g} and {target.reached(found):g} was reached")
         return found

@@ -214,7 +214,6 @@ class EncodeOptions:
             raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
         if self.is_grid and (self.target is not None or self.sets_coding):
             raise OptionError("a grid excludes targets and options of blocks")
-
         if self.quick and self.sets_coding:
             raise OptionError("quick uses a grid; it excludes options of blocks")
 

@@ -146,7 +146,6 @@ class Prepared:
     vertex_order: Order
     face_order: Order
     coding_faces: Order
-    notes: tuple[str, ...]
     joined_faces: Faces
     light: bool
     _spectra: dict[float, MeasuredSpectrum] = field(default_factory=dict, init=False, repr=False)
@@ -165,6 +164,10 @@ class Prepared:
         given = numbers[self.joined_faces[self.coding_faces]]
         turned = [(np.roll(given, -k, axis=1) == self.mesh.faces).all(axis=1) for k in range(3)]
         return np.asarray(np.argmax(turned, axis=0))
+
+    def of_coded(self, corners: Indices) -> Indices:
+        """What corners of joined faces have, shape (m, 3), in the order of coding."""
+        return np.take_along_axis(corners[self.coding_faces], (self.turns[:, None] + np.arange(3)) % 3, axis=1)
 
     @cached_property
     def positions(self) -> Matrix:
@@ -235,26 +238,22 @@ class Parts:
 def prepare(
     mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None, light: bool = False
 ) -> Prepared:
-    """Code the connectivity of a mesh."""
-    used, kept = mesh.without_isolated_vertices()
-    dropped = len(mesh.positions) - len(kept)
-    vertices = len(kept)
-    connectivity = encode_connectivity(used.faces, vertices)
-    coding_order = kept[connectivity.vertex_order]
+    """Code the connectivity of a mesh whose vertices are all in faces."""
+    connectivity = encode_connectivity(mesh.faces, len(mesh.positions))
+    coding_order = connectivity.vertex_order.astype(np.int64)
     ordered = TriangleMesh(mesh.positions[coding_order], connectivity.faces)
-    order = (packets.Order(encode_order(used.faces, connectivity, splits)),) if keep_order else ()
+    order = (packets.Order(encode_order(mesh.faces, connectivity, splits)),) if keep_order else ()
     return Prepared(
         mesh=ordered,
-        graph=graph_of_faces(ordered.faces, len(kept)),
+        graph=graph_of_faces(ordered.faces, len(coding_order)),
         parts=parts,
         units=units_of(ordered),
         connectivity=packets.Connectivity(connectivity.payload),
         order=order,
         coding_order=coding_order,
-        vertex_order=kept if keep_order else coding_order,
-        face_order=np.arange(len(used.faces)) if keep_order else connectivity.face_order.astype(np.int64),
+        vertex_order=np.arange(len(coding_order)) if keep_order else coding_order,
+        face_order=np.arange(len(mesh.faces)) if keep_order else connectivity.face_order.astype(np.int64),
         coding_faces=connectivity.face_order.astype(np.int64),
-        notes=(f"left out {counted(vertices=dropped)} that no face uses",) if dropped else (),
         joined_faces=mesh.faces,
         light=light,
     )
@@ -276,11 +275,6 @@ class Draft:
     @property
     def size(self) -> int:
         return sum(map(len, self.frames))
-
-    @property
-    def coefficients(self) -> tuple[int, ...]:
-        """c_i of each block."""
-        return tuple(packet.coefficients for packet in self.body if isinstance(packet, packets.Block))
 
     def _write(self) -> Iterator[bytes]:
         writer = Writer()

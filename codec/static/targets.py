@@ -239,7 +239,7 @@ def secant(
         tried.append(before)
         good = max((step for step in tried if step[1] <= 0.0), default=None)
         bad = min((step for step in tried if step[1] > 0.0 and (good is None or step[0] > good[0])), default=None)
-        if good is None and len(tried) > tries // 3 and value > tried[0][1] - abs(at - tried[0][0]) / STEEPEST**2:
+        if good is None and len(tried) > tries // 2 and value > tried[0][1] - abs(at - tried[0][0]) / STEEPEST**2:
             return  # what breaks a bound is not the step
         if (-slack < value <= 0.0) or (bad is None and at >= high) or (good is None and at <= low):
             return

@@ -49,11 +49,7 @@ class Original:
         coded = self.prepared.mesh.faces
         require(faces.shape == coded.shape, f"decoded {len(faces)} of {len(coded)} faces")
         require(vertices == len(self.vertex_order), f"decoded {vertices} of {len(self.vertex_order)} vertices")
-        if self.prepared.order:
-            ordered = faces[self.prepared.coding_faces]
-            ordered = np.take_along_axis(ordered, (self.prepared.turns[:, None] + np.arange(3)) % 3, axis=1)
-        else:
-            ordered = faces
+        ordered = self.prepared.of_coded(faces) if self.prepared.order else faces
         found = np.full(vertices, -1, np.int64)
         found[ordered] = coded
         require(bool((found[ordered] == coded).all()), "the decoded faces differ")
@@ -131,8 +127,7 @@ def require_attributes(
             require(_alike(at, values), f"{name} has other values after decoding")
             continue
         rows = found.indices if found.indices is not None else faces
-        if prepared.order:
-            rows = np.take_along_axis(rows[prepared.coding_faces], (prepared.turns[:, None] + np.arange(3)) % 3, axis=1)
+        rows = prepared.of_coded(rows) if prepared.order else rows
         require(_alike(found.values[rows], values[wanted.surface.faces]), f"{name} has other values after decoding")
 
 

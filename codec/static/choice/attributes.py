@@ -19,9 +19,9 @@ from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import AttributeLook, has_look, own_normals
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
-from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, place_of, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
-from bsm.codec.static.choice.bounds import Bounds, Measures
+from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.search import Search
 from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
@@ -86,7 +86,11 @@ class Input:
 
     def search(self, contract: Contract, near: Nearing | None) -> Search:
         self.measures = Measures(self.prepared, self.options.threads, self.normals, alike=contract.alike, near=near)
-        return Search(self.measures, self.coded, lambda draft: self.dressed(draft).size)
+        return Search(self.measures, self.coded, lambda draft: self.dressed(draft).size, self.saved)
+
+    def saved(self, candidate: Candidate) -> int:
+        """How many bytes fewer attributes take on the places of a grid."""
+        return sum(sum(map(len, a.plain)) - sum(map(len, cheaper(a, candidate.draft.places)[1])) for a in self.carried)
 
     @cached_property
     def free_normals(self) -> int | None:
@@ -119,7 +123,7 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
     if given.options.effort == "best":
         _choose_blocks(given, contract)
     search = given.search(contract, near)
-    if search.metric is not None and contract.look < math.inf:
+    if given.measures.look is not None and contract.look < math.inf:
         given.looks = _roughened(given, contract.look)
     asked = contract
     for _ in range(TRIES):
@@ -184,7 +188,7 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Attrib
 
 def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
-    bare, metric, free = search.smallest(contract), search.metric, given.free_normals
+    bare, metric, free = search.smallest(contract), given.measures.look, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
         return given.dressed(bare)
     decoded, asked = _decoded(given, bare), contract.look
@@ -199,20 +203,24 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
 
     recomputed = given.carry_with(free, Quality("recompute"))
     given.carried = given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)])
-    kept = given.dressed(bare)
-    if metric.against_faces or seen(recomputed, given.prepared.positions) > 1.0:
+    kept, coded = given.dressed(bare), given.carried
+    before = seen(recomputed, given.prepared.positions)
+    if metric.against_faces or before > 1.0 - SLACK:
         return kept
+    given.carried = recomputed
     with suppress(TargetError):
-        for _ in range(TRIES):  # of none, and positions that are as much nearer as they need to be then
-            other = with_attributes(bare, recomputed, given.given.metadata)
+        for attempt in range(TRIES):  # of none, and positions that are as much nearer as they need to be then
+            other = given.dressed(bare)
             if other.size >= kept.size:
                 break
             share = seen(recomputed, _decoded(given, bare))
             if share <= 1.0:
-                given.carried = recomputed
                 return other
-            contract = replace(contract, look=contract.look / share**2 * (1.0 - SLACK))  # part of it is there before
+            if attempt or bare.places is None:  # else the first choice, now that no normals lean on places
+                nearer = math.sqrt((1.0 - before**2) / (share**2 - before**2))
+                contract = replace(contract, look=contract.look * nearer * (1.0 - SLACK))
             bare = search.smallest(contract)
+    given.carried = coded
     return kept
 
 

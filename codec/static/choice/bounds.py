@@ -147,8 +147,10 @@ class Bounds:
         measures = self.measures
         step, positions = min(SEEN * measures.shaper.mean_edge, COARSEST), measures.prepared.positions
         for _ in range(2):
-            seen = self._look(np.rint(positions / step) * step)
-            step = min(step * min(max(1.0 / max(seen, LEAST), 0.1), 10.0), COARSEST)
+            wider = 1.0 / max(self._look(np.rint(positions / step) * step), LEAST)
+            step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
+            if 0.5 < wider < 2.0:
+                break
         return min(step * self.contract.look, COARSEST)
 
     @cached_property

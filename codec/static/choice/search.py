@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
-from operator import attrgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
-from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
@@ -25,16 +23,16 @@ class Search:
     """Looks for the best stream of a mesh among all ways to code it."""
 
     def __init__(
-        self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int] = attrgetter("size")
+        self,
+        measures: Measures,
+        options: EncodeOptions,
+        size: Callable[[Draft], int],
+        saved: Callable[[Candidate], int],
     ) -> None:
         self._measures, self._prepared = measures, measures.prepared
         self._options = options
         self._tries = {"quick": TRIES - 1, "best": 3 * TRIES}.get(options.effort, TRIES)
-        self._size = size
-
-    @property
-    def metric(self) -> LookMetric | None:
-        return self._measures.look
+        self._size, self._saved = size, saved
 
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract.
@@ -49,13 +47,16 @@ class Search:
         bounds = Bounds(self._measures, contract)
         grid = Gridded(self._prepared, bounds)
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
-        seen = contract.look < math.inf
+        saved = self._saved(grid.at(grid.first))
+        least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
         for way in self._ways(bounds, grid):
-            least = min((candidate.size for candidate in kept), default=math.inf)
-            if seen and isinstance(way, Gridded) and kept and SHAPED * grid.at(grid.first).size > least:
+            leaning = saved if isinstance(way, Gridded) else 0
+            if seen and isinstance(way, Gridded) and SHAPED * grid.at(grid.first).size > least + leaning:
                 continue
-            found = widest(way, bounds, least, tries=self._tries)
-            kept += [] if found is None else [found]
+            found = widest(way, bounds, least + leaning, tries=self._tries)
+            if found is not None:
+                kept.append(found)
+                least = found.size - leaning
         if not kept:
             kept.append(self._last_resort(bounds))
         return min((candidate.draft for candidate in kept), key=self._size)
@@ -96,9 +97,10 @@ class Search:
         return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
 
     def seen(self, draft: Draft) -> str:
-        if self.metric is None:
+        metric = self._measures.look
+        if metric is None:
             return "nothing is visible"
-        return f"look {self.metric.distance(self._prepared.units.into(draft.decoded)):.3g}"
+        return f"look {metric.distance(self._prepared.units.into(draft.decoded)):.3g}"
 
     def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
         """Ways that may be smallest, first those that are smaller at their first step."""
