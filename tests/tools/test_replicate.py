@@ -14,7 +14,7 @@ from tests.shapes import torus
 from tools.replicate import ablation, denoising, fetch, outside, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
-from tools.replicate.pictures import photograph
+from tools.replicate.pictures import Gallery, photograph
 
 
 def hinge(angle):
@@ -66,6 +66,12 @@ class TestPhotographs:
         )
         linear = np.array([0.62, 0.53, 0.45]) * diffuse + glossy
         assert pixel == pytest.approx(255 * (1.055 * linear ** (1 / 2.4) - 0.055), abs=0.51) and (wall == 239).all()
+
+    @pytest.mark.parametrize(("original", "decoded", "even"), [(0.6, 0.4, True), (0.4, 0.6, False)])
+    def test_faces_are_even_up_to_creases_of_the_original(self, original, decoded, even):
+        picture = Gallery(TriangleMesh(*hinge(original))).photographs(hinge(decoded)[0])[0]
+        counts = np.unique(picture.reshape(-1, 3), axis=0, return_counts=True)[1]
+        assert (np.sort(counts)[-3:].sum() > 0.99 * counts.sum()) == even
 
     def test_scores_see_no_difference_then_more_and_more(self):
         for name in ("flip_evaluator", "ssimulacra2"):

@@ -23,6 +23,7 @@ import numpy.typing as npt
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners, compare_values
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.files.mesh import read_mesh
@@ -148,9 +149,7 @@ def with_normals(mesh: TriangleMesh, sharp: float) -> TriangleMesh:
     from scipy.sparse.csgraph import connected_components
 
     places = mesh.positions[mesh.faces]
-    across = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
-    area = np.linalg.norm(across, axis=1, keepdims=True)
-    unit = across / np.where(area > 0, area, 1)
+    unit = face_normals(mesh.positions, mesh.faces)
     corner = np.arange(mesh.faces.size)
     ends = np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=2).reshape(-1, 2)
     after = corner // 3 * 3 + (corner + 1) % 3

@@ -22,9 +22,7 @@ BESIDE, MARGIN, DEGREE = 11, 16, 33.5
 """Draco's bits, beside which the default's spread stands; margin of a cut in pixels; pixels per degree for FLIP."""
 SEEN = (500, 25_000)
 """Meshes of which photographs are taken, by how many vertices they have: fetched ones."""
-PHOTOGRAPHED = (
-    "Three views of 1,080 pixels that our look does not use, with three lights, gloss, and normals of vertices."
-)
+PHOTOGRAPHED = "Three views of 1,080 pixels that our look does not use: three lights, gloss, creases of 30 degrees."
 SPREAD = ("what", "by", "meshes", "mean", "median", "standard deviation", "worst", "its mesh")
 
 
@@ -93,9 +91,8 @@ def compare(first: Photograph, second: Photograph) -> dict[str, float]:
         if shutil.which("butteraugli_main"):
             done = subprocess.run(["butteraugli_main", *paths], check=True, capture_output=True, text=True)
             found["Butteraugli"] = float(done.stdout.split()[-1])
-    smaller = [halved(picture) for picture in (first, second)]
-    words = {"applyMagma": False, "parameters": {"ppd": DEGREE}}
-    return found | {"FLIP": float(flip_evaluator.evaluate(*smaller, "LDR", **words)[1])}
+    flip = flip_evaluator.evaluate(halved(first), halved(second), "LDR", applyMagma=False, parameters={"ppd": DEGREE})
+    return found | {"FLIP": float(flip[1])}
 
 
 def halved(picture: Photograph) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
@@ -123,8 +120,7 @@ def steadiness_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
             pairs = [(row["points"][name][score], row["mesh"]) for row in rows if score in row["points"].get(name, {})]
             if pairs:
                 values, digits = np.array([value for value, _ in pairs]), 4 if score == "FLIP" else 2
-                cells = (
-                    f"{value:.{digits}f}" for value in (values.mean(), np.median(values), values.std(), values.max())
-                )
+                numbers = values.mean(), np.median(values), values.std(), values.max()
+                cells = (f"{number:.{digits}f}" for number in numbers)
                 found.append((name, label, str(len(pairs)), *cells, max(pairs)[1]))
     return found

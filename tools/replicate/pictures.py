@@ -7,8 +7,9 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
-from bsm.codec.geometry.metrics import face_normals
+from bsm.codec.geometry.metrics import areas_and_normals, face_normals
 from bsm.codec.look.pictures import Canvas, Picture, averaged, cameras, difference
+from tools.measure.attributes import with_normals
 
 SIDES = (0, 2, 4, 5)
 PIXELS = 256
@@ -16,6 +17,7 @@ LIGHT = (0.35, 0.5, 0.79)  # right, up, towards the camera
 VIEWS = ((4, -10, 3), (-8, 6, 2), (14, 10, -9))
 """Directions of the camera for photographs, from the middle of the mesh."""
 PHOTOGRAPH, SAMPLES = 1080, 2  # pixels along a side, and samples along a side of a pixel
+SHARP = 30.0  # degrees between faces, above which no normal is shared
 LAMPS = ((-0.45, 0.62, 0.64, 0.95), (0.8, -0.1, 0.59, 0.22), (0.1, 0.9, -0.42, 0.25))
 """Right, up, towards the camera, and how bright: key, fill and rim."""
 ALBEDO, AMBIENT, GLOSS, SHARPNESS, WALL = (0.62, 0.53, 0.45), 0.06, 0.28, 32, 0.86
@@ -30,6 +32,7 @@ class Gallery:
         self._middle, self._diagonal = (low + high) / 2, float(np.linalg.norm(high - low))
         self._faces = np.ascontiguousarray(mesh.faces, np.int32)
         self._positions = self._placed(mesh.positions)
+        self._smooth = np.asarray(with_normals(mesh, SHARP).attributes[-1].indices)
 
     def _placed(self, positions: Positions) -> Matrix:
         return np.ascontiguousarray((positions - self._middle) / self._diagonal)
@@ -51,14 +54,12 @@ class Gallery:
         return float(np.mean([difference(first, second)[0] for first, second in pairs]))
 
     def photographs(self, positions: Positions) -> list[Photograph]:
-        """Glossy in three lights, with normals of vertices that the areas of faces weigh, as most viewers make them."""
+        """Glossy in three lights; normals are sums of faces by area, up to edges that are sharp in the original."""
         placed, canvas = self._placed(positions), Canvas(SAMPLES * PHOTOGRAPH)
-        a, b, c = (placed[corner] for corner in self._faces.T)
-        crosses, normals = np.cross(b - a, c - a), np.zeros(placed.shape)
-        for axis in range(3):
-            ends = (np.bincount(corner, crosses[:, axis], len(placed)) for corner in self._faces.T)
-            normals[:, axis] = sum(ends)
-        corners = unit(normals)[self._faces].reshape(-1, 9).astype(np.float32)
+        areas, normals = areas_and_normals(placed, self._faces)
+        weighed = np.repeat(areas[:, None] * normals, 3, axis=0)
+        sums = [np.bincount(self._smooth.ravel(), values) for values in weighed.T]
+        corners = unit(np.column_stack(sums))[self._smooth].reshape(-1, 9).astype(np.float32)
         views = cameras(self._positions, SAMPLES * PHOTOGRAPH, VIEWS)
         return [photograph(*seen(canvas, placed, self._faces, corners, view)) for view in views]
 

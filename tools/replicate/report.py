@@ -66,10 +66,8 @@ def tables(results: dict[str, list[Row]]) -> dict[str, Table]:
             note = "One thread, processor seconds over Draco's (11 bits, level 10), the least of three by turns."
             found[f"times-{group}"] = Table(f"Times over Draco's, {words}", COLUMNS, time_summary(timed), note)
     if seen := results.get("outside", []):
-        title, note = (
-            "Bytes over Draco's at equal scores of photographs",
-            f"{PHOTOGRAPHED} Draco: level 10, 7 to 14 bits.",
-        )
+        title = "Bytes over Draco's at equal scores of photographs"
+        note = f"{PHOTOGRAPHED} Draco: level 10, 7 to 14 bits."
         found["outside"] = Table(title, COLUMNS, outside_table(seen), note)
         note = "Means of the three views; less is better. Draco: 11 bits, level 10."
         found["outside-spread"] = Table("Spread of scores of photographs", SPREAD, steadiness_table(seen), note)
