@@ -215,6 +215,7 @@ def room_of(name: str) -> str:
     return max((room for room in ROOMS if f"{name}.".startswith(f"{room}.")), key=len, default=name.split(".")[0])
 
 
+@cache
 def imports(source: str) -> set[str]:
     """Dotted names of all modules that a source imports, at the top and inside functions."""
     found: set[str] = set()

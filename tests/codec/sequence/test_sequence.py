@@ -93,8 +93,8 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
 
     for work in (encode_all, decode_all):
         work(8)
-        short, long = peak_of(lambda: work(24)), peak_of(lambda: work(72))  # noqa: B023  (called at once)
-        assert long < short + 16 * positions[0].nbytes, "a third of what the frames would take"
+        short, long = peak_of(lambda: work(16)), peak_of(lambda: work(40))  # noqa: B023  (called at once)
+        assert long < short + 8 * positions[0].nbytes, "a third of what the frames would take"
 
 
 @pytest.mark.parametrize("together", [1, 2])
