@@ -299,9 +299,11 @@ async function race(address, files, { bits, distance }) {
         }
     }
     console.log(`bunny over ${LINK / 1e6} Mbit/s, cold, at a look of ${distance.toFixed(2)} (Draco's ${bits} bits):`);
-    for (const [way, [glue, wasm, stream]] of Object.entries(sizes)) {
+    for (const [way, each] of Object.entries(sizes)) {
+        const stream = each.pop();
+        const decoder = each.reduce((sum, size) => sum + size);
         const [cold, fetched, warm] = ["cold", "fetched", "warm"].map((name) => runs[way].map((run) => run[name]).sort((a, b) => a - b));
-        console.log(`    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${glue + wasm} + ${stream} bytes`);
+        console.log(`    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${decoder} + ${stream} bytes`);
     }
 }
 
