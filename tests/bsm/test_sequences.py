@@ -256,6 +256,8 @@ def arrays(*items):
         (arrays(np.zeros((4, 3))), FormatError),
         (arrays(np.zeros((4, 3), int), np.zeros((5, 2))), FormatError),
         (arrays(np.zeros((4, 3), int), np.zeros((5, 3)))[:-1], TruncatedError),
+        (arrays(np.full((4, 3), 7), np.zeros((5, 3))), MeshError),
+        (arrays(np.zeros((4, 3), int)), MeshError),
         (arrays(np.zeros((4, 3), int))[:20], TruncatedError),
         (arrays(np.zeros((4, 3), int)) + b"something else", FormatError),
         (arrays(np.array([None, {}], object)), MeshError),

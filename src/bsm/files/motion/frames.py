@@ -39,19 +39,23 @@ class Frames:
     rigged: int = 0  # vertices of the mesh that plays them, whose number and order count, of a cache of points
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "frames", self._checked(self.frames))
+        object.__setattr__(self, "frames", self._checked(self.frames, int(self.faces.max(initial=0))))
 
     @staticmethod
-    def _checked(frames: Iterator[Positions]) -> Iterator[Positions]:
+    def _checked(frames: Iterator[Positions], last: int) -> Iterator[Positions]:
         vertices = 0
         for number, frame in enumerate(frames):
             vertices = vertices or len(frame)
+            if last >= vertices:
+                raise MeshError(f"frame {number} has {vertices} of the {last + 1} vertices that faces need")
             if len(frame) != vertices:
                 raise MeshError(f"frame {number} has {len(frame)} vertices, and the first one has {vertices}")
             if not (finite := np.isfinite(frame)).all():
                 row = int(np.argmin(finite.all(axis=1)))
                 raise MeshError(f"vertex {row} of frame {number} has a coordinate that is not finite; repair it")
             yield frame
+        if not vertices:
+            raise MeshError("a sequence needs at least one frame")
 
     def on_sorted_faces(self) -> Frames:
         """These frames where the order of faces costs nothing, and each vertex in no face has one without area."""
