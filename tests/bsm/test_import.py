@@ -1,13 +1,17 @@
-"""`import bsm`: the one supported name."""
+"""`import bsm`: the one supported name; and what to type for a library that is missing."""
 
 import ast
 import importlib
 import inspect
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 import bsm
+from bsm import DependencyError
+from bsm.bitstream.errors import how_to_install, imported
 from tests.bsm.program import ROOT, python
 
 
@@ -55,3 +59,18 @@ def test_type_checkers_see_the_same_names():
     seen = {alias.asname: node.module for node in imports for alias in node.names if alias.asname}
     assert seen == bsm._HOMES
     assert list(seen) == bsm.__all__[1:]
+
+
+def test_an_error_names_the_extra_and_no_path():
+    with pytest.raises(DependencyError, match=r"^x is missing; run: pip install 'bsm-codec\[eval\]'$"):
+        imported("no_such_module", "x is missing", "eval")
+
+
+@pytest.mark.slow
+def test_the_command_is_content_with_the_package_that_is_installed():
+    if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True, check=False).returncode:
+        pytest.skip("there is no pip here")
+    words = how_to_install("progress").replace("'", "").split()[1:]
+    command = [sys.executable, "-m", "pip", *words, "--no-index", "--dry-run"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "already satisfied: bsm-codec" in done.stdout, done.stdout + done.stderr
