@@ -40,7 +40,7 @@ LIMITS = {
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_005,
     "product lines over 120 columns": 216,
-    "all Python, lines": 71_961,
+    "all Python, lines": 71_949,
     "product modules": 201,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
