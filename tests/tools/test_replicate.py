@@ -125,7 +125,8 @@ class TestTables:
         moving["tools"] = dict.fromkeys(ablation.MOVING_TOOLS, 1.2)
         scored = {name: dict.fromkeys(outside.SCORES, 2.0**-k) for k, name in enumerate(("default", "Draco 11"))}
         scored |= {"Draco 12": dict.fromkeys(outside.SCORES, 3.0)}
-        results = {"outside": [{"mesh": "m", "points": {n: {"bytes": 9, **p} for n, p in scored.items()}}]}
+        points = [{n: {"bytes": 9, "look": look, **p} for n, p in scored.items()} for look in (0.5, 0.9)]
+        results = {"outside": [{"mesh": "m", "points": seen} for seen in points]}
         results |= {"rates": [row("a", 0.5), row("b", 0.7), row("c", 0.6, "tuned")], "times": [timed]}
         entry = {"noisy": 9.0, "rival": 4.0, "ours": 3.0, "estimate": [1.5, 2.0]}
         noisy = {"mesh": "m", "group": "unseen", "vertices": 500, "turned": 0.1, "untouched": False, "white": entry}
@@ -149,9 +150,9 @@ class TestTables:
         for stem in ("rates", "times", "ablation", "motion"):
             assert {f"{stem}.pdf", f"{stem}.png"} <= names
         assert "0.60 (0.55-0.65)" in (tmp_path / "rates-unseen.md").read_text()
-
-        spread = (tmp_path / "outside-spread.md").read_text()
-        assert "| default  |   100 - SSIMULACRA2 |      1 |   1.00 |   1.00 |               0.00 |   1.00 |" in spread
+        spread = (tmp_path / "outside-spread.md").read_text().replace(" ", "")
+        for what, meshes in (("default", 2), ("default,lookof0.85to1", 1)):
+            assert f"|{what}|100-SSIMULACRA2|{meshes}|1.00|1.00|0.00|1.00|" in spread
         assert "| 0.750 |" in (tmp_path / "denoising.md").read_text()
         assert "| estimates |     11 | 1.500 |" in (tmp_path / "denoising.md").read_text()
         assert "| 1.5 to 2.0 |" in (tmp_path / "denoising-pairs.md").read_text()

@@ -13,6 +13,7 @@ import numpy as np
 from bsm.bitstream.errors import BsmError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import look
 from tools.replicate.fetch import Source
 from tools.replicate.pictures import SAMPLES, Gallery, Photograph
 from tools.replicate.rates import DRACO_BITS, Row, codecs, ratios, spread
@@ -23,6 +24,8 @@ BESIDE, MARGIN, DEGREE = 11, 16, 33.5
 SEEN = (500, 25_000)
 """Meshes of which photographs are taken, by how many vertices they have: fetched ones."""
 PHOTOGRAPHED = "Three views of 1,080 pixels that our look does not use: three lights, gloss, creases of 30 degrees."
+NEAR = 0.85
+"""The least distance of a default that its look limits; other promises limit smaller ones."""
 SPREAD = ("what", "by", "meshes", "mean", "median", "standard deviation", "worst", "its mesh")
 
 
@@ -35,7 +38,9 @@ def measure_outside(source: Source) -> Row:
         waiting = ["default", f"Draco {BESIDE}"]
         while waiting:
             data, align = every[name := waiting.pop(0)].encode(mesh)
-            points[name] = {"bytes": len(data), **viewer.scores(align(every[name].decode(data)))}
+            positions = align(every[name].decode(data))
+            distance = look(mesh, TriangleMesh(positions, mesh.faces)).distance
+            points[name] = {"bytes": len(data), "look": distance, **viewer.scores(positions)}
             waiting = waiting or missing(points)
     except BsmError as error:
         return {**facts, "points": {}, "failed": {"all": str(error)}}
@@ -115,12 +120,17 @@ def outside_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
 def steadiness_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     """How much scores differ between meshes, in `SPREAD`."""
     found = []
-    for name in ("default", f"Draco {BESIDE}"):
+    for name, what, least in (
+        ("default", "default", 0.0),
+        ("default", f"default, look of {NEAR} to 1", NEAR),
+        (f"Draco {BESIDE}", f"Draco {BESIDE}", 0.0),
+    ):
+        points = [(row["points"][name], row["mesh"]) for row in rows if name in row["points"]]
         for score, label in SCORES.items():
-            pairs = [(row["points"][name][score], row["mesh"]) for row in rows if score in row["points"].get(name, {})]
+            pairs = [(point[score], mesh) for point, mesh in points if score in point and point["look"] >= least]
             if pairs:
                 values, digits = np.array([value for value, _ in pairs]), 4 if score == "FLIP" else 2
                 numbers = values.mean(), np.median(values), values.std(), values.max()
                 cells = (f"{number:.{digits}f}" for number in numbers)
-                found.append((name, label, str(len(pairs)), *cells, max(pairs)[1]))
+                found.append((what, label, str(len(pairs)), *cells, max(pairs)[1]))
     return found
