@@ -144,8 +144,7 @@ class Bounds:
         if self.metric is None:
             return self.even_step
         # From one step for all looks, so that a stricter one begins with a finer step.
-        measures = self.measures
-        step, positions = min(SEEN * measures.shaper.mean_edge, COARSEST), measures.prepared.positions
+        step, positions = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.positions
         for _ in range(2):
             wider = 1.0 / max(self._look(np.rint(positions / step) * step), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
