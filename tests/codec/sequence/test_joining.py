@@ -25,7 +25,7 @@ OWN = np.arange(FACES.size).reshape(-1, 3)
 
 def encoded(frames, faces, **options):
     chosen = SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, **options})
-    encoder = SequenceEncoder(faces, chosen, len(frames), attributes=options.pop("carried", ()))
+    encoder = SequenceEncoder(faces, chosen, len(frames))
     return encoder, b"".join(encoder.chunks(frames))
 
 
