@@ -14,8 +14,7 @@ CHOOSE(int64_t, iterate,
         Singles scratch, Singles2 subspace),
        (fronts, values, inverse, start, solutions, care, scratch, subspace))
 CHOOSE(int64_t, completion_space, (int64_t h), (h))
-CHOOSE(int64_t, complete_columns, (ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole),
-       (first, least_pivot, scratch, whole))
+CHOOSE(int64_t, complete_columns, (ConstSingles2 first, Singles scratch, Singles2 whole), (first, scratch, whole))
 CHOOSE_VOID(factorize_fronts,
     (ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
         Singles scratch, Singles values, Singles inverse),

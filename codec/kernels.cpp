@@ -79,8 +79,8 @@ NB_MODULE(_kernels, m) {
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "planes"_a, "sums"_a, Unlocked());
-    m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbors"_a, "leaf"_a, "most_work"_a, "scratch"_a,
-        "rows"_a, "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a, Unlocked());
+    m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbors"_a, "most_work"_a, "scratch"_a, "rows"_a,
+        "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a, Unlocked());
     m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbors"_a, "weights"_a, "diagonal"_a, "fronts"_a,
           "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
     m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "scratch"_a, "solution"_a,
@@ -91,8 +91,7 @@ NB_MODULE(_kernels, m) {
     m.def("iterate", checked<&iterate>, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "solutions"_a, "care"_a,
           "scratch"_a, "subspace"_a, Unlocked());
     m.def("completion_space", &completion_space, "h"_a);
-    m.def("complete_columns", checked<&complete_columns>, "first"_a, "least_pivot"_a, "scratch"_a,
-          "whole"_a, Unlocked());
+    m.def("complete_columns", checked<&complete_columns>, "first"_a, "scratch"_a, "whole"_a, Unlocked());
     m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
     m.def("show_frames", checked<&show_frames>, "field"_a, "first"_a, "weights"_a, "frames"_a, Unlocked());
@@ -111,8 +110,8 @@ NB_MODULE(_kernels, m) {
     m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
     m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbors"_a, "positions"_a, "weights"_a, "scratch"_a,
           "smoothed"_a, Unlocked());
-    m.def("cotangents", &cotangents, "offsets"_a, "neighbors"_a, "faces"_a, "positions"_a, "flatness"_a,
-          "smallness"_a, "weights"_a, Unlocked());
+    m.def("weigh_by_cotangents", &weigh_by_cotangents, "offsets"_a, "neighbors"_a, "faces"_a, "positions"_a,
+          "weights"_a, Unlocked());
     m.def("hold", &hold, "offsets"_a, "neighbors"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
           "own_neighbors"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
     m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());

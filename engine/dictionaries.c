@@ -2,11 +2,10 @@
 #include "codec/geometry/geometry.h"
 #include "engine/dictionaries.h"
 
-static const double LEAST_PIVOT = 0x1p-20, EXACT_SHIFT = 0x1p-5;
+static const double EXACT_SHIFT = 0x1p-5;
 /* The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */
 static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
 enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
-enum { NEEDS_CARE = 1, LOST = 2 };
 
 /* How a dictionary is iterated: z, t, and at most how many columns that gives (M 8.4, M 8.7). */
 typedef struct {
@@ -87,7 +86,7 @@ static bool iterate_and_complete(Context *context, const Patch *patch, const Fac
     if (!charge(context, completion_work((double)rows, (double)plan.most, (double)width), 0)) return false;
     Singles room;
     if (!take_singles(scratch, completion_space(first), &room)) return false;
-    return complete_columns(const_singles2(iterated), LEAST_PIVOT, room, *dictionary)
+    return complete_columns(const_singles2(iterated), room, *dictionary)
         || FAIL(context, NUMERIC, "the columns of a dictionary cannot be completed");
 }
 

@@ -4,23 +4,8 @@
 #include "codec/signal/signal.h"
 #include "engine/costs.h"
 
-static const double FLATNESS = 0x1p-12, SMALLNESS = 0x1p-48, SMALLEST_WEIGHT = 0x1p-5, LARGEST_WEIGHT = 8,
-                    BEND = 0x1p-6, TETHER = 0x1p-16;
-static const double SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4, SPARE_MEMORY = 4 * 0x1p20;
-
-/* S 3.1. */
-static bool weigh_edges(Context *context, const Graph *graph, ConstInts2 faces, ConstDoubles2 positions,
-    Doubles weights) {
-    bool finite = true;
-    cotangents(graph->offsets, graph->neighbors, faces, positions, FLATNESS, SMALLNESS, weights);
-    for (int64_t i = 0; i < weights.size; i++) {
-        double t = weights.data[i];
-        finite = finite && t - t == 0.0;
-        double p = 0.5 * (t + __builtin_sqrt(t * t + BEND));
-        weights.data[i] = SMALLEST_WEIGHT + LARGEST_WEIGHT * p / (LARGEST_WEIGHT + p);
-    }
-    return finite || FAIL(context, NUMERIC, "the first frame is too large for weights of its edges");
-}
+static const double TETHER = 0x1p-16, SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4,
+                    SPARE_MEMORY = 4 * 0x1p20;
 
 static void sift(int32_t *heap, int64_t root, int64_t count) {
     for (int64_t child; (child = 2 * root + 1) < count; root = child) {
@@ -133,7 +118,8 @@ bool find_parts(Parts *parts, ConstInts2 faces, ConstDoubles2 first_frame, Arena
         || !take_ints(scratch, graph->size, &place) || !TAKE_ZEROS(parts->arena, blocks->count, parts->part))
         return false;
     parts->count = blocks->count;
-    if (!weigh_edges(context, graph, faces, first_frame, weights)) return false;
+    if (!weigh_by_cotangents(graph->offsets, graph->neighbors, faces, first_frame, weights))
+        return FAIL(context, NUMERIC, "the first frame is too large for weights of its edges");
     for (int64_t v = 0; v < graph->size; v++) place.data[v] = -1;
     for (int64_t i = 0; i < blocks->count; i++) {
         ConstInts core = members_of(blocks, i, blocks->cores.data[i]);

@@ -5,7 +5,7 @@
 #include "codec/geometry/geometry.h"
 #include "engine/costs.h"
 
-enum { PASSES = 2, CHAIN_NUMBERS = 7, LEAF = 8, MOST_WORK = 1 << 16, FULL = -1, TOO_MUCH = -2 };
+enum { PASSES = 2, CHAIN_NUMBERS = 7, MOST_WORK = 1 << 16, FULL = -1, TOO_MUCH = -2 };
 
 bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph) {
     Mark mark = mark_of(scratch);
@@ -114,7 +114,7 @@ bool find_patch_fronts(Context *context, Arena *arena, Patch *patch) {
         return false;
     for (; count == FULL; room *= 4) {
         if (!take_words(arena, room, &borders)) return false;
-        count = find_fronts(patch->offsets, patch->neighbors, LEAF, (double)MOST_WORK * (double)n, scratch, rows, steps,
+        count = find_fronts(patch->offsets, patch->neighbors, (double)MOST_WORK * (double)n, scratch, rows, steps,
             owners, firsts, starts, borders, places, sums);
     }
     if (count == TOO_MUCH) return FAIL(context, LIMIT, "the faces of a block of # vertices are too entangled", n);

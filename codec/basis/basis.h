@@ -19,17 +19,18 @@ INLINE bool fits_factor(const Fronts *fronts, int64_t n, Singles values, ConstSi
         && values.size >= (int64_t)fronts->places.data[count] + 15;
 }
 
-int64_t find_fronts(ConstInts offsets, ConstInts neighbors, int64_t leaf, double most_work, Words scratch, Words rows,
-                    Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums);
+int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Words rows, Words steps,
+                    Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums);
 void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal,
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse);
 void ISA(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,
                           Doubles2 solution);
 int64_t ISA(iteration_space)(int64_t n, int64_t c);
+enum { DONE, NEEDS_CARE, LOST }; /* columns must be made orthonormal one by one; they cannot be */
 int64_t ISA(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
                        int64_t care, Singles scratch, Singles2 subspace);
 int64_t ISA(completion_space)(int64_t h);
-int64_t ISA(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole);
+int64_t ISA(complete_columns)(ConstSingles2 first, Singles scratch, Singles2 whole);
 void ISA(cosines)(Doubles table, Doubles2 columns);
 void ISA(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns);
 bool ISA(are_vectors_exact)(void);
@@ -42,8 +43,8 @@ INLINE double hash_at(int64_t row, int64_t column) {
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
 }
 
-void cotangents(ConstInts offsets, ConstInts neighbors, ConstInts2 faces, ConstDoubles2 positions, double flatness,
-                double smallness, Doubles weights);
+bool weigh_by_cotangents(ConstInts offsets, ConstInts neighbors, ConstInts2 faces, ConstDoubles2 positions,
+                         Doubles weights);
 int64_t hold(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstInts rank, ConstInts vertices,
              ConstInts own_offsets, ConstInts own_neighbors, Doubles inner, Doubles springs, Ints starts, Ints outer,
              Doubles stiffness);

@@ -94,15 +94,17 @@ static void solve_panel(Completion own) {
     }
 }
 
-/* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no pivot below
- * `least_pivot`. */
-int64_t ISA(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole) {
+/* From this pivot on, columns are completed with the accuracy that is asked for. */
+static const double LEAST_PIVOT = 0x1p-20;
+
+/* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no smaller pivot. */
+int64_t ISA(complete_columns)(ConstSingles2 first, Singles scratch, Singles2 whole) {
     int64_t h = first.columns, n = first.rows, c = whole.columns;
     if (whole.rows != n || c < h || c > n || scratch.size < ISA(completion_space)(h)) return MISUSED;
     Completion own = completion_of(h, aligned(scratch.data));
     for (int64_t r = 0; r < n; r++)
         for (int64_t b = 0; b < h; b++) whole.data[r * c + b] = first.data[r * h + b];
-    if (!(factorize_sum(first, own) >= least_pivot)) return false;
+    if (!(factorize_sum(first, own) >= LEAST_PIVOT)) return false;
     for (int64_t begin = h; begin < c; begin += LANES) {
         int64_t count = least(LANES, c - begin);
         for (int64_t k = 0; k < own.size; k++)

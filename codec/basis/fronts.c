@@ -6,17 +6,18 @@
 #include "codec/geometry/geometry.h"
 
 #define NONE UINT32_MAX
+enum { LEAF = 8 }; /* halves of at most this many rows are not cut further */
 
 /* Elimination order of a graph whose rows are in bisection order: `rows` and, at the end of `firsts`, the first step of
  * each front. Returns the number of fronts; `cuts`, one entry a row, is scratch, `firsts` has room for one more. */
-static int64_t dissect(ConstInts offsets, ConstInts neighbors, int64_t leaf, Ints cuts, Words rows, Words firsts) {
+static int64_t dissect(ConstInts offsets, ConstInts neighbors, Ints cuts, Words rows, Words firsts) {
     int64_t n = offsets.size - 1;
     /* The widest cut between a row and its farthest later neighbor has the row in its separator. */
     for (int64_t r = 0; r < n; r++) {
         int64_t top = r, first = 0, last = n;
         for (int64_t i = offsets.data[r]; i < offsets.data[r + 1]; i++) top = largest(top, neighbors.data[i]);
         cuts.data[r] = 0;
-        while (top > r && last - first > leaf) {
+        while (top > r && last - first > LEAF) {
             int64_t middle = (first + last) / 2;
             if (r < middle && middle <= top) {
                 cuts.data[r] = (int32_t)middle;
@@ -35,7 +36,7 @@ static int64_t dissect(ConstInts offsets, ConstInts neighbors, int64_t leaf, Int
     firsts.data[count] = (uint32_t)n;
     while (depth > 0) {
         int64_t first = stack[--depth][0], last = stack[depth][1], cut = 0;
-        if (last - first > leaf) {
+        if (last - first > LEAF) {
             cut = (first + last) / 2;
             stack[depth][0] = first;
             stack[depth++][1] = cut;
@@ -142,13 +143,13 @@ static int64_t find_borders(ConstInts offsets, ConstInts neighbors, ConstWords r
 /* All that `Fronts` holds, of a graph of n rows in bisection order: `dissect`, `find_borders`, and of each front the
  * own steps times the width, once and twice, summed. Returns how many fronts there are, or what `find_borders` does
  * where that is below zero. `firsts`, `starts` and `places` have room for n + 1, `scratch` for 3 n. */
-int64_t find_fronts(ConstInts offsets, ConstInts neighbors, int64_t leaf, double most_work, Words scratch, Words rows,
-                    Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
+int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Words rows, Words steps,
+                    Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
     int64_t n = offsets.size - 1;
     if (!fits_graph(offsets, neighbors) || scratch.size < 3 * n || rows.size != n || steps.size != n
         || owners.size != n || firsts.size != n + 1 || starts.size != n + 1 || places.size != n + 1 || sums.size != 2)
         return MISUSED;
-    int64_t count = dissect(offsets, neighbors, leaf, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
+    int64_t count = dissect(offsets, neighbors, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
     for (int64_t t = 0; t <= count; t++) firsts.data[t] = firsts.data[n - count + t];
     int64_t size = find_borders(offsets, neighbors, (ConstWords){rows.data, n}, (ConstWords){firsts.data, count + 1},
                                 most_work, scratch, steps, owners, starts, borders, places);

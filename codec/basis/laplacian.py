@@ -28,8 +28,6 @@ from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph
 
-LEAF = 8  # halves of at most this many rows are not cut further
-
 WORK = 1 << 16
 """Operations of a factorisation, per row, that are too many; surfaces in blocks of 8,000 take an eighth of them."""
 
@@ -60,7 +58,7 @@ def find_fronts(offsets: npt.NDArray[np.int32], neighbors: npt.NDArray[np.int32]
     while count == _FULL:
         borders = np.empty(room, np.uint32)
         made = scratch, rows, steps, owners, firsts, starts, borders, places, sums
-        count = _kernels.find_fronts(offsets, neighbors, LEAF, float(WORK * n), *made)
+        count = _kernels.find_fronts(offsets, neighbors, float(WORK * n), *made)
         room *= 4
     if count == _TOO_MUCH:
         raise LimitError(
@@ -169,23 +167,14 @@ def _whole(columns: int) -> int:
     return -(-columns // 16) * 16
 
 
-FLATNESS = 2.0**-12  # share of the squared sum of squared sides that is added to a triangle's squared doubled area
-SMALLNESS = 2.0**-48  # what else is added to it: the square of the area that counts as none, in BSM units
-SMALLEST_WEIGHT, LARGEST_WEIGHT = 2.0**-5, 8.0  # soft bounds of a weight: it is above the first, and below their sum
-BEND = 2.0**-6  # how softly negative sums of cotangents become zero
-
-
 def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matrix:
     """Weight of every entry of `graph.neighbors`: half the cotangents opposite to the edge, softly bounded."""
     if positions.shape != (graph.size, 3):
         raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
-    sums = np.zeros(len(graph.neighbors))
-    positions = np.ascontiguousarray(positions)
-    _kernels.cotangents(graph.offsets, graph.neighbors, faces, positions, FLATNESS, SMALLNESS, sums)
-    if not np.isfinite(sums).all():
+    weights, positions = np.zeros(len(graph.neighbors)), np.ascontiguousarray(positions)
+    if not _kernels.weigh_by_cotangents(graph.offsets, graph.neighbors, faces, positions, weights):
         raise NumericError("the first frame is too large for weights of its edges")
-    positive = 0.5 * (sums + np.sqrt(sums * sums + BEND))
-    return SMALLEST_WEIGHT + LARGEST_WEIGHT * positive / (LARGEST_WEIGHT + positive)
+    return weights
 
 
 @dataclass(frozen=True, eq=False)

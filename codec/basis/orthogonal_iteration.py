@@ -23,8 +23,6 @@ _DONE, _NEEDS_CARE = 0, 1
 FIRST_CARE = 16
 """Columns that may be made orthonormal one by one where some have to be; then four times as many, and so on."""
 
-LEAST_PIVOT = 2.0**-20  # from which columns are completed with the accuracy that is asked for
-
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 """Settings of an exact basis: the sum of the Rayleigh quotients of any first columns is within a thousandth of the sum
 of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues need not be told apart."""
@@ -67,7 +65,7 @@ def completed(first: Basis, width: int) -> Basis:
         return first
     whole = np.empty((len(first), width), np.float32)
     scratch = np.empty(_kernels.completion_space(first.shape[1]), np.float32)
-    if not _kernels.complete_columns(np.ascontiguousarray(first), LEAST_PIVOT, scratch, whole):
+    if not _kernels.complete_columns(np.ascontiguousarray(first), scratch, whole):
         raise NumericError("the columns of a dictionary cannot be completed")
     return whole
 

@@ -264,7 +264,6 @@ static bool clean_column(Panels *panels, int64_t n, int64_t j, const uint32_t *o
 }
 
 /* What `iterate` returns: U is there; more columns have to be made orthonormal one by one; they cannot be. */
-enum { DONE, NEEDS_CARE, LOST };
 
 /* Overwrites X, of n rows in some order and c columns, by Onorm(X); takes those that are made orthonormal one by one
  * from `care`. */

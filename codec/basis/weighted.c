@@ -14,33 +14,44 @@ static int64_t lower_bound(const int32_t *list, int64_t low, int64_t high, int32
     return low;
 }
 
-/* A cotangent is the product of two sides over the doubled area. To its square is added `flatness` times the square of
- * the sum of the squared sides, and `smallness`: so that neither a triangle without area nor one without size makes
- * rounding errors large. */
-INLINE double soft_cotangent(const double *p, const double *q, const double *s, double flatness, double smallness) {
+/* A cotangent is the product of two sides over the doubled area. To its square is added FLATNESS times the square of
+ * the sum of the squared sides, and SMALLNESS, in BSM units: so that neither a triangle without area nor one without
+ * size makes rounding errors large. A weight is above the smallest, and below the sum of both bounds; BEND says how
+ * softly negative sums of cotangents become zero. */
+static const double FLATNESS = 0x1p-12, SMALLNESS = 0x1p-48;
+static const double SMALLEST_WEIGHT = 0x1p-5, LARGEST_WEIGHT = 8, BEND = 0x1p-6;
+
+INLINE double soft_cotangent(const double *p, const double *q, const double *s) {
     double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
     double vx = s[0] - p[0], vy = s[1] - p[1], vz = s[2] - p[2];
     double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
     double product = ux * vx + uy * vy + uz * vz;
     double sides = 2.0 * (ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz - product);
-    return product / __builtin_sqrt(x * x + y * y + z * z + flatness * sides * sides + smallness);
+    return product / __builtin_sqrt(x * x + y * y + z * z + FLATNESS * sides * sides + SMALLNESS);
 }
 
-/* Half the sum of the soft cotangents opposite to each edge, added to `weights`, one for every entry of `neighbors`;
- * the graph has every edge of `faces`. */
-void cotangents(ConstInts offsets, ConstInts neighbors, ConstInts2 faces, ConstDoubles2 positions, double flatness,
-                double smallness, Doubles weights) {
+/* Half the sum of the soft cotangents opposite to each edge, softly bounded: `weights`, zeros at first, one for every
+ * entry of `neighbors`; the graph has every edge of `faces`. Returns whether all sums are finite. */
+bool weigh_by_cotangents(ConstInts offsets, ConstInts neighbors, ConstInts2 faces, ConstDoubles2 positions,
+                         Doubles weights) {
+    bool finite = true;
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         for (int corner = 0; corner < 3; corner++) {
             int32_t a = face[corner], b = face[(corner + 1) % 3], c = face[(corner + 2) % 3];
             if (a == b || a == c || b == c) continue;
             double half = 0.5 * soft_cotangent(positions.data + 3 * (int64_t)a, positions.data + 3 * (int64_t)b,
-                                               positions.data + 3 * (int64_t)c, flatness, smallness);
+                                               positions.data + 3 * (int64_t)c);
             weights.data[lower_bound(neighbors.data, offsets.data[b], offsets.data[b + 1] - 1, c)] += half;
             weights.data[lower_bound(neighbors.data, offsets.data[c], offsets.data[c + 1] - 1, b)] += half;
         }
     }
+    for (int64_t i = 0; i < weights.size; i++) {
+        double t = weights.data[i], p = 0.5 * (t + __builtin_sqrt(t * t + BEND));
+        finite = finite && t - t == 0.0;
+        weights.data[i] = SMALLEST_WEIGHT + LARGEST_WEIGHT * p / (LARGEST_WEIGHT + p);
+    }
+    return finite;
 }
 
 /* The weights of a part's edges, `inner`, one for every entry of its own graph, and the springs on which it hangs: its
