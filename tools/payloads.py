@@ -11,8 +11,7 @@ from bsm._engine import Decoder
 from bsm.bitstream import _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel
 from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of, write_levels
-from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
-from bsm.bitstream.container.writer import Writer
+from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, Writer
 from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder, finish_writing, start_writing
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits

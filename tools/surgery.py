@@ -20,7 +20,7 @@ from bsm.bitstream.container.header import (
     Paper,
     fields_of,
 )
-from bsm.bitstream.container.packets import WRITERS, Attribute, End, Metadata, Packet
+from bsm.bitstream.container.packets import WRITERS, Attribute, End, Metadata, Packet, Writer
 from bsm.bitstream.container.wire import (
     MAGIC,
     MAX_VARINT_BYTES,
@@ -34,7 +34,6 @@ from bsm.bitstream.container.wire import (
     write_map,
     write_varint,
 )
-from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import CorruptError, OptionError
 
 Frames = list[tuple[int, bytes]]

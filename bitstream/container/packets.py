@@ -1,6 +1,7 @@
-"""The packets of a stream, with writer and parser of each payload side by side."""
+"""The packets of a stream, and how they become bytes."""
 
 import math
+import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -10,8 +11,9 @@ import numpy as np
 from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
 from bsm.bitstream.container.header import entries_of
-from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, write_map, write_varint
+from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.bitstream.errors import OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 
 MetadataValue: TypeAlias = str | int | float | bytes
 
@@ -180,3 +182,30 @@ WRITERS: dict[type[Any], tuple[FrameType, Callable[[Any], bytes]]] = {
     End: (FrameType.END, write_end),
 }
 """The type of the frame of each packet, and the function that writes its payload."""
+
+
+class Writer:
+    """Turns packets into the bytes of a stream; encoders decode the result before they return it."""
+
+    def __init__(self) -> None:
+        self._frames = self._crc = 0
+
+    def start(self) -> bytes:
+        """Return the preamble, which comes first."""
+        preamble = write_preamble()
+        self._crc = zlib.crc32(preamble)
+        return preamble
+
+    def write(self, packet: Packet) -> bytes:
+        """Return the frame of one packet."""
+        frame_type, write = WRITERS[type(packet)]
+        payload = write(packet)
+        DEFAULT_LIMITS.check("frame_bytes", len(payload))
+        frame = write_frame(frame_type, payload)
+        self._frames += 1
+        self._crc = zlib.crc32(frame, self._crc)
+        return frame
+
+    def end(self, positions: int | None = None) -> bytes:
+        """Return the END frame, with the checksum of decoded positions if it is known."""
+        return self.write(End(self._frames, self._crc, positions))

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import write_gop_body
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.container.writer import Writer
+from bsm.bitstream.container.packets import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError, public
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import checked_metadata

@@ -10,7 +10,7 @@ import pytest
 import bsm
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.container.writer import Writer
+from bsm.bitstream.container.packets import Writer
 from tests.shapes import curved, torus
 
 MESH = curved(torus(24, 20))
