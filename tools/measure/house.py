@@ -35,15 +35,15 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 59_948,
-    "product Python, lines": 32_367,
+    "product in all languages, lines": 59_942,
+    "product Python, lines": 32_361,
     "product C and C++, lines": 20_668,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_005,
     "product lines over 120 columns": 216,
-    "all Python, lines": 71_910,
+    "all Python, lines": 71_901,
     "product stubs, pages and build lists, lines": 374,
-    "product modules": 201,
+    "product modules": 200,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "numbers of a header": 36,
@@ -52,7 +52,7 @@ LIMITS = {
     "words of prose in spec/*.md": 22_674,
     "words of prose in the core": 10_215,
     "tuned constants of the search": 44,
-    "files that encoding a mesh walks through": 57,
+    "files that encoding a mesh walks through": 56,
 }
 
 
