@@ -39,10 +39,8 @@ def mesh_of(field: Field, cells: int, size: float = 1.0) -> tuple[Positions, Fac
     corners = np.stack(np.meshgrid(ticks, ticks, ticks, indexing="ij"), axis=-1)
     values = field(corners)
     # The cube's own sides are outside: what reaches them is cut off flat.
-    for axis in range(3):
-        values = np.moveaxis(values, axis, 0)
-        values[[0, -1]] = np.maximum(values[[0, -1]], 0.5 * step)
-        values = np.moveaxis(values, 0, axis)
+    sides = np.pad(np.zeros((cells - 1,) * 3, np.bool_), 1, constant_values=True)
+    values[sides] = np.maximum(values[sides], 0.5 * step)
     inside = values < 0.0
     count = (cells,) * 3
     places, owners, quads = [], [], []
@@ -50,7 +48,6 @@ def mesh_of(field: Field, cells: int, size: float = 1.0) -> tuple[Positions, Fac
         low = np.take(inside, np.arange(cells), axis)
         high = np.take(inside, np.arange(1, cells + 1), axis)
         at = np.argwhere(low != high)
-        at = at[((at > 0) & (at < cells)).all(axis=1) | (at[:, axis] >= 0)]
         others = [other for other in range(3) if other != axis]
         at = at[(at[:, others] > 0).all(axis=1) & (at[:, others] < cells).all(axis=1)]
         end = at.copy()
@@ -150,11 +147,7 @@ def made_shape(seed: int, cells: int) -> tuple[Positions, Faces]:
     """One shape of many kinds, the same for the same seed; its faces look outwards."""
     random = np.random.default_rng(seed)
     makers = (_machined, _machined, _polyhedron, _sweep, _organic, _organic)
-    field = _turned(makers[seed % len(makers)](random), random)
-    positions, faces = mesh_of(field, cells)
-    corners = positions[faces]
-    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum()
-    return positions, faces if volume > 0.0 else np.ascontiguousarray(faces[:, ::-1])
+    return mesh_of(_turned(makers[seed % len(makers)](random), random), cells)
 
 
 Random = np.random.Generator

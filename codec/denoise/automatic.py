@@ -177,7 +177,7 @@ def choose(
     members, part = sample(full.faces, finding.levels)
     if len(members) < full.n:
         positions, patient = positions[members], Patient(part, len(members))
-    patient.view, patient.bound = finding.view, finding.bound
+    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
     candidates = SEEN if finding.view is not None else GROUPS.get(finding.kind, CANDIDATES)
     share = LEARNT if candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white") else 0.0
     if finding.view is None:
@@ -242,7 +242,7 @@ def treat(
     return the choice as it was carried out, with the angles to expect if vertices move only a part of the way."""
     if not choice.steps:
         return noisy, choice
-    patient.view, patient.bound = finding.view, finding.bound
+    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels > 0.0
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
 

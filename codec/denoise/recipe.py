@@ -19,7 +19,7 @@ from bsm.codec.denoise.noise.causes import Bound, Grid
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, own_normals, patch_guidance
-from bsm.codec.denoise.surface import Topology, face_geometry, surface_normals
+from bsm.codec.denoise.surface import Mask, Topology, face_geometry, surface_normals
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
@@ -140,7 +140,7 @@ class Treatments:
 
     @cached_property
     def learnt(self) -> Learnt:
-        return learnt(self.noisy, self._topology)
+        return learnt(self.noisy, self._topology, self._patient.noisy)
 
     def mean(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
         """Return the mean result of the steps, shape (n, 3), with `share` of the learnt normals; thread-safe."""
@@ -162,6 +162,7 @@ class Patient:
         self.probe = Probe(self.topology)
         self.view: View | None = None
         self.bound: Bound | None = None
+        self.noisy: Mask | None = None
         self._last: tuple[Positions, Treatments] | None = None
         self._coarse: CoarseFilter | None = None
         self._keep = 0.0

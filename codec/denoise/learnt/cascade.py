@@ -1,15 +1,15 @@
 """Denoising by learnt networks, one after the other: each sees the mesh that the one before it left."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from bsm.codec.arrays import Positions
-from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
+from bsm.codec.arrays import Mask, Positions
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions
 from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals, surroundings, vertex_normals
-from bsm.codec.geometry.graph import Rows
 
 FARTHEST = np.float32(6.0)  # bound of standardised numbers
 MOST_NEGATIVE = np.float32(80.0)
@@ -23,23 +23,15 @@ class Network:
     scale: Singles
     layers: tuple[tuple[Singles, Singles], ...]
 
-    def standardised(self, numbers: Singles) -> Singles:
-        """Numbers, shape (k, NUMBERS), brought to mean 0 and deviation 1, within bounds."""
-        return np.asarray(np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST))
-
     def __call__(self, numbers: Singles) -> Singles:
         values = np.zeros((-(-len(numbers) // TOGETHER), TOGETHER, NUMBERS), np.float32)
-        values.reshape(-1, NUMBERS)[: len(numbers)] = self.standardised(numbers)
+        values.reshape(-1, NUMBERS)[: len(numbers)] = np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST)
         for matrix, shift in self.layers[:-1]:
             values = values @ matrix + shift
-            values = np.asarray(values * sigmoid(values))
+            values /= np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))
         matrix, shift = self.layers[-1]
         normals = numbers[:, BASE] + (values @ matrix + shift).reshape(-1, 3)[: len(numbers)]
         return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.float32(1e-6)))
-
-
-def sigmoid(values: Singles) -> Singles:
-    return np.asarray(np.float32(1.0) / (np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))))
 
 
 @cache
@@ -62,17 +54,9 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
 VERTEX_ITERATIONS = 15
 
 
-def regressed_normals(positions: Positions, topology: Topology, near: Rows, network: Network) -> Floats:
+def regressed_normals(described: Iterable[tuple[Singles, Floats]], network: Network) -> Floats:
     """Normals by one network, shape (m, 3), whichever way the mesh is turned."""
-    found = []
-    order, signs = mirrored(True, True)
-    for numbers, frames in descriptions(positions, topology, near):
-        # Nothing tells the two ends of an axis apart but the normal that the network starts from.
-        back = numbers[:, BASE.start] < 0.0
-        numbers[back] = numbers[back][:, order] * signs
-        local = network(numbers)
-        local[back] *= signs[:3]
-        found.append(np.einsum("kij,ki->kj", frames, local))
+    found = [np.einsum("kij,ki->kj", frames, network(numbers)) for numbers, frames in described]
     normals = np.concatenate(found) if found else np.zeros((0, 3))
     return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
 
@@ -83,11 +67,11 @@ class Learnt:
     normals: Floats
 
 
-def learnt(positions: Positions, topology: Topology) -> Learnt:
-    """Denoise `positions`, shape (n, 3), by all networks in turn."""
+def learnt(positions: Positions, topology: Topology, noisy: Mask | None = None) -> Learnt:
+    """Denoise `positions`, shape (n, 3), by all networks in turn, as the `noisy` ones, shape (n,), call for."""
     normals, near = np.zeros((len(topology.faces), 3)), surroundings(positions, topology, RADIUS)
     for network in read_networks():
-        normals = regressed_normals(positions, topology, near, network)
+        normals = regressed_normals(descriptions(positions, topology, near, noisy), network)
         positions = follow_normals(positions, topology, normals, VERTEX_ITERATIONS)
     return Learnt(positions, normals)
 

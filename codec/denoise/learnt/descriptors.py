@@ -8,7 +8,7 @@ import numpy.typing as npt
 from bsm.codec import _kernels
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.normals import filter_normals, patch_guidance
-from bsm.codec.denoise.surface import FaceGeometry, Floats, Topology, face_geometry, mean_centroid_distance
+from bsm.codec.denoise.surface import FaceGeometry, Floats, Mask, Topology, face_geometry, mean_centroid_distance
 from bsm.codec.geometry.graph import Rows
 
 Singles = npt.NDArray[np.float32]
@@ -19,12 +19,15 @@ FILTERED = SCALES * (2 * RANGES + 1)
 OWN = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + SCALES * (2 * RANGES + 1) + 1  # numbers that the kernel gives
 REPEATED = ((0.3, 3), (0.3, 10), (0.5, 3), (0.5, 10))  # sigma_r and iterations of the repeated filters
 NUMBERS = OWN + 3 * len(REPEATED) + 1
-"""The last one is the same for the whole mesh: how much its normals differ from the smoothed ones."""
+"""The last one is the same for the whole mesh: how much normals of noisy faces differ from the smoothed ones."""
 BASE = slice(45, 48)  # the filtered normal to which a network adds: guided by patches, both kernels wide
 BATCH = 1024  # faces whose numbers pass the layers together: the output of a layer for a batch stays in the cache
 
 
-def descriptions(positions: Positions, topology: Topology, near: Rows) -> Iterator[tuple[Singles, Floats]]:
+def descriptions(
+    positions: Positions, topology: Topology, near: Rows, noisy: Mask | None = None
+) -> Iterator[tuple[Singles, Floats]]:
+    """Numbers of the faces, and their frames, in batches; `noisy` vertices, shape (n,), are all if not given."""
     if len(topology.faces) == 0:
         return
     geometry = face_geometry(positions, topology.faces)
@@ -32,7 +35,9 @@ def descriptions(positions: Positions, topology: Topology, near: Rows) -> Iterat
     guide = patch_guidance(geometry, topology)
     smooth, axes = (filter_normals(geometry, geometry.normals, near, scale * distance, np.inf) for scale in (1.0, 2.0))
     repeated = list(_repeated(geometry, topology.patches, distance))
-    rough = float(np.linalg.norm(geometry.normals - smooth, axis=1).mean())
+    counted = np.ones(len(smooth), bool) if noisy is None else noisy[topology.faces].any(axis=1)
+    rough = np.linalg.norm(geometry.normals - smooth, axis=1)[counted].sum() / max(np.count_nonzero(counted), 1)
+    order, signs = mirrored(True, True)
     for begin in range(0, len(geometry.areas), BATCH):
         count = min(BATCH, len(geometry.areas) - begin)
         described, frames = np.empty((count, OWN)), np.empty((count, 9))
@@ -41,8 +46,12 @@ def descriptions(positions: Positions, topology: Topology, near: Rows) -> Iterat
         )
         axis = frames.reshape(count, 3, 3)
         local = [np.einsum("kij,kj->ki", axis, normals[begin : begin + count]) for normals in repeated]
-        row = np.concatenate([described, *local, np.full((count, 1), rough)], axis=1)
-        yield row.astype(np.float32), axis
+        row = np.concatenate([described, *local, np.full((count, 1), rough)], axis=1).astype(np.float32)
+        # Nothing tells the two ends of an axis apart but the normal that the network starts from.
+        back = row[:, BASE.start] < 0.0
+        row[back] = row[back][:, order] * signs
+        axis[back] *= signs[:3, None]
+        yield row, axis
 
 
 def _repeated(geometry: FaceGeometry, near: Rows, distance: float) -> Iterator[Floats]:

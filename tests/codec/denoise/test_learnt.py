@@ -90,19 +90,28 @@ def test_weights_are_small_and_written_as_they_are_read(tmp_path: Path) -> None:
 
 
 def test_weights_for_other_numbers_are_refused(tmp_path: Path) -> None:
-    short = zeros(5)
-    write_networks(tmp_path / "short.npz", [short])
+    write_networks(tmp_path / "short.npz", [zeros(5)])
     with pytest.raises(ValueError, match="train"):
         read_networks(tmp_path / "short.npz")
 
 
 def test_a_network_of_zeros_says_the_filtered_normal() -> None:
     _, noisy, faces = noisy_sphere(8)
-    topology = Topology(faces, len(noisy))
-    numbers, frames = described(noisy, topology)
+    numbers, frames = described(noisy, Topology(faces, len(noisy)))
     filtered = np.einsum("kij,ki->kj", frames, numbers[:, BASE])
-    near = surroundings(noisy, topology, RADIUS)
-    assert regressed_normals(noisy, topology, near, zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
+    assert regressed_normals([(numbers, frames)], zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
+
+
+def test_how_rough_a_mesh_is_counts_where_it_is_noisy() -> None:
+    clean, noisy, faces = noisy_sphere()
+    topology, near = Topology(faces, len(clean)), surroundings(noisy, Topology(faces, len(clean)), RADIUS)
+    upper = clean[:, 2] > 0.0
+    half = np.where(upper[:, None], noisy, clean)
+    all_over, everywhere, there = (
+        next(descriptions(positions, topology, near, where))[0][0, -1]
+        for positions, where in ((noisy, None), (half, None), (half, upper))
+    )
+    assert everywhere < 0.7 * all_over and there == pytest.approx(all_over, rel=0.1)
 
 
 @pytest.mark.parametrize("kept", [True, False])
