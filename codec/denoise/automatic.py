@@ -255,7 +255,7 @@ def treat(
     if choice.learnt and verdict.movement > (plain := judged(0.0))[1].movement + LEARNT_MORE:
         # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
         (full, verdict), choice = plain, replace(choice, learnt=0.0)
-    if not verdict.holds:
+    if verdict.reason:
         return noisy, replace(choice, steps=(), reason=verdict.reason)
     share = restraint(verdict.movement, finding)
     result = full if share == 1.0 else noisy + share * (full - noisy)

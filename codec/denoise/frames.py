@@ -169,7 +169,7 @@ class FrameDenoiser:
             if self._force:
                 return given, result
             verdict = judge(noisy, result, find_noise(noisy, self._patient.probe), self._patient.probe)
-            if not verdict.holds:
+            if verdict.reason:
                 raise HarmError(f"{verdict.reason}; nothing is written unless it is forced", frame=number)
             return given, keep_good(noisy, result, verdict.good)
 

@@ -31,12 +31,7 @@ FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 class Verdict:
     good: Mask
     movement: float
-    reason: str
-
-    @property
-    def holds(self) -> bool:
-        """Whether the result as a whole may stand."""
-        return not self.reason
+    reason: str  # why the result as a whole may not stand; empty if it may
 
 
 def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> Verdict:

@@ -34,6 +34,7 @@ RULES = {
 """Of each kind, the weights of `measures` and a constant: noise is believed if the sum is positive. `tools.train_noise`
 fits them, and names the meshes that it holds out."""
 FAINTEST = 0.03  # level in mean edges, or widths of pixels, below which nothing is suspected
+FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # whitenesses below the second mean noise far stronger than its fine level
 FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # fewest windows for an estimate, and fewest wholly inside a noisy part
 WHITE = 0.82  # whiteness below which noise is correlated
 LOCAL_STEP, LOCAL_SHARE, NEARBY = 1.5, 0.1, 4
@@ -202,7 +203,8 @@ def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
 def _suspect(rule: str, evidence: Evidence, finding: Finding, windows: Mask | None = None) -> Suspect | None:
     """Return the suspect if values lie on both sides of the surface in these windows."""
     chosen = evidence.probe.windows.valid if windows is None else windows
-    random = evidence.level(chosen) > FAINTEST and is_random(evidence.residuals(chosen))
+    faintest = FAINTEST_SHARED if evidence.whiteness(chosen) < MUCH_SHARED else FAINTEST
+    random = evidence.level(chosen) > faintest and is_random(evidence.residuals(chosen))
     return Suspect(finding, rule, evidence.measures(chosen)) if random else None
 
 

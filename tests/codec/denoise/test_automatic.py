@@ -49,8 +49,9 @@ def test_the_angle_that_it_expects_is_the_one_that_comes(shape) -> None:  # type
         assert choice.expected / 1.3 < came < 1.3 * choice.at_most
 
 
-def test_noise_that_neighbors_share_leaves_every_flat_face() -> None:
-    clean, faces = cube(30)
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_noise_that_neighbors_share_leaves_every_part(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(30)
     noisy = correlated_along_normals(clean, faces, 0.2, 3, rounds=4)
     denoised = denoise_automatically(noisy, faces)[0]
     assert theta(clean, denoised, faces) < 0.25 * theta(clean, noisy, faces)

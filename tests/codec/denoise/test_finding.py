@@ -137,19 +137,19 @@ def test_noise_may_go_and_shape_may_not() -> None:
     probe = probe_of(clean, faces)
     finding = find_noise(noisy, probe)
     good = judge(noisy, clean, finding, probe)
-    assert good.holds and good.good.all()
+    assert not good.reason and good.good.all()
     assert good.movement == pytest.approx(1.0, abs=0.15)
     edge = mean_edge_length(clean, faces)
     shrunk = clean * (1.0 - edge)
-    assert not judge(noisy, shrunk, finding, probe).holds
+    assert judge(noisy, shrunk, finding, probe).reason
     dented = clean.copy()
     dented[clean[:, 2] > 0.8] *= 1.0 - edge
     verdict = judge(noisy, dented, finding, probe)
-    assert verdict.holds and not verdict.good.all()
+    assert not verdict.reason and not verdict.good.all()
     assert (keep_good(noisy, dented, verdict.good)[~verdict.good] == noisy[~verdict.good]).all()
     nothing = find_noise(clean, probe)
-    assert judge(clean, clean, nothing, probe).holds
-    assert not judge(clean, noisy, nothing, probe).holds
+    assert not judge(clean, clean, nothing, probe).reason
+    assert judge(clean, noisy, nothing, probe).reason
 
 
 @pytest.mark.parametrize("shape", [cube, sphere])
