@@ -19,6 +19,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import distances_to_surface
+from bsm.codec.geometry.welding import degenerate
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.static.choice.attributes import Input
 from bsm.codec.static.choice.bounds import reaches
@@ -51,7 +52,7 @@ def encode_simplified(mesh: TriangleMesh, options: EncodeOptions, progress: Prog
     with progress.part("encoding all triangles", 0.3):
         encoder = Encoder(mesh, options)
         best = Simplified(encoder, encoder.result(progress), len(source.whole.faces))
-    for times in TIMES:
+    for times in TIMES if not degenerate(source.whole.faces).all() else ():
         with progress.part(f"encoding 1 of {times} triangles", 0.5):
             found = source.encoded(len(source.whole.faces) // times, progress)
         if found is None or found.attempt.size >= best.attempt.size:

@@ -145,6 +145,12 @@ def test_sequences_and_permutations_are_refused(tmp_path):
         bsm.encode_sequence(np.array([torus().positions] * 2), torus().faces, simplify=True)
 
 
+def test_a_mesh_whose_vertices_are_at_one_place_keeps_its_faces():
+    flat = bsm.TriangleMesh(np.zeros((4, 3)), np.array([[0, 1, 2], [1, 2, 3]]))
+    for options in ({"simplify": True}, {"size": 1000}):
+        assert len(bsm.decode(bsm.encode(flat, **options)).faces) == 2
+
+
 def test_meshes_of_different_faces_are_compared_as_surfaces(tmp_path):
     bsm.save(torus(), tmp_path / "a.ply")
     bsm.save(together(torus(30, 20)), tmp_path / "b.ply")

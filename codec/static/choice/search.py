@@ -78,6 +78,9 @@ class Search:
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
         """Return the best stream of at most `most_bytes` that keeps a contract, or None."""
+        if not self._prepared.mesh.diagonal > 0.0:
+            point = rounded(self._prepared, 1)
+            return point if self._size(point) <= most_bytes else None
         bounds = Bounds(self._measures, contract)
         grid = Gridded(self._prepared, bounds)
         found = list(grid.made())
