@@ -22,8 +22,6 @@ from bsm.codec.geometry.mesh import NoFacesError
 
 Ints = npt.NDArray[np.int64]
 Doubles = npt.NDArray[np.float64]
-
-
 _LINES = 1 << 12
 
 

@@ -94,7 +94,8 @@ def run_many(
     elif run.resume:
         raise OptionError("--resume needs --report FILE.json")
     done: list[Facts] = [{} for _ in jobs]
-    sizes, finished = sizes_of(jobs), 0
+    local = [None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input) for job in jobs]
+    sizes, finished = [max(size or 0, LEAST) for size in local], 0  # work is reported in proportion to these
     waiting: dict[int, Outcome] = {}
     following = 0
     order = TopologicalSorter({number: job.after for number, job in enumerate(jobs)})
@@ -155,12 +156,6 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
         doubtful=frozenset() if asked.force else frozenset(named - mine),
         fresh=frozenset(replaceable - named - there),
     )
-
-
-def sizes_of(jobs: Sequence[Job]) -> list[int]:
-    """Return the bytes of the inputs, in proportion to which the work is reported; `LEAST` where that is not known."""
-    local = [None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input) for job in jobs]
-    return [max(size or 0, LEAST) for size in local]
 
 
 def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:

@@ -22,6 +22,7 @@ START, STEP, TIMES = "frame_start", "frame_step", "frame_times"
 that is not one; and uneven times in seconds, as text."""
 USUAL_RATE = 24.0  # frames per second of a sequence that does not say; pages play it as fast
 LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)
+MOST_LISTED = 12  # runs that a note names
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,9 +187,6 @@ def _times_in(text: str) -> list[float]:
 
 def _finite(value: object, usual: float) -> float:
     return float(value) if isinstance(value, int | float) and np.isfinite(value) else usual
-
-
-MOST_LISTED = 12
 
 
 def describe_runs(starts: Sequence[int]) -> str:
