@@ -35,13 +35,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 59_942,
-    "product Python, lines": 32_361,
+    "product in all languages, lines": 59_928,
+    "product Python, lines": 32_347,
     "product C and C++, lines": 20_668,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_005,
     "product lines over 120 columns": 216,
-    "all Python, lines": 71_901,
+    "all Python, lines": 71_900,
     "product stubs, pages and build lists, lines": 374,
     "product modules": 200,
     "product C files and headers": 72,
