@@ -52,7 +52,6 @@
 
 BSM_ARRAY(Bytes, uint8_t)
 BSM_ARRAY(Shorts, int16_t)
-BSM_ARRAY(Halves, uint16_t)
 BSM_ARRAY(Ints, int32_t)
 BSM_ARRAY(Words, uint32_t)
 BSM_ARRAY(Longs, int64_t)

@@ -84,7 +84,6 @@ template <auto kernel> constexpr auto checked = &Checked<kernel>::call;
 
 BSM_CASTERS(Bytes, uint8_t)
 BSM_CASTERS(Shorts, int16_t)
-BSM_CASTERS(Halves, uint16_t)
 BSM_CASTERS(Ints, int32_t)
 BSM_CASTERS(Words, uint32_t)
 BSM_CASTERS(Longs, int64_t)

@@ -1,7 +1,7 @@
 /* Bytes to packets (specification, F 2, F 3, F 5). */
 #include "engine/reader.h"
 
-enum { MAGIC = 4, PREAMBLE = 5, TAG = 6 };
+enum { MAGIC = 4, PREAMBLE = 5 };
 static const uint8_t BEGINNING[MAGIC] = {0x89, 'B', 'S', 'M'};
 /* Work of any frame, and of each of its bytes; of looking at a place, and into a frame there (M 14.3, F 8). */
 static const double FRAME_WORK = 8e3, BYTE_WORK = 8, PLACE_WORK = 4e3, MAP_WORK = 6e5, METADATA_WORK = 2e4,

@@ -17,7 +17,7 @@ typedef struct Ahead Ahead;
 typedef struct {
     Header header;
     Arena arena;
-    bool has_faces, has_graph, has_blocks, announced, over;
+    bool has_faces, has_graph, announced, over;
     Ints2 faces;
     Graph graph;
     Ints labels;         /* of PARTITION, empty without */

@@ -223,10 +223,7 @@ INLINE void settle(Expectation *e, int32_t low, int32_t high, int32_t *off) {
     for (int i = 0; i < PREDICTIONS; i++) off[i] = e->prediction[i] - e->prediction[PREDICTIONS - 1];
 }
 
-/* Shared by the kinds of fields: rows of `values` that are coded in order. */
-enum { MOST_SPAN = 1 << 20 };
-
-/* Code row number i; false if a value is invalid. */
+/* Shared by the kinds of fields, whose rows are coded in order: code row number i; false if a value is invalid. */
 typedef bool CodeRow(void *work, int64_t i);
 
 /* Code `count` rows from `first` on, as far as there is room for `bytes` (writing) or sense (reading); returns how
