@@ -35,9 +35,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 59_928,
+    "product in all languages, lines": 59_923,
     "product Python, lines": 32_347,
-    "product C and C++, lines": 20_668,
+    "product C and C++, lines": 20_663,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_005,
     "product lines over 120 columns": 216,
