@@ -566,7 +566,6 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
     require_count("frames", count, limits)
     still = stage.mesh(first)
-
     every = [first + number * codes / rate for number in range(count)]
     samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
     off = between("time samples", samples, rate)
@@ -576,9 +575,10 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
 
         def changing() -> Iterator[TriangleMesh]:
             for time in every:
-                stage.renew(time)
                 try:
-                    found = stage.mesh(time).mesh
+                    with as_format_error("stage"):
+                        stage.renew(time)
+                        found = stage.mesh(time).mesh
                 except NoFacesError:
                     if not wanted.runs:
                         raise
@@ -587,7 +587,8 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
 
         meshes = changing()
     metadata = {**mesh.metadata, **({START: first * rate / codes} if first else {})}
-    return Frames(mesh.faces, count, map(stage.at, every), mesh.attributes, notes, rate, metadata, meshes)
+    frames = map(as_format_error("stage")(stage.at), every)
+    return Frames(mesh.faces, count, frames, mesh.attributes, notes, rate, metadata, meshes)
 
 
 @as_format_error("stage")
