@@ -163,8 +163,7 @@ def _compared(
 
 def _apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, float]:
     """The distances between two surfaces."""
-    for mesh in (original, decoded):
-        require_sizes(mesh.positions, done="compared")
+    require_sizes(np.concatenate([original.positions, decoded.positions]), done="compared")
     found = surface_distance(original.positions, original.faces, decoded.positions, decoded.faces)
     relative = found.hausdorff / (original.diagonal or 1.0)
     return {"hausdorff": found.hausdorff, "surface_distance": found.mean, "hausdorff_relative": relative}
