@@ -197,8 +197,7 @@ class Encoder:
         if target is None:
             raise OptionError("no target to search for")
         _ = self._input.carried  # raises what is wrong with attributes first
-        near = self._begun(progress)
-        contract = self.options.promise
+        near, contract = self._begun(progress), self.options.promise
         if self.options.sets_coding:
             found = self._at_step(target, near)
         elif target.shrinks_with_step:

@@ -215,8 +215,10 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
                 break
             share = seen(recomputed, _decoded(given, bare))
             if share <= 1.0:
-                return other
-            if attempt or bare.places is None:  # else the first choice, now that no normals lean on places
+                kept, coded = other, recomputed
+            if attempt or bare.places is None:  # else the first choice again, now that no normals lean on places
+                if share <= 1.0:
+                    break
                 nearer = math.sqrt((1.0 - before**2) / (share**2 - before**2))
                 contract = replace(contract, look=contract.look * nearer * (1.0 - SLACK))
             bare = search.smallest(contract)

@@ -31,9 +31,8 @@ class Search:
         saved: Callable[[Candidate], int],
     ) -> None:
         self._measures, self._prepared = measures, measures.prepared
-        self._options = options
-        self._tries = {"quick": TRIES - 1, "best": 3 * TRIES}.get(options.effort, TRIES)
-        self._size, self._saved = size, saved
+        self._tries = {"quick": TRIES // 2, "best": 3 * TRIES}.get(options.effort, TRIES)
+        self._options, self._size, self._saved = options, size, saved
 
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract.
@@ -144,7 +143,7 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
 
     with suppress(LimitError):  # blocks that decoders would refuse
         layered = isinstance(way, Refined) and bounds.contract.look < math.inf
-        slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered else SLACK
+        slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered or tries < TRIES else SLACK
         secant(at, way.first, way.least, way.most, tries, POWER if layered else 1.0, slack)
     smallest = min(kept, key=lambda found: (found[0], found[1].size), default=(False, None))[1]
     return None if smallest is None or smallest.size >= most_bytes else smallest

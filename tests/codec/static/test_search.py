@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from bsm import Contract, EncodeOptions, Encoder, TriangleMesh
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.search import Search, Way
@@ -51,10 +53,10 @@ def test_it_stays_within_what_there_is() -> None:
     assert tried == [1.0], "nothing more is wanted"
 
 
-def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, list[int]]:
+def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "normal") -> tuple[int, list[int]]:
     """Bytes with all ways, and with each of them alone."""
     everything = Search._ways
-    options = EncodeOptions(threads=1)
+    options = EncodeOptions(threads=1, effort=effort)
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(everything(*_asked(mesh, options)))):
 
@@ -79,6 +81,17 @@ def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, mo
     noise = np.random.default_rng(0).normal(size=mesh.positions.shape)
     whole, less = sizes(replace(mesh, positions=mesh.positions + rough * mesh.diagonal * noise), monkeypatch)
     assert whole <= min(less)
+
+
+@pytest.mark.parametrize("effort", ["quick", "normal"])
+def test_a_further_way_makes_no_file_with_normals_larger(effort: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = torus(40, 24)
+    sums = np.zeros(mesh.positions.shape)
+    np.add.at(sums, mesh.faces, face_normals(mesh.positions, mesh.faces)[:, None])
+    normals = (sums / np.linalg.norm(sums, axis=1, keepdims=True)).astype(np.float32)
+    mesh = replace(mesh, attributes=(Attribute("normal", normals, "vertex", "normal"),))
+    whole, less = sizes(mesh, monkeypatch, effort)
+    assert whole <= BY_CHANCE * min(less)
 
 
 @pytest.mark.real
