@@ -7,7 +7,6 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from bsm.bitstream.errors import LimitError, TargetError
-from bsm.codec.look.measure import POWER
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
@@ -144,6 +143,6 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
     with suppress(LimitError):  # blocks that decoders would refuse
         layered = isinstance(way, Refined) and bounds.contract.look < math.inf
         slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered or tries < TRIES else SLACK
-        secant(at, way.first, way.least, way.most, tries, POWER if layered else 1.0, slack)
+        secant(at, way.first, way.least, way.most, tries, slack=slack)
     smallest = min(kept, key=lambda found: (found[0], found[1].size), default=(False, None))[1]
     return None if smallest is None or smallest.size >= most_bytes else smallest
