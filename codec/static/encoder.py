@@ -206,8 +206,7 @@ class Encoder:
             contract = self._within_error(target)
             found = self._judged(smallest(self._input, contract, near))
         self._verified(found.draft, near, contract)
-        over = target.excess(found)
-        require(over <= MARGIN, f"the target is {target.value:g} and {target.reached(found):g} was reached")
+        require(target.excess(found) <= MARGIN, f"the target is {target.value:g}, not {target.reached(found):g}")
         return found
 
     def _within_error(self, target: Target) -> Contract:

@@ -9,12 +9,12 @@ import pytest
 
 from bsm import Contract, EncodeOptions, Encoder, TriangleMesh
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.search import Search, Way
 from bsm.codec.static.targets import SLACK, secant
 from bsm.files.mesh import read_mesh
+from tests.codec.static.attributes.test_attributes import smooth_normals
 from tests.shapes import patch, torus
 
 SOME = (
@@ -86,11 +86,8 @@ def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, mo
 @pytest.mark.parametrize("effort", ["quick", "normal"])
 def test_a_further_way_makes_no_file_with_normals_larger(effort: str, monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = torus(40, 24)
-    sums = np.zeros(mesh.positions.shape)
-    np.add.at(sums, mesh.faces, face_normals(mesh.positions, mesh.faces)[:, None])
-    normals = (sums / np.linalg.norm(sums, axis=1, keepdims=True)).astype(np.float32)
-    mesh = replace(mesh, attributes=(Attribute("normal", normals, "vertex", "normal"),))
-    whole, less = sizes(mesh, monkeypatch, effort)
+    normals = Attribute("normal", smooth_normals(mesh).astype(np.float32), "vertex", "normal")
+    whole, less = sizes(replace(mesh, attributes=(normals,)), monkeypatch, effort)
     assert whole <= BY_CHANCE * min(less)
 
 

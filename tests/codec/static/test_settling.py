@@ -7,6 +7,7 @@ import pytest
 
 from bsm import TriangleMesh
 from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
+from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import CREASE
 from bsm.codec.signal.smooth import in_frames, local_frames
 from bsm.codec.static.choice import settling
@@ -82,14 +83,8 @@ RNG = np.random.default_rng(3)
 ROUGH = TriangleMesh(BENT.positions + RNG.normal(0, 0.003 * BENT.diagonal, BENT.positions.shape), BENT.faces)
 
 
-def unit_normals(positions, faces):
-    a, b, c = (positions[faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    return normals / np.linalg.norm(normals, axis=1, keepdims=True)
-
-
 def wrong(creases: Creases, positions):
-    normals = unit_normals(positions, creases.faces)
+    normals = face_normals(positions, creases.faces)
     cosines = (normals[creases.pairs[:, 0]] * normals[creases.pairs[:, 1]]).sum(axis=1)
     return (cosines <= CREASE) != creases.sharp.astype(bool)
 
@@ -97,7 +92,7 @@ def wrong(creases: Creases, positions):
 def test_pairs_and_costs_are_those_of_all_corners():
     positions, faces = ROUGH.positions, ROUGH.faces
     creases = creases_of(positions, faces)
-    normals = unit_normals(positions, faces)
+    normals = face_normals(positions, faces)
     area = np.linalg.norm(
         np.cross(positions[faces[:, 1]] - positions[faces[:, 0]], positions[faces[:, 2]] - positions[faces[:, 0]]),
         axis=1,

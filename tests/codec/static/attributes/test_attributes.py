@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import bsm
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import RECOMPUTED
+from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.look.measure import AttributeLook, look, look_values
 from tests.shapes import at_corners, curved, patch, tetrahedron, torus
@@ -31,9 +32,7 @@ def atlas(mesh: bsm.TriangleMesh) -> bsm.Attribute:
 
 
 def normals(mesh: bsm.TriangleMesh) -> bsm.Attribute:
-    a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
-    flat = np.cross(b - a, c - a)
-    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+    flat = face_normals(mesh.positions, mesh.faces)
     return bsm.Attribute("normal", np.repeat(flat, 3, axis=0).astype(np.float32), "corner", "normal")
 
 
@@ -196,8 +195,7 @@ def test_angles_of_normals_are_kept(degrees):
 def smooth_normals(mesh: bsm.TriangleMesh) -> np.ndarray:
     a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
     found = np.zeros_like(mesh.positions)
-    for corner in range(3):
-        np.add.at(found, mesh.faces[:, corner], np.cross(b - a, c - a))
+    np.add.at(found, mesh.faces, np.cross(b - a, c - a)[:, None])
     return found / np.linalg.norm(found, axis=1, keepdims=True)
 
 
