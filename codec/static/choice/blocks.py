@@ -258,7 +258,7 @@ class Refined:
     @cached_property
     def first(self) -> float:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.
-        return self._bounds.first_step / math.hypot(1.0, 0.86 * self._ratio / RATIO)
+        return self._bounds.first_step / math.hypot(1.0, 0.93 * self._ratio / RATIO)
 
     def _made(self, step: float) -> Candidate:
         base = self._base
