@@ -142,7 +142,7 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
 
 def _choose_blocks(given: Input, contract: Contract) -> None:
     """Go on with the size of blocks and the effort with which the shape alone takes fewest bytes."""
-    found: list[tuple[Draft, EncodeOptions, Prepared]] = []
+    given.carried, found = (), list[tuple[Draft, EncodeOptions, Prepared]]()
     for changes in ({"effort": "normal"}, {}, LARGE_BLOCKS):  # the usual effort may be lucky
         if changes is LARGE_BLOCKS and found[-1][0].places is not None:
             break  # a grid has no blocks
