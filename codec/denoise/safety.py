@@ -14,8 +14,8 @@ from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Mask
 
 MOST = 1.9
-"""Movement along the normals over noise, from which on more has gone than noise. Windows of correlated noise differ in
-it by chance, as slanted surfaces do in scans of one view: 1.25 put noise back."""
+"""Movement along the normals over noise, above which a window has lost more than noise. With 1.25, noise was put back:
+the ratio varies by chance in windows of correlated noise, and with the slant in scans of one view."""
 MOST_CORRELATED = 4.0
 """Correlated noise is stronger than its finest frequencies, in a ratio that is the same everywhere: at most this."""
 FAINT = 0.02  # movements below, in mean edges, harm nobody

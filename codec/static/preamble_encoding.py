@@ -165,7 +165,7 @@ class Prepared:
         return np.asarray(np.argmax(turned, axis=0))
 
     def of_coded(self, corners: Indices) -> Indices:
-        """What corners of joined faces have, shape (m, 3), in the order of coding."""
+        """Return the values of corners of joined faces, shape (m, 3), in coding order."""
         return np.take_along_axis(corners[self.coding_faces], (self.turns[:, None] + np.arange(3)) % 3, axis=1)
 
     @cached_property

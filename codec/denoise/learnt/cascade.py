@@ -68,7 +68,7 @@ class Learnt:
 
 
 def learnt(positions: Positions, topology: Topology, noisy: Mask | None = None) -> Learnt:
-    """Denoise `positions`, shape (n, 3), by all networks in turn, as the `noisy` ones, shape (n,), call for."""
+    """Denoise `positions`, shape (n, 3), by all networks in turn; `noisy`, shape (n,), marks those with noise."""
     normals, near = np.zeros((len(topology.faces), 3)), surroundings(positions, topology, RADIUS)
     for network in read_networks():
         normals = regressed_normals(descriptions(positions, topology, near, noisy), network)

@@ -27,7 +27,7 @@ BATCH = 1024  # faces whose numbers pass the layers together: the output of a la
 def descriptions(
     positions: Positions, topology: Topology, near: Rows, noisy: Mask | None = None
 ) -> Iterator[tuple[Singles, Floats]]:
-    """Numbers of the faces, and their frames, in batches; `noisy` vertices, shape (n,), are all if not given."""
+    """Yield numbers and frames of the faces in batches; `noisy`, shape (n,), marks noisy vertices (default: all)."""
     if len(topology.faces) == 0:
         return
     geometry = face_geometry(positions, topology.faces)

@@ -34,7 +34,7 @@ RULES = {
 """Of each kind, the weights of `measures` and a constant: noise is believed if the sum is positive. `tools.train_noise`
 fits them, and names the meshes that it holds out."""
 FAINTEST = 0.03  # level in mean edges, or widths of pixels, below which nothing is suspected
-FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # whitenesses below the second mean noise far stronger than its fine level
+FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # if whiteness is below the second: fine levels hold little of such noise
 FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # fewest windows for an estimate, and fewest wholly inside a noisy part
 WHITE = 0.82  # whiteness below which noise is correlated
 LOCAL_STEP, LOCAL_SHARE, NEARBY = 1.5, 0.1, 4

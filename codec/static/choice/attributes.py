@@ -89,7 +89,7 @@ class Input:
         return Search(self.measures, self.coded, lambda draft: self.dressed(draft).size, self.saved)
 
     def saved(self, candidate: Candidate) -> int:
-        """How many bytes fewer attributes take on the places of a grid."""
+        """Return how many bytes the attributes save if positions are on a grid."""
         return sum(sum(map(len, a.plain)) - sum(map(len, cheaper(a, candidate.draft.places)[1])) for a in self.carried)
 
     @cached_property

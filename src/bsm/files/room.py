@@ -131,7 +131,7 @@ AS_NUMBERS = 8  # bytes of a coordinate or an index as readers make it, however 
 TREE = 32  # bytes that a byte of JSON may become
 TAG = 150  # bytes that a tag of XML becomes in the tree of a library
 _PIECE = 1 << 18
-_ENDING = 16  # bytes with which a member of gzip may end that are 0; gzip takes those after it one at a time
+_ENDING = 16  # zeros that the end of a gzip member may have; gzip skips zeros after it one at a time
 _COUNTED = {b"vertex": "vertices", b"face": "faces"}
 _PLY_COUNTS = re.compile(rb"[\r\n][ \t]*element[ \t]+(vertex|face)[ \t]+(\d{1,18})\b")
 _OFF_COUNTS = re.compile(rb"\s*[A-Zn4]{3,9}\s+(\d{1,18})\s+(\d{1,18})\b")
@@ -171,7 +171,7 @@ def require_inflated(size: int, compressed: int, limits: Limits, vertices: int =
 
 @contextmanager
 def as_format_error(kind: str) -> Iterator[None]:
-    """Make an error of ours of whatever a tree leads to that holds anything anywhere."""
+    """Raise `FormatError` in place of the errors that malformed content causes."""
     try:
         yield
     except BsmError:
