@@ -24,8 +24,7 @@ BESIDE, MARGIN, DEGREE = 11, 16, 33.5
 SEEN = (500, 25_000)
 """Meshes of which photographs are taken, by how many vertices they have: fetched ones."""
 PHOTOGRAPHED = "Three views of 1,080 pixels that our look does not use: three lights, gloss, creases of 30 degrees."
-NEAR = 0.85
-"""The least distance of a default that its look limits; other promises limit smaller ones."""
+NEAR = 0.85  # the least distance of a default that its look limits; other promises limit smaller ones
 SPREAD = ("what", "by", "meshes", "mean", "median", "standard deviation", "worst", "its mesh")
 
 
@@ -120,11 +119,8 @@ def outside_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
 def steadiness_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     """How much scores differ between meshes, in `SPREAD`."""
     found = []
-    for name, what, least in (
-        ("default", "default", 0.0),
-        ("default", f"default, look of {NEAR} to 1", NEAR),
-        (f"Draco {BESIDE}", f"Draco {BESIDE}", 0.0),
-    ):
+    for what, least in (("default", 0.0), (f"default, look of {NEAR} to 1", NEAR), (f"Draco {BESIDE}", 0.0)):
+        name = what.partition(",")[0]
         points = [(row["points"][name], row["mesh"]) for row in rows if name in row["points"]]
         for score, label in SCORES.items():
             pairs = [(point[score], mesh) for point, mesh in points if score in point and point["look"] >= least]

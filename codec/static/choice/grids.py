@@ -131,10 +131,10 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
     )
 
 
-def made_on(positions: Matrix) -> float | None:
-    """The step of the coarsest grid from the lower corner on that all positions are on, but for rounding to floats."""
+def made_on(positions: Matrix, within: float) -> float | None:
+    """The step of the coarsest grid from the lower corner on that all positions are on, within so much or rounding."""
     extent = float(extent_of(positions).max())
-    noise = 4.0 * float(np.spacing(np.float32(np.abs(positions).max()))) / extent
+    noise = max(4.0 * float(np.spacing(np.float32(np.abs(positions).max()))), within) / extent
     for some in (positions[:: 1 + len(positions) // SAMPLE], positions):
         values = np.unique((some - some.min(axis=0)) / extent)
         values = values[values > noise]
@@ -148,7 +148,7 @@ def made_on(positions: Matrix) -> float | None:
                 reach = max(step, float(values[0]))
             else:
                 step, reach = float(counts @ near / (counts @ counts)), 4.0 * reach
-            if step * MOST_CELLS < 1.0:
+            if step < max(1.0 / MOST_CELLS, 8.0 * noise):
                 return None
         if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
             return None
@@ -206,13 +206,13 @@ class Gridded:
         return replace(candidate, unfold=unfold)
 
     def made(self) -> Iterator[Candidate]:
-        """The grid that the mesh was made on, in single precision; and exactly, where one holds all positions."""
+        """The grids that the mesh was made on, or about, in single precision; and exactly, where one holds all."""
         positions = self._prepared.mesh.positions
-        step = made_on(positions)
-        if step is not None:
-            yield self.at(step / self._prepared.units.scale)
-            exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step), np.float64)
-            yield from () if exactly is None else (self._candidate(*exactly),)
+        for within in (0.0, PART_OF_CELL * self._shaper.mean_edge * self._prepared.units.scale):
+            if (step := made_on(positions, within)) is not None:
+                yield self.at(step / self._prepared.units.scale)
+                exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step), np.float64)
+                yield from () if exactly is None else (self._candidate(*exactly),)
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         coded, step = partial(grid_draft, self._prepared, grid, places), grid.step / self._prepared.units.scale

@@ -34,6 +34,9 @@ def test_the_grid_that_a_model_was_made_on_is_found(preset: str) -> None:
     draft = Encoder(mesh, PRESETS[preset]).draft()
     assert draft.header.grid
     assert draft.size <= 1.2 * len(encode(mesh, EncodeOptions(grid=8)))
+    flat = patch(29, 29)
+    about = np.random.default_rng(1).uniform(-2e-4, 2e-4, flat.positions.shape) + flat.positions / (1, 1.3, 1)
+    assert len(encode(replace(flat, positions=about * (1, 1, 0)), PRESETS[preset])) < 100
 
 
 @pytest.mark.real
