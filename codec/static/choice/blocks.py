@@ -29,11 +29,9 @@ from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
 SMOOTHING_STEPS = tuple(2.0**k if k > -4 else 0.0 for k in range(-4, 7))
-"""Amounts that are tried, from the middle on, up and down, while they help; a factor of sqrt 2 between them is worth
-0.1 %."""
+"""Amounts to try, from the middle up and down while they help; a factor of sqrt 2 between them is worth 0.1 %."""
 WIDEST = 0.14
-"""Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
-are worth."""
+"""Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
 BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units

@@ -24,8 +24,7 @@ AROUND, SIZES = 10, 16
 """Classes of the neighbors' mean size, and sizes of the rest of a level, for estimates of bits."""
 BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5  # what they are before any is counted
 ASIDE, RATIO = 0.35, 10.0
-"""Cost of rounding along a tangent over that along the normal, where steps are as of a layer of this
-ratio."""
+"""Cost of rounding along a tangent over that along the normal, where the steps of a layer have this ratio."""
 SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and over those along the surface
 CREASED = 2.5
 """The cost of a crease in one of two pictures only, over an error of a step at its share of vertices."""
