@@ -35,13 +35,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 59_923,
-    "product Python, lines": 32_347,
+    "product in all languages, lines": 59_918,
+    "product Python, lines": 32_342,
     "product C and C++, lines": 20_663,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_005,
     "product lines over 120 columns": 216,
-    "all Python, lines": 71_900,
+    "all Python, lines": 71_896,
     "product stubs, pages and build lists, lines": 374,
     "product modules": 200,
     "product C files and headers": 72,
