@@ -152,7 +152,7 @@ class HarmError(BsmError, ValueError):
     --------
     >>> import bsm
     >>> clean = bsm.load("bunny.ply")
-    >>> bsm.denoise(clean, keep=0.05)
+    >>> bsm.denoise(clean, keep=0.01)
     Traceback (most recent call last):
     bsm.HarmError: ...
     """

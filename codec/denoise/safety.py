@@ -13,9 +13,9 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Mask
 
-MOST = 1.9
-"""Movement along the normals over noise, above which a window has lost more than noise. With 1.25, noise was put back:
-the ratio varies by chance in windows of correlated noise, and with the slant in scans of one view."""
+MOST, MOST_UNKNOWN = 1.9, 1.25
+"""Movement along the normals over noise, above which a window has lost more than noise: where noise is known, which
+varies by chance between windows if neighbors share it, and with the slant in scans of one view; and where it is not."""
 MOST_CORRELATED = 4.0
 """Correlated noise is stronger than its finest frequencies, in a ratio that is the same everywhere: at most this."""
 FAINT = 0.02  # movements below, in mean edges, harm nobody
@@ -56,12 +56,12 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
-    shared = finding.kind in ("correlated", "view", "fused", "uneven fused")
-    bad = windows.valid & ~(ratio <= MOST * (min(max(movement, 1.0), MOST_CORRELATED) if shared else 1.0))
+    shared = MOST_CORRELATED if finding.kind in ("correlated", "view", "fused", "uneven fused") else 1.0
+    most = MOST_UNKNOWN if unsure else MOST * min(max(movement, 1.0), shared)
+    bad = windows.valid & ~(ratio <= most)
     failed = float(bad[judged].mean()) if judged.any() else 0.0
     reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
-    good: Mask = ~bad[windows.labels]
-    return Verdict(good, movement, reason if failed > FAILED_SHARE else "")
+    return Verdict(~bad[windows.labels], movement, reason if failed > FAILED_SHARE else "")
 
 
 def restraint(movement: float, finding: Finding) -> float:
