@@ -193,7 +193,7 @@ def main(arguments: list[str] | None = None) -> int:
             parts = list(pool.map(described, cases, chunksize=4))
             print(f"stage {stage + 1}: {len(parts)} meshes, {time.perf_counter() - begin:.0f} s", flush=True)
             networks.append(train([part for k, part in enumerate(parts) if k % HELD_OUT], stage))
-            # The next stage sees what the file holds, not what is in memory.
+            # The next stage learns on results of the weights in the file, which are rounded to half precision.
             write_networks(chosen.output, networks)
             read_networks.cache_clear()
             network = read_networks(chosen.output)[stage]

@@ -69,7 +69,7 @@ def test_an_error_names_the_extra_and_no_path():
 @pytest.mark.slow
 def test_the_command_is_content_with_the_package_that_is_installed():
     if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True, check=False).returncode:
-        pytest.skip("there is no pip here")
+        pytest.skip("needs pip")
     words = how_to_install("progress").replace("'", "").split()[1:]
     command = [sys.executable, "-m", "pip", *words, "--no-index", "--dry-run"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

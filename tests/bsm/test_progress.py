@@ -204,7 +204,7 @@ def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
 
 @pytest.mark.parametrize("lines", [False, True])
 def test_time_is_reported_where_nothing_else_is(lines):
-    """From the first second on, and with what is left from when a share was known."""
+    """A report comes from the first second on; it states the time left once a share of the work is known."""
     pty = pytest.importorskip("pty")
     work = f"import signal; from bsm.console import Console; signal.alarm(60); console = Console(json={lines})\n"
     work += "with console.progress('denoising') as progress: input(); progress.stage('rehearsing', 0.1); input()"

@@ -1,4 +1,4 @@
-"""Calls with arguments or sizes that make no sense: each ends well, or with our error that says what is wrong."""
+"""Calls with nonsensical arguments or sizes: each succeeds, or raises one of our errors with the reason."""
 
 import math
 import warnings

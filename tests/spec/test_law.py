@@ -1,4 +1,4 @@
-"""The law cites rules that exist and shows what the vectors hold; what is promised for good stays."""
+"""The specification cites existing rules, shows the vectors as they are, and keeps its permanent promises."""
 
 import hashlib
 import importlib

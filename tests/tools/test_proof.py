@@ -1,4 +1,4 @@
-"""The parts of attacks: the proof finds and keeps what is wrong, and mutations get past the checksums."""
+"""The proof reports and keeps failing streams, and mutated streams have valid checksums."""
 
 import random
 from collections import Counter
