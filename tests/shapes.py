@@ -83,3 +83,25 @@ def together(*meshes: TriangleMesh) -> TriangleMesh:
     positions = [mesh.positions + np.array([3.0 * k, 0.0, 0.0]) for k, mesh in enumerate(meshes)]
     faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]
     return TriangleMesh(np.concatenate(positions), np.concatenate(faces))
+
+
+def turned(random: np.random.Generator) -> TriangleMesh:
+    """A cone, globe, tube or pinched tube, as many programs make them: rows of quads, also at tips and at seams."""
+    around, rows = int(random.integers(3, 200)), int(random.integers(2, 20))
+    up = np.linspace(0.0, 1.0, rows + 1)
+    radii = [up, np.sin(np.pi * up), np.ones(rows + 1), np.abs(2.0 * up - 1.0)][random.integers(4)]
+    radii[radii < 1e-9] = 0.0
+    joined = bool(random.integers(2))
+    angles = 2.0 * np.pi * (np.arange(around if joined else around + 1) % around) / around
+    circle = np.column_stack([np.cos(angles), np.sin(angles)])
+    flat = np.concatenate([np.column_stack([radius * circle, np.full(len(angles), z)]) for radius, z in zip(radii, up)])
+    height = random.choice([0.2, 1.0, 3.0])
+    positions = flat * (1.0, 1.0, height) * 10.0 ** random.integers(-3, 4) + random.choice([0.0, 7.0])
+    faces = grid_faces(rows + 1, len(angles), close_columns=joined)
+    if random.integers(2):  # a face without area, which reaches far
+        positions = np.vstack([positions, positions.max(axis=0) * 3.0])
+        faces = np.vstack([faces, [0, 0, len(positions) - 1]]).astype(np.int32)
+    if random.integers(2):
+        faces = np.vstack([faces, faces[random.integers(0, len(faces), 5)]])
+    own = Attribute("normal", random.normal(size=(len(positions), 3)), "vertex", "normal")
+    return TriangleMesh(positions, faces, (own,) if not random.integers(4) else ())

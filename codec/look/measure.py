@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, public
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Mask, Matrix, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic, at_corners
 from bsm.codec.geometry.mesh import LARGEST, TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
@@ -113,7 +113,11 @@ class LookMetric:
 
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
         self._mesh, self._threads = mesh, threads
-        used = mesh.positions[np.bincount(mesh.faces.ravel(), minlength=len(mesh.positions)) > 0]
+        # Encoders leave out faces with two corners at one position, so that these may not count here, either.
+        faces = mesh.faces[_with_three_places(mesh)]
+        used = mesh.positions[np.bincount(faces.ravel(), minlength=len(mesh.positions)) > 0]
+        if not len(used):
+            raise MeshError("the mesh cannot be looked at: its faces have no area")
         low, high = box_around(used)
         with np.errstate(over="ignore"):
             self._diagonal = math.hypot(*(high - low))
@@ -124,7 +128,7 @@ class LookMetric:
         self._middle = low + (high - low) / 2
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)
-        self._size = Size.of(positions, mesh.faces, most_pixels)
+        self._size = Size.of(positions, faces, most_pixels)
         self.pixels = self._size.pixels
         self._cameras = cameras(self._placed(used), self.pixels)
         self._sides = range(len(self._cameras))
@@ -332,6 +336,13 @@ class AttributeLook:
 def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:
     """How much alike two meshes look, of whatever vertices and faces."""
     return LookMetric(original, threads=threads).compare(other)
+
+
+def _with_three_places(mesh: TriangleMesh) -> Mask:
+    """Whether the corners of each face are at three positions, shape (m,)."""
+    first, second, third = (mesh.positions[corner] for corner in mesh.faces.T)
+    pairs = (first, second), (second, third), (third, first)
+    return np.logical_and.reduce([(one != other).any(axis=1) for one, other in pairs])
 
 
 def key_of(*arrays: Matrix | Normals) -> bytes:

@@ -13,7 +13,7 @@ from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.metrics import areas_and_normals
-from bsm.codec.geometry.welding import weld
+from bsm.codec.geometry.welding import degenerate, weld
 
 Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
 Normals = npt.NDArray[np.float32]  # of the corners of faces, shape (m, 9)
@@ -49,19 +49,21 @@ class Shape:
 
     faces: Faces
     joined: Faces
-    around: Rows
+    around: Rows  # without faces that have two corners at one place
 
     @classmethod
     def of(cls, positions: Positions, faces: Faces) -> Shape:
         """The shape of positions, shape (n, 3), within a box of diagonal 1."""
         _, joined, index = weld(np.rint(positions * _GRID), faces)
         joined = np.ascontiguousarray(joined, np.int32)
-        return cls(np.ascontiguousarray(faces, np.int32), joined, vertex_faces(joined, int(index.max()) + 1))
+        counted, places = np.flatnonzero(~degenerate(joined)).astype(np.int32), int(index.max()) + 1
+        around = vertex_faces(joined if len(counted) == len(joined) else joined[counted], places)
+        return cls(np.ascontiguousarray(faces, np.int32), joined, Rows(around.starts, counted[around.members]))
 
     def normals(self, positions: Positions) -> Normals:
         """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3)."""
         count = len(self.faces)
-        normals = np.empty((count, 9), np.float32)
+        normals = np.zeros((count, 9), np.float32)
         given = positions, self.faces, self.joined, self.around.starts, self.around.members
         _kernels.shown_normals(*given, CREASE, _HALF_CREASE, MOST_AROUND, np.empty((count, 4)), normals)
         return normals

@@ -92,7 +92,8 @@ class SequenceEncoder:
     kg : float
         The error of Karni and Gotsman so far, in percent, measured on decoded frames.
     worst_look : float or None
-        The look distance of the frame with the largest normal error so far; None if it is invisible.
+        The largest look distance so far of the frames that were drawn: the search for the step draws those that may be
+        the worst, and the check the one with the largest normal error. None if this frame is invisible.
 
     Examples
     --------
@@ -135,7 +136,8 @@ class SequenceEncoder:
 
     @property
     def worst_look(self) -> float | None:
-        return self._verifier.worst_look
+        checked = self._verifier.worst_look
+        return None if checked is None else max(checked, self._drawn)
 
     def chunks(self, frames: Iterable[Frame], progress: Progress | None = None) -> Iterator[bytes]:
         """Yield the stream, section by section; each GOP as soon as its frames have arrived.
@@ -199,7 +201,7 @@ class SequenceEncoder:
         meshes = Meshes()
         writer = Writer()
         number = 0
-        self.run_starts, self.samples, self._checksum = [], 0, 0
+        self.run_starts, self.samples, self._checksum, self._drawn = [], 0, 0, 0.0
         splitter = RunSplitter(frames, self._faces, allowed=options.runs, attributes=self._attributes)
         runs = joined_runs(
             self._dressed(splitter), options.together, keep_order=options.keep_order, allowed=options.runs
@@ -268,6 +270,7 @@ class SequenceEncoder:
         numbers = [coder.number for coder in coders]
         still = {name: values[0] for name, values in group.moving.items() if name not in {m.name for m in coders}}
         while len(group):
+            self._drawn = max(self._drawn, gops.worst_look)
             bodies = with_fields(gops.bodies, coders, group.moving)
             for number, frame in enumerate(gops.decoded_frames()):
                 positions = prepared.units.back(frame)

@@ -106,6 +106,7 @@ class EncodedGops:
     encoder: GopEncoder
     bodies: tuple[GopBody, ...]
     learnt: tuple[LearntGop, ...] = ()
+    worst_look: float = 0.0  # of the frames that the search drew
 
     @property
     def size(self) -> int:
@@ -178,7 +179,7 @@ class RunEncoder:
         finest = finest_step(group.positions, options)
         found = search.run(attempt, first, finest, weighed=not options.low_delay)
         near.to(1.0)
-        return found
+        return replace(found, worst_look=search.worst_look)
 
 
 def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) -> float:

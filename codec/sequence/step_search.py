@@ -58,6 +58,7 @@ class StepSearch:
         self._metrics: dict[int, LookMetric | None] = {}
         self._room = KEPT
         self._knots: set[int] = set()
+        self.worst_look = 0.0  # of the frames that were drawn of the returned encoding
         if promise.look < math.inf:
             self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
             self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
@@ -78,6 +79,7 @@ class StepSearch:
             excess, relief = measured.excess, 0.0
             if excess <= 0.0 and (kept is None or found.size <= kept.size):
                 kept = found
+                self.worst_look = self._promise.look * max((measured.drawn[i] for i in measured.drawn if self._twins[i] == i), default=0.0)
             enough = attempt >= ENOUGH or (excess > -slack and (attempt > 1 or not uneven))
             if step == (most if excess <= 0.0 else finest) or (excess <= 0.0 and enough):
                 break

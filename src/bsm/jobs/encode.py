@@ -164,8 +164,9 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else [])]
     look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
     if look == math.inf and seen is not None:
-        notes.append(f"no look is promised; measured: look {seen:.2g} in the worst frame (the default keeps 1)")
-    kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame, "
+        where = "in the frame with the largest normal error"
+        notes.append(f"no look is promised; measured: look {seen:.2g} {where} (the default keeps 1)")
+    kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame drawn, "
     done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
     bpvf = 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
