@@ -79,7 +79,9 @@ class StepSearch:
             excess, relief = measured.excess, 0.0
             if excess <= 0.0 and (kept is None or found.size <= kept.size):
                 kept = found
-                self.worst_look = self._promise.look * max((measured.drawn[i] for i in measured.drawn if self._twins[i] == i), default=0.0)
+                self.worst_look = self._promise.look * max(
+                    (measured.drawn[i] for i in measured.drawn if self._twins[i] == i), default=0.0
+                )
             enough = attempt >= ENOUGH or (excess > -slack and (attempt > 1 or not uneven))
             if step == (most if excess <= 0.0 else finest) or (excess <= 0.0 and enough):
                 break

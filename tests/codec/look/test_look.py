@@ -406,4 +406,6 @@ def test_the_mesh_as_given_judges_what_was_promised(seed):
         stream = encode(given, preset=preset, threads=1)
     except TargetError:
         return
-    assert look(given, decode(stream)).distance <= {"balanced": 1, "fine": 0.5, "near-lossless": 0.25, "small": 3}[preset]
+    assert (
+        look(given, decode(stream)).distance <= {"balanced": 1, "fine": 0.5, "near-lossless": 0.25, "small": 3}[preset]
+    )
