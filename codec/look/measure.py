@@ -342,7 +342,8 @@ def _with_three_places(mesh: TriangleMesh) -> Mask:
     """Whether the corners of each face are at three positions, shape (m,)."""
     first, second, third = (mesh.positions[corner] for corner in mesh.faces.T)
     pairs = (first, second), (second, third), (third, first)
-    return np.logical_and.reduce([(one != other).any(axis=1) for one, other in pairs])
+    differs: Mask = np.all([(one != other).any(axis=1) for one, other in pairs], axis=0)
+    return differs
 
 
 def key_of(*arrays: Matrix | Normals) -> bytes:
