@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -233,6 +234,22 @@ class TestCommands:
         errors = capsys.readouterr().err
         assert all(name in errors for name in gone) and "eval" in errors
         assert not (tmp_path / "out").exists()
+
+    def test_one_picture(self, tmp_path, capsys):
+        pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
+        pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
+        mesh, picture = tmp_path / "torus.npz", tmp_path / "spot.PNG"
+        write_mesh(mesh, torus(20, 20))
+        words = ["curve", str(mesh), "-o", str(picture), "--codecs", "draco"]
+        assert main(words) == 0
+        assert picture.read_bytes().startswith(b"\x89PNG") and set(tmp_path.iterdir()) == {mesh, picture}
+        shown = capsys.readouterr()
+        assert re.search(r"^torus, Draco: about [0-9.]+ s$", shown.err, re.MULTILINE) and "torus | draco" in shown.out
+        assert main(words) == 9 and "-f overwrites it" in capsys.readouterr().err
+        assert main([*words, "-f", "-q"]) == 0 and not capsys.readouterr().err
+        for wrong in (["-o", "a.json"], ["-o", "a.svg", "--csv"]):
+            assert main([*words[:2], *wrong]) == 2
+        assert main(["curve", "-o", "a.svg"]) == 2
 
     def test_curve_knows_its_codecs(self, tmp_path, capsys):
         write_mesh(tmp_path / "torus.npz", torus(20, 20))

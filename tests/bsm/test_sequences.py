@@ -305,6 +305,8 @@ def test_curves(npz, tmp_path, capsys, monkeypatch):
         assert coarse["kg"] > fine["kg"] and coarse["bpvf"] < fine["bpvf"]
     assert lines["ours"][0]["bpvf"] < lines["draco"][0]["bpvf"]
     assert "Draco qp 11" in capsys.readouterr().out
+    assert bsm("curve", npz, "-o", tmp_path / "curves.svg") == 0
+    assert b"<svg" in (tmp_path / "curves.svg").read_bytes() and "Draco qp 11" in capsys.readouterr().out
 
 
 def test_attributes_that_stay_go_along(tmp_path, capsys):

@@ -4,8 +4,10 @@ import argparse
 import csv
 import importlib.util
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -16,7 +18,7 @@ from bsm.commands.flags import adder, within
 from bsm.console import Console, print_json
 from bsm.evaluation import curve as rates
 from bsm.files.mesh import read_mesh
-from bsm.files.output import write_output
+from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.sequence import open_sequence
 
 GROUPS = ("ours", "paper", "draco")
@@ -25,12 +27,13 @@ _PAPER_NEEDS = ("pymetis", "zstandard")
 _UNITS = {"theta_deg": "°", "nmsve_db": " dB"}
 Table = tuple[Sequence[str], Sequence[Sequence[str]]]
 """Columns, and rows of cells."""
+Save = Callable[[dict[str, Table], Iterable[rates.Picture]], None]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
     add("meshes", "MESH", "mesh files or sequences. Without any, only draw earlier results", nargs="*")
-    add("-o --output", "FOLDER", "folder for JSON and pictures", required=True)
+    add("-o --output", "OUT", "folder for JSON and pictures, or one picture (.png, .svg, .pdf)", required=True)
     which = "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
     add("--codecs", "LIST", f"{which}single lines such as svd,oi-r2 (default: all)", default=",".join(GROUPS))
     blocks = "number of blocks for the codecs of the paper (default: blocks of 500 vertices)"
@@ -43,19 +46,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    folder = Path(args.output)
-    if folder.suffix.lower() in (".png", ".svg", ".json", ".pdf"):
-        raise OptionError(f"{folder}: -o must be a folder; results and pictures are named after the meshes")
+    output = Path(args.output)
+    kind = output.suffix[1:].lower()
+    if kind in ("json", "csv", "tex"):
+        raise OptionError(f"{output}: -o must be a folder or a picture (.png, .svg, .pdf)")
+    if kind not in rates.PICTURES or output.is_dir():
+        _run(args, output, console, partial(_save, folder=output, args=args, console=console))
+        return
+    if not args.meshes or args.csv or args.latex or args.pdf:
+        raise OptionError(f"{output} is one picture of meshes; for tables or earlier results, give a folder: -o curves")
+    refuse_to_overwrite(output, args.force)
+    pictures: list[rates.Picture] = []
+    with TemporaryDirectory() as folder:
+        _run(args, Path(folder), console, lambda _, drawn: pictures.extend(drawn))
+    picture = rates.in_a_row(output.stem, pictures)
+    picture.save(output.parent, (output.suffix[1:],), overwrite=args.force, follow=True)
+    console.note(str(output))
+
+
+def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -> None:
     _refuse_missing(args.codecs if args.meshes else "ours")
-    meshes = [path for path in args.meshes if not _run_sequence(path, folder, args, console)]
+    meshes = [path for path in args.meshes if not _run_sequence(path, folder, args, console, save)]
     if args.meshes and not meshes:
         return
     chosen = [(path, read_mesh(path).mesh.bare) for path in meshes]  # rates are those of the shape
     for path, mesh in chosen:
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
-                result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress)
-            console.note(f"{rates.write_result(result, folder)}")
+                result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress, console.note)
+            rates.write_result(result, folder)
     results = list(rates.read_results(folder))
     if not results:
         raise OptionError(f"{folder} contains no results; name meshes to measure")
@@ -67,7 +86,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         print_json({"comparisons": comparisons})
     else:
         print(_words(tables))
-    _save(tables, rates.draw_all(results), folder, args, console)
+    save(tables, rates.draw_all(results))
 
 
 def _refuse_missing(codecs: str) -> None:
@@ -93,12 +112,13 @@ def _save(
         for suffix, text in texts.items():
             write_output(folder / f"{name}.{suffix}", text.encode(), overwrite=True, follow=False)
             console.note(str(folder / f"{name}.{suffix}"))
+    console.note(f"{folder}: results as JSON")
     for picture in pictures:
         for path in picture.save(folder, (*rates.FORMATS, *(("pdf",) if args.pdf else ()))):
             console.note(str(path))
 
 
-def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Console) -> bool:
+def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Console, save: Save) -> bool:
     """Measure and draw a sequence; False if `path` is a mesh."""
     source = open_sequence(path)
     if source is None:
@@ -108,9 +128,9 @@ def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Co
     mesh, kept = TriangleMesh(frames[0], source.faces).without_isolated_vertices()
     with console.progress(Path(path).stem) as progress:
         result = rates.measure_lines(frames[:, kept], mesh.faces, Path(path).stem, progress)
-    console.note(f"{rates.write_result(result, folder)}")
+    rates.write_result(result, folder)
     print(rates.table(*rates.table_of(result)))
-    _save({f"{Path(path).stem}-sequence": rates.table_of(result)}, rates.draw_lines(result), folder, args, console)
+    save({f"{Path(path).stem}-sequence": rates.table_of(result)}, rates.draw_lines(result))
     return True
 
 

@@ -73,6 +73,7 @@ Align = Callable[[TriangleMesh], Positions]
 """Maps a decoded mesh to positions in the vertex order of the original."""
 
 SCHEMA = 1
+SAMPLE = 1000  # vertices of the mesh by which the time of a line is estimated
 PARTS = ("connectivity", "partition", "order", "coefficients", "framing")
 
 
@@ -225,13 +226,23 @@ def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int
 
 
 def run_curve(
-    curve: Curve, mesh: TriangleMesh, name: str, repeats: int = 1, progress: Callable[[int, int], None] | None = None
+    curve: Curve,
+    mesh: TriangleMesh,
+    name: str,
+    repeats: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+    note: Callable[[str], None] | None = None,
 ) -> Result:
+    """Measure a curve; before that, note about how long it will take."""
     mesh = mesh.without_isolated_vertices()[0]
     reference = Reference(mesh.positions, mesh.faces)
     # Loads the compiled kernels, so that no time contains that.
-    sample = knot(1_000)
-    measure(curve.codecs[0], sample, Reference(sample.positions, sample.faces))
+    sample = knot(SAMPLE)
+    timed_on = measure(curve.codecs[0], sample, Reference(sample.positions, sample.faces), 2)
+    if note:
+        seconds = timed_on["encode_seconds"] + timed_on["decode_seconds"]
+        expected = seconds * repeats * len(curve.codecs) * max(1.0, len(mesh.positions) / SAMPLE)
+        note(f"{name}, {curve.label}: about {max(expected, 1.0):.2g} s")
     points = []
     for codec in curve.codecs:
         points.append(measure(codec, mesh, reference, repeats))
@@ -442,6 +453,7 @@ def table_of(result: dict[str, Any]) -> tuple[Sequence[str], Sequence[Sequence[s
 
 
 FORMATS = ("png", "svg")
+PICTURES = (*FORMATS, "pdf")
 PAPER_RATE = "bits per vertex of coefficients, 3 q c k / n"
 MEASURES = {"nmsve_db": "NMSVE, dB", "theta_deg": "θ, degrees"}
 TICKS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
@@ -484,7 +496,9 @@ class Picture(NamedTuple):
     width: float
     height: float
 
-    def save(self, folder: Path, formats: Sequence[str] = FORMATS) -> list[Path]:
+    def save(
+        self, folder: Path, formats: Sequence[str] = FORMATS, *, overwrite: bool = True, follow: bool = False
+    ) -> list[Path]:
         from matplotlib import rc_context
 
         folder.mkdir(parents=True, exist_ok=True)
@@ -493,9 +507,20 @@ class Picture(NamedTuple):
             figure = new_figure(self.width, self.height)
             self.draw(figure)
             for path in paths:
-                with open_output(path, overwrite=True, follow=False) as file:
-                    figure.savefig(file, dpi=300, format=path.suffix[1:])
+                with open_output(path, overwrite=overwrite, follow=follow) as file:
+                    figure.savefig(file, dpi=300, format=path.suffix[1:].lower())
         return paths
+
+
+def in_a_row(name: str, pictures: Sequence[Picture]) -> Picture:
+    """Pictures as one, side by side."""
+
+    def draw(figure: Any) -> None:
+        parts = figure.subfigures(1, len(pictures), width_ratios=[picture.width for picture in pictures], squeeze=False)
+        for part, picture in zip(parts.flat, pictures):
+            picture.draw(part)
+
+    return Picture(name, draw, sum(p.width for p in pictures), max(p.height for p in pictures))
 
 
 def draw_rates(panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str, name: str) -> Picture:
