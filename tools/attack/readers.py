@@ -19,10 +19,11 @@ import struct
 import sys
 import tempfile
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -440,21 +441,44 @@ def _zip(entries: dict[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-def three_mf(resources: str, items: str) -> bytes:
-    """A 3MF archive with a triangle as object 0, and what else is given."""
+def three_mf(resources: str, items: str, parts: Mapping[str, str] = MappingProxyType({})) -> bytes:
+    """A 3MF archive with a triangle as object 0, and what else is given, in part files, too.
+
+    In the files, numbers begin with 1.
+    """
     triangle = (
         '<object id="0"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>'
         '<vertex x="0" y="1" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>'
     )
-    model = (
-        '<?xml version="1.0"?><model unit="millimeter" '
-        'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">'
-        f"<resources>{triangle}{resources}</resources><build>{items}</build></model>"
+    core = "http://schemas.microsoft.com/3dmanufacturing"
+
+    def model(resources: str, items: str) -> bytes:
+        text = (
+            f'<?xml version="1.0"?><model unit="millimeter" xmlns="{core}/core/2015/02" '
+            f'xmlns:m="{core}/material/2015/02" xmlns:p="{core}/production/2015/06">'
+            f"<resources>{resources}</resources><build>{items}</build></model>"
+        )
+        return re.sub(
+            r'(id|index)="(\d+)"', lambda found: f'{found[1]}="{int(found[2]) + (found[1] == "id")}"', text
+        ).encode()
+
+    def related(names: list[str]) -> bytes:
+        links = (f'<Relationship Target="/{n}" Id="r{i}" Type="{core}/2013/01/3dmodel"/>' for i, n in enumerate(names))
+        return f'<Relationships xmlns="{place}/relationships">{"".join(links)}</Relationships>'.encode()
+
+    place, main = "http://schemas.openxmlformats.org/package/2006", "3D/3dmodel.model"
+    kinds = {"model": "ms-package.3dmanufacturing-3dmodel", "rels": "openxmlformats-package.relationships"}
+    types = (f'<Default Extension="{end}" ContentType="application/vnd.{k}+xml"/>' for end, k in kinds.items())
+    others = {f"3D/Objects/{name}.model": model(text, "") for name, text in parts.items()}
+    return _zip(
+        {
+            "[Content_Types].xml": f'<Types xmlns="{place}/content-types">{"".join(types)}</Types>'.encode(),
+            "_rels/.rels": related([main]),
+            main: model(triangle + resources, items),
+            **({"3D/_rels/3dmodel.model.rels": related([*others])} if others else {}),
+            **others,
+        }
     )
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("3D/3dmodel.model", model)
-    return buffer.getvalue()
 
 
 def chained_objects(count: int) -> str:

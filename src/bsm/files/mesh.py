@@ -95,11 +95,13 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
     polygons: Polygons
+    if data.startswith(b"PK\x03\x04") and kind not in MESH_FORMATS:
+        require_archive(data, limits)
     if kind == "dae":
         polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
+    elif kind == "3mf":
+        polygons = by_name("bsm.files.formats.three_mf", "read_3mf")(data, limits)
     elif kind not in MESH_FORMATS:
-        if data.startswith(b"PK\x03\x04"):
-            require_archive(data, limits)
         polygons = by_name("bsm.files.formats.with_trimesh", "read_with_trimesh")(data, path, kind, limits)
     elif kind not in _PLAIN:
         polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)

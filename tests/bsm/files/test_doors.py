@@ -536,15 +536,41 @@ def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
     assert found[1].tolist() == [[0, 0], [1, 1], [0, 0]] and not found[0].any()
 
 
-def test_a_3mf_file_names_its_colors_and_one_without_a_build_says_so(tmp_path):
-    pytest.importorskip("lxml")
-    more = '<basematerials id="9"/><m:colorgroup id="8" xmlns:m="m"/><object'
-    objects = chained_objects(1).replace("<object", more, 1)
-    (tmp_path / "a.3mf").write_bytes(three_mf(objects, '<item objectid="1"/>'))
-    assert "left out: materials, colors" in read_mesh(tmp_path / "a.3mf").notes
-    (tmp_path / "a.3mf").write_bytes(three_mf(chained_objects(1), ""))
+def test_a_3mf_file_has_colors_materials_and_an_error_where_its_build_is_empty(tmp_path):
+    pytest.importorskip("lib3mf")
+    base = '<basematerials id="9"><base name="oak" displaycolor="#FF000080"/></basematerials>'
+    shades = '<m:colorgroup id="8"><m:color color="#00FF0080"/><m:color color="#0000FF"/></m:colorgroup>'
+    painted = chained_objects(0) + base + shades + box_3mf(1, 'pid="9" pindex="0"', 'pid="8" p1="0" p2="1" p3="1"')
+    mesh = read_mesh(three_mf(painted, '<item objectid="1"/>'), "3mf").mesh
+    color = attribute(mesh, "color")
+    assert color.values[color.indices][:2].tolist() == [[[255] * 4] * 3, [[0, 255, 0, 128], *[[0, 0, 255, 255]] * 2]]
+    assert mesh.metadata["material.0.name"] == "oak" and mesh.metadata["material.0.Kd"] == "1 0 0"
+    assert mesh.metadata["material.0.d"] == "0.501961" and (mesh.metadata["up"], mesh.metadata["unit"]) == (
+        "z",
+        "millimeter",
+    )
     with pytest.raises(MeshError, match="its build has no item"):
-        read_mesh(tmp_path / "a.3mf")
+        read_mesh(three_mf(chained_objects(1), ""), "3mf")
+
+
+def box_3mf(number, of_object="", of_second=""):
+    """An object of two triangles, with properties of itself and of its second triangle."""
+    corners = "".join(f'<vertex x="{x}" y="{y}" z="0"/>' for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    faces = f'<triangle v1="0" v2="1" v3="2"/><triangle v1="0" v2="2" v3="3" {of_second}/>'
+    mesh = f"<mesh><vertices>{corners}</vertices><triangles>{faces}</triangles></mesh>"
+    return f'<object id="{number}" {of_object}>{mesh}</object>'
+
+
+def test_components_of_part_files_are_the_objects_that_they_name():
+    pytest.importorskip("lib3mf")
+    inside = '<component objectid="{}" p:path="/3D/Objects/{}.model" transform="{} 0 0 0 1 0 0 0 1 0 0 0"/>'.format
+    root = f'<object id="7"><components>{inside(1, "a", 1)}{inside(2, "a", 2)}{inside(1, "b", 4)}</components></object>'
+    nested = '<object id="9"><components><component objectid="1"/><component objectid="1"/></components></object>'
+    parts = {"a": box_3mf(1) + box_3mf(2) + nested, "b": box_3mf(1)}
+    items = '<item objectid="7"/><item objectid="9" p:path="/3D/Objects/a.model"/>'
+    corners = (mesh := read_mesh(three_mf(root, items, parts), "3mf").mesh).positions[mesh.faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    assert areas.sum() == 1 + 2 + 4 + 1 + 1
 
 
 def test_what_a_ply_has_twice_or_for_some_faces_only():

@@ -304,7 +304,7 @@ def test_numbers_of_an_stl():
 @pytest.mark.parametrize("kind", ["dae", "3mf", "glb"])
 def test_what_trimesh_tells(kind):
     trimesh = pytest.importorskip("trimesh")
-    for needed in {"3mf": ("networkx", "lxml"), "dae": ("collada",)}.get(kind, ()):
+    for needed in {"3mf": ("networkx", "lxml", "lib3mf"), "dae": ("collada",)}.get(kind, ()):
         pytest.importorskip(needed)
     box = trimesh.creation.box()
     box.visual = trimesh.visual.ColorVisuals(box, vertex_colors=np.arange(32, dtype=np.uint8).reshape(8, 4))
@@ -313,7 +313,7 @@ def test_what_trimesh_tells(kind):
     held = {attribute.name for attribute in source.mesh.attributes}
     assert ("color" in held) == (kind in ("dae", "glb"))
     assert source.mesh.metadata.get("unit") == {"dae": "meters", "glb": "meters", "3mf": "millimeter"}.get(kind)
-    assert source.mesh.metadata.get("up") == {"dae": "y", "glb": "y"}.get(kind)
+    assert source.mesh.metadata.get("up") == {"dae": "y", "glb": "y", "3mf": "z"}.get(kind)
 
 
 # ---------------------------------------------------------------------------------------------------- there and back

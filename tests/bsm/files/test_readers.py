@@ -99,7 +99,7 @@ def test_limits_hold_before_parts_are_joined(trimesh, tmp_path):
 
 @pytest.mark.parametrize("kind", ["glb", "3mf", "dae"])
 def test_formats_that_trimesh_writes(trimesh, kind, tmp_path):
-    for needed in {"3mf": ("networkx", "lxml"), "dae": ("collada",)}.get(kind, ()):
+    for needed in {"3mf": ("networkx", "lxml", "lib3mf"), "dae": ("collada",)}.get(kind, ()):
         pytest.importorskip(needed)
     trimesh.Trimesh(*torus_arrays(), process=False).export(tmp_path / f"a.{kind}")
     assert open_sequence(tmp_path / f"a.{kind}") is None, "a 3MF is a ZIP, as an npz is"

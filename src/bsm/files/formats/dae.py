@@ -14,8 +14,17 @@ from bsm.bitstream.errors import BsmError, FormatError, LimitError, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
-from bsm.files.formats.placed import BYTES_OF_PART, FREE_PARTS, left_out_of
-from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts
+from bsm.files.formats.polygons import (
+    BYTES_OF_PART,
+    FREE_PARTS,
+    Array,
+    Column,
+    Part,
+    Polygons,
+    color_column,
+    compact,
+    joined_parts,
+)
 from bsm.files.room import Doubles
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
@@ -24,6 +33,11 @@ _COLORS = {"diffuse": "Kd", "ambient": "Ka", "specular": "Ks", "emission": "Ke"}
 _NUMBERS = {"shininess": "Ns", "index_of_refraction": "Ni"}
 _IMAGES = {"diffuse": "map_Kd", "ambient": "map_Ka", "specular": "map_Ks", "emission": "map_Ke", "bumpmap": "map_Bump"}
 """Properties of effects, and what libraries of OBJ call them."""
+_LEFT_OUT = {
+    "instance_controller": "skins and morphs with their meshes", "animation": "animations", "lines": "lines",
+    "linestrips": "lines", "instance_camera": "cameras", "instance_light": "lights",
+}  # fmt: skip
+"""Contents that are left out, by the tags."""
 
 
 def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
@@ -45,7 +59,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
             metadata["unit"] = f"{about.unitmeter} * meters" if about.unitmeter not in (None, 1.0) else "meters"
             metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
             errors = [f"unreadable elements ({error.msg[:80]})" for error in document.errors[:_MOST_ERRORS]]
-            dropped = (*left_out_of(tags), *errors, *scene.absent)
+            dropped = (*dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT), *errors, *scene.absent)
             return replace(found, metadata={**metadata, **found.metadata}, dropped=dropped)
     except (BsmError, MemoryError):
         raise

@@ -175,6 +175,7 @@ CROSSING = "polygons whose sides cross, so that their triangles overlap"
 _MOST_TURNS = 16  # fans that are tried for a polygon
 _MOST_CORNERS = 1 << 15  # of a polygon whose ears are clipped: that can take the square of it
 PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24  # bytes of a triangle, of one that a polygon is cut into, of a corner
+FREE_PARTS, BYTES_OF_PART = 4096, 8  # placed parts that any file may have, and bytes for each further one
 PER_JOINED, PER_PART = 200, 2000  # bytes that parts take while they are joined: of each triangle of a table, and a part
 
 

@@ -1,4 +1,4 @@
-"""3MF and whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
+"""Whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
 
 import importlib.util
 import io
@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, MeshError, how_to_install, imported
+from bsm.bitstream.errors import BsmError, FormatError, how_to_install, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image
-from bsm.files.formats.placed import placed_triangles
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
 from bsm.files.room import Doubles
 
@@ -38,16 +37,13 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         raise FormatError(f".{kind} files contain files: unpack it, and read its contents")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
     if kind not in trimesh.available_formats():
-        complete = all(map(importlib.util.find_spec, ("lxml", "networkx", "collada")))
-        more = "" if complete else f" (trimesh reads 3MF, DAE and others after: {how_to_install('formats')})"
+        complete = all(map(importlib.util.find_spec, ("lib3mf", "collada")))
+        more = "" if complete else f" (3MF, DAE and others are read after: {how_to_install('formats')})"
         raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}; {_WAY}")
     try:
         with np.errstate(all="ignore"):  # a later check refuses infinite values
-            expected, left_out = placed_triangles(data, limits) if kind == "3mf" else (None, ())
             scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
             found = joined(scene, limits, len(data))
-        if expected not in (None, len(found.sizes)):
-            raise MeshError(f"trimesh gives {len(found.sizes)} of the {expected} triangles that this 3MF file places")
     except (BsmError, MemoryError):
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
@@ -55,7 +51,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     metadata = dict(found.metadata)
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file
-    return replace(found, metadata=metadata, dropped=(*found.dropped, *left_out))
+    return replace(found, metadata=metadata)
 
 
 def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:

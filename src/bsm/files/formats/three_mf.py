@@ -1,0 +1,272 @@
+"""3MF, read with lib3mf, the library of the 3MF Consortium: its objects where the build places them, as one mesh."""
+
+import ctypes
+import io
+import zipfile
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from graphlib import CycleError, TopologicalSorter
+from typing import IO, Any, Literal
+from xml.parsers import expat
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError, LimitError, MeshError, imported
+from bsm.bitstream.limits import Limits
+from bsm.files.formats.metadata import Material, Value, described, kind_of_image
+from bsm.files.formats.polygons import BYTES_OF_PART, FREE_PARTS, Array, Column, Part, Polygons, joined_parts
+from bsm.files.room import Doubles, Ints, require_count
+
+_UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
+_OTHERS = {"Composite": "composite materials", "Multi": "layers of materials"}
+_UUID, _MOST_WARNINGS = 32944, 4  # a warning of each file by most slicers; warnings that notes name
+_MOST, _PIECE, _DEEPEST = 1 << 62, 1 << 16, 1000
+_Painted = Literal["color", "texcoord"]
+_Key = tuple[str, str]  # a file and an object in it
+_ROOT: _Key = ("", "")
+
+
+def read_3mf(data: bytes, limits: Limits) -> Polygons:
+    library = imported("lib3mf", "3MF is read with lib3mf", "formats")
+    require_placeable(data, limits)
+    model = library.get_wrapper().CreateModel()
+    reader = model.QueryReader("3mf")
+    try:
+        _call(
+            reader,
+            "reader_readfrombuffer",
+            ctypes.c_uint64(len(data)),
+            ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8)),
+        )
+        return _Model(library, model, limits).joined(reader, len(data))
+    except library.ELib3MFException as error:
+        raise FormatError(f"lib3mf cannot read this 3MF file: {str(error)[:200]}") from error
+
+
+class _Uses:
+    """The contents of the XML files of an archive: the vertices and triangles of each object, and which uses which."""
+
+    def __init__(self) -> None:
+        self.size: defaultdict[_Key, list[int]] = defaultdict(lambda: [0, 0, 1])
+        self.uses: defaultdict[_Key, Counter[_Key]] = defaultdict(Counter)
+        self._file, self._object = "", ("", "")
+
+    def read(self, name: str, file: IO[bytes]) -> None:
+        parser = expat.ParserCreate(namespace_separator=" ")
+        parser.StartElementHandler = self._begin
+        parser.StartDoctypeDeclHandler = self._refuse
+        self._file = name.strip("/")
+        try:
+            while piece := file.read(_PIECE):
+                parser.Parse(piece)
+            parser.Parse(b"", True)
+        except (expat.ExpatError, LookupError, ValueError) as error:
+            raise FormatError(f"this is not a 3MF file: its XML is broken: {error}") from error
+
+    def _refuse(self, *_: object) -> None:
+        raise FormatError("a 3MF file has no DOCTYPE")
+
+    def _begin(self, name: str, attrs: Mapping[str, str]) -> None:
+        match name.rpartition(" ")[2]:
+            case "object":
+                self._object = (self._file, attrs.get("id", ""))
+            case "vertex" | "triangle" as what:
+                self.size[self._object][what == "triangle"] += 1
+            case "component" | "item" as what:
+                path = next((path for key, path in attrs.items() if key.endswith(" path")), self._file).strip("/")
+                self.uses[self._object if what == "component" else _ROOT][path, attrs.get("objectid", "")] += 1
+
+
+def require_placeable(data: bytes, limits: Limits) -> None:
+    """Raise `LimitError` if a 3MF file places too much: lib3mf follows each component as often as it is used."""
+    found = _Uses()
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        for name in archive.namelist():
+            if name.lower().endswith(".model"):
+                with archive.open(name) as file:
+                    found.read(name, file)
+    if not found.uses[_ROOT]:
+        raise MeshError("this 3MF file places no object: its build has no item")
+    totals: dict[_Key, list[int]] = {}
+    depths: dict[_Key, int] = {}
+    try:
+        for key in TopologicalSorter(found.uses).static_order():
+            depths[key] = 1 + max((depths[other] for other in found.uses[key]), default=0)
+            used = [(times, totals[other]) for other, times in found.uses[key].items()]
+            totals[key] = [min(_MOST, n + sum(t * o[i] for t, o in used)) for i, n in enumerate(found.size[key])]
+    except CycleError:
+        raise MeshError("an object of this 3MF file is a component of itself") from None
+    vertices, triangles, parts = totals[_ROOT]
+    require_count("vertices", vertices, limits)
+    require_count("faces", triangles, limits)
+    if depths[_ROOT] > _DEEPEST:
+        raise LimitError(f"components of this 3MF file are nested {depths[_ROOT]} deep; the limit is {_DEEPEST}")
+    if parts > (most := FREE_PARTS + len(data) // BYTES_OF_PART):
+        raise LimitError(f"this 3MF file places {parts:,} parts, over the limit of {most:,} for its bytes")
+
+
+def _call(owner: Any, name: str, *arguments: Any) -> None:
+    """Call lib3mf without the lists of its binding, which take a hundred times the memory of an array."""
+    owner._wrapper.checkError(owner, getattr(owner._wrapper.lib, f"lib3mf_{name}")(owner._handle, *arguments))
+
+
+def _table(owner: Any, name: str, kind: Any) -> Array:
+    needed = ctypes.c_uint64(0)
+    _call(owner, name, ctypes.c_uint64(0), needed, None)
+    table = (kind * needed.value)()
+    _call(owner, name, needed, needed, table)
+    return np.frombuffer(table, np.dtype(kind))
+
+
+def _items(found: Any) -> Iterator[Any]:
+    while found.MoveNext():
+        yield found.GetCurrent()
+
+
+class _Model:
+    """The objects of a model by their numbers, and what their triangles refer to."""
+
+    def __init__(self, library: Any, model: Any, limits: Limits) -> None:
+        self._library, self._model, self._limits = library, model, limits
+        self._objects = {item.GetUniqueResourceID(): item for item in _items(model.GetObjects())}
+        self._uses: dict[int, list[tuple[int, Any]]] = {
+            number: [
+                ((part := item.GetComponent(i)).GetObjectResource().GetUniqueResourceID(), part.GetTransform())
+                for i in range(item.GetComponentCount() if item.IsComponentsObject() else 0)
+            ]
+            for number, item in self._objects.items()
+        }
+        self._made: dict[int, Part] = {}
+        self._materials: dict[tuple[int, int], int] = {}
+        self._words: dict[int, Material] = {}
+        self._images: dict[str, Value] = {}
+        self._left: dict[str, None] = {}
+
+    def joined(self, reader: Any, size: int) -> Polygons:
+        placed = [
+            (item.GetObjectResource().GetUniqueResourceID(), item) for item in _items(self._model.GetBuildItems())
+        ]
+        shown = [
+            (number, matrix, name)
+            for root, item in placed
+            for number, matrix, name in self._below(root, _matrix(item.GetObjectTransform()))
+        ]
+        meshes = (self._objects[number] for number, *_ in shown)
+        counts = [(mesh.GetVertexCount(), mesh.GetTriangleCount()) for mesh in meshes]
+        parts = (self._part(number, name).placed(matrix) for number, matrix, name in shown)
+        found = joined_parts(parts, counts, self._limits, size)
+        metadata: dict[str, Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())], **self._about()}
+        known = any(self._words.values())
+        metadata |= {**(described(self._words) if known else {}), **self._images, **found.metadata}
+        warned = dict(reader.GetWarning(i) for i in range(reader.GetWarningCount()))
+        notes = [f"lib3mf warns: {text}" for code, text in warned.items() if code != _UUID][:_MOST_WARNINGS]
+        return replace(found, notes=(*found.notes, *notes), dropped=tuple(self._left), metadata=metadata)
+
+    def _below(self, root: int, matrix: Doubles) -> Iterator[tuple[int, Doubles, str]]:
+        """The meshes of an object, each with its place and its name."""
+        waiting = [(root, matrix, "")]
+        while waiting:
+            number, matrix, above = waiting.pop()
+            item = self._objects[number]
+            name = str(item.GetName()) or above
+            if item.IsMeshObject():
+                yield number, matrix, name
+            elif item.IsComponentsObject():
+                below = [(used, matrix @ _matrix(moved), name) for used, moved in self._uses[number]]
+                waiting += reversed(below)
+            else:
+                self._left["objects that are not meshes (level sets)"] = None
+
+    def _part(self, number: int, name: str) -> Part:
+        if number not in self._made:
+            item, kinds = self._objects[number], self._library
+            points = _table(item, "meshobject_getvertices", kinds.Position)["Coordinates"].astype(np.float64)
+            corners = _table(item, "meshobject_gettriangleindices", kinds.Triangle)["Indices"].astype(np.int64)
+            if item.BeamLattice().GetBeamCount():
+                self._left["beams"] = None
+            if item.HasSlices(False):
+                self._left["slices"] = None
+            columns, materials = self._painted(item, len(corners))
+            sizes = np.full(len(corners), 3)
+            self._made[number] = Part(points, sizes, corners.reshape(-1), columns, materials, "")
+        made = self._made[number]
+        return Part(made.positions, made.sizes, made.corners, made.columns, made.materials, name)
+
+    def _painted(self, item: Any, count: int) -> tuple[list[Column], Ints]:
+        """The colors and texture coordinates of the corners of an object, and the materials of its triangles."""
+        given = _table(item, "meshobject_getalltriangleproperties", self._library.TriangleProperties)
+        owners, places = given["ResourceID"].astype(np.int64), given["PropertyIDs"].astype(np.int64)
+        usual, its, has = item.GetObjectLevelProperty()
+        if has:
+            places = np.where((owners == 0)[:, None], its, places)
+            owners = np.where(owners == 0, usual, owners)
+        materials = np.full(count, self._number((0, 0), {}) if (owners == 0).any() or not len(owners) else 0)
+        tables: dict[_Painted, tuple[Array, Ints]] = {}
+        name: _Painted
+        for owner in filter(None, np.unique(owners).tolist()):
+            rows = np.flatnonzero(owners == owner)
+            used, where = np.unique(places[rows], return_inverse=True)
+            kind = self._model.GetPropertyTypeByID(owner).name
+            if kind == "BaseMaterial":
+                group = self._model.GetBaseMaterialGroupByID(owner)
+                numbers = [self._number((owner, p), _material(group, p)) for p in used.tolist()]
+                materials[rows] = np.array(numbers)[where.reshape(-1, 3)[:, 0]]
+                continue
+            if kind in _OTHERS or kind == "NoPropertyType":
+                self._left[_OTHERS.get(kind, "properties of triangles")] = None
+                materials[rows] = self._number((0, 0), {})
+                continue
+            if kind == "Colors":
+                group = self._model.GetColorGroupByID(owner)
+                values: Array = np.array([bytes(group.GetColor(p)) for p in used.tolist()])
+                values, name, blank = values.view(np.uint8).reshape(-1, 4), "color", np.full((1, 4), 255, np.uint8)
+                materials[rows] = self._number((0, 0), {})
+            else:
+                group = self._model.GetTexture2DGroupByID(owner)
+                coordinates = [group.GetTex2Coord(p) for p in used.tolist()]
+                values = np.array([(at.U, at.V) for at in coordinates], np.float32).reshape(-1, 2)
+                name, blank = "texcoord", np.zeros((1, 2), np.float32)
+                materials[rows] = self._textured(owner, group)
+            table, indices = tables.get(name, (blank, np.zeros((count, 3), np.int64)))
+            indices[rows] = len(table) + where.reshape(-1, 3)
+            tables[name] = np.concatenate([table, values]), indices
+        columns = [Column(name, table, "corner", name, at.reshape(-1)) for name, (table, at) in tables.items()]
+        return columns, materials
+
+    def _number(self, key: tuple[int, int], words: Material) -> int:
+        number = self._materials.setdefault(key, len(self._materials))
+        self._words.setdefault(number, words)
+        return number
+
+    def _textured(self, owner: int, group: Any) -> int:
+        """The material of a texture, with its image; the library hands over the image as a list."""
+        if (owner, -1) in self._materials:
+            return self._materials[owner, -1]
+        attachment = group.GetTexture2D().GetAttachment()
+        data = _table(attachment, "attachment_writetobuffer", ctypes.c_uint8).tobytes()
+        if kind_of_image(data) is None:
+            self._left["a texture that is not an image"] = None
+            return self._number((owner, -1), {})
+        image = len(self._images) // 2
+        name = str(attachment.GetPath()).rpartition("/")[2]
+        self._images |= {f"image.{image}.name": name, f"image.{image}.data": data}
+        return self._number((owner, -1), {"name": name, "map_Kd": image})
+
+    def _about(self) -> dict[str, Value]:
+        group = self._model.GetMetaDataGroup()
+        entries = (group.GetMetaData(i) for i in range(group.GetMetaDataCount()))
+        return {str(entry.GetName()): str(entry.GetValue()) for entry in entries}
+
+
+def _material(group: Any, place: int) -> Material:
+    color = group.GetDisplayColor(place)
+    shares = [f"{byte / 255:.6g}" for byte in (color.Red, color.Green, color.Blue, color.Alpha)]
+    opacity: Material = {"d": shares[3]} if color.Alpha < 255 else {}
+    return {"name": str(group.GetName(place)), "Kd": " ".join(shares[:3]), **opacity}
+
+
+def _matrix(transform: Any) -> Doubles:
+    matrix = np.eye(4)
+    matrix[:3] = np.frombuffer(bytes(transform), np.float32).reshape(4, 3).T
+    return matrix
