@@ -30,9 +30,11 @@ class Comparison:
     Attributes
     ----------
     nmsve : float
-        Normalized mean square visual error, see `Reference.nmsve`.
+        Normalized mean square visual error over the original's bounding-box diagonal, so that no unit matters.
     nmsve_db : float
         ``10 * log10(nmsve)``; minus infinity if the meshes are equal.
+    nmsve_paper_db : float
+        The same as the paper prints it, not divided: ``10 * log10(nmsve * diagonal)``. It depends on the unit.
     theta_deg : float
         Mean angle between corresponding face normals, degrees, see `theta`.
     angle_deg : float
@@ -52,6 +54,7 @@ class Comparison:
 
     nmsve: float
     nmsve_db: float
+    nmsve_paper_db: float
     theta_deg: float
     angle_deg: float
     rms: float
@@ -79,7 +82,10 @@ class Reference:
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
     def nmsve(self, decoded: Positions) -> float:
-        """Normalized mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos, Moustakas."""
+        """Normalized mean square visual error: the formula of the paper's section 8, divided by `scale`, the diagonal.
+
+        Its norms are not squared, as printed there. `nmsve * scale` is the paper's number, in the unit of the mesh.
+        """
         decoded = self._checked(decoded)
         detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbors))
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
@@ -112,6 +118,7 @@ class Reference:
         return Comparison(
             nmsve=visual,
             nmsve_db=decibel(visual),
+            nmsve_paper_db=decibel(visual * self.scale),
             theta_deg=self.theta(decoded),
             angle_deg=self.angle(decoded),
             rms=rms,

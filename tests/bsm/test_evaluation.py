@@ -20,13 +20,18 @@ from bsm.evaluation.curve import (
     STYLES,
     Curve,
     Draco,
+    Line,
     Spectral,
     bd_rate,
     compare_curves,
+    distinct,
+    draco_curve,
     draw_all,
+    expected_seconds,
     latex,
     measure,
     our_curve,
+    paper_curves,
     paper_options,
     points_of,
     rate_curve,
@@ -48,6 +53,7 @@ POINT_KEYS = {
     "bpv_geometry",
     "bpv_paper",
     "nmsve_db",
+    "nmsve_paper_db",
     "theta_deg",
     "rms_relative",
     "max_error_relative",
@@ -181,6 +187,20 @@ class TestPictures:
         names = {f"{stem}.{suffix}" for stem in ("m.paper", "m.nmsve", "m.theta") for suffix in ("png", "svg", "pdf")}
         assert {path.name for path in tmp_path.iterdir()} == names
 
+    def test_lines_that_lie_on_each_other_are_drawn_once(self):
+        points = [(1.0, -40.0), (2.0, -45.0)]
+        moved = [(rate, error + 0.001) for rate, error in points]
+        lines = {"oi-r1": Line("R", [(1.0, -39.0), (2.0, -44.0)]), "oi-r1-t2": Line("R twice", points)}
+        kept = distinct({**lines, "oi-r2": Line("R²", moved), "svd": Line("SVD", points[:1])})
+        assert list(kept) == ["oi-r1", "oi-r1-t2", "svd"] and kept["oi-r1-t2"] == Line("R twice = R²", points)
+
+    def test_the_exact_line_is_last_and_known_to_take_longest(self):
+        mesh = torus(30, 30)
+        seconds = {curve.name: expected_seconds(curve, mesh) for curve in (*paper_curves(150), draco_curve())}
+        *others, svd, draco = seconds.values()
+        assert list(seconds)[-2:] == ["svd", "draco"] and svd > 3 * max(others) and draco < min(others)
+        assert seconds["oi-r1"] < seconds["oi-r1-t2"] <= seconds["oi-r3"]
+
     def test_several_meshes_share_a_figure_a_legend_and_colors(self, results):
         figure = pytest.importorskip("matplotlib.figure", reason="needs matplotlib (extra eval)")
         seen = {}
@@ -217,6 +237,8 @@ class TestCommands:
         write_mesh(tmp_path / "torus.npz", torus(20, 20))
         folder = tmp_path / "out"
         words = ["curve", str(tmp_path / "torus.npz"), "-o", str(folder), "--codecs", "oi-r2,svd", "--blocks", "3"]
+        assert main(words) == 0
+        assert "torus, SVD: 5 points, some seconds" in capsys.readouterr().err
         assert main([*words, "-q", "--csv", "--latex", "--pdf"]) == 0
         made = {f"torus.{end}" for end in ("oi-r2.json", "svd.json", "paper.png", "paper.svg", "paper.pdf")}
         assert {path.name for path in folder.iterdir()} == made | {"points.csv", "points.tex"}

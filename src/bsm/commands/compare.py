@@ -54,8 +54,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 EXPLAINED = {
-    "nmsve": "normalized mean squared visual error; 0 is best",
+    "nmsve": "normalized mean squared visual error over the diagonal; 0 is best",
     "nmsve_db": "nmsve in decibels; lower is better",
+    "nmsve_paper_db": "the same as the paper prints it: not divided by the diagonal",
     "theta_deg": "mean angle between normals of faces, degrees",
     "angle_deg": "the same, weighted by area",
     "rms": "root mean square of vertex errors, in the unit of the mesh",

@@ -72,6 +72,8 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
     chosen = [(path, read_mesh(path).mesh.bare) for path in meshes]  # rates are those of the shape
     for path, mesh in chosen:
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
+            seconds = rates.expected_seconds(curve, mesh) * args.repeat
+            console.note(f"{Path(path).stem}, {curve.label}: {len(curve.codecs)} points, {_about(seconds)}")
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
                 result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress, console.note)
             rates.write_result(result, folder)
@@ -87,6 +89,16 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
     else:
         print(_words(tables))
     save(tables, rates.draw_all(results))
+
+
+def _about(seconds: float) -> str:
+    return (
+        "some seconds"
+        if seconds < 10
+        else f"about {seconds:.0f} s"
+        if seconds < 90
+        else f"about {seconds / 60:.0f} min"
+    )
 
 
 def _refuse_missing(codecs: str) -> None:
@@ -149,13 +161,19 @@ def _measured(results: Sequence[dict[str, Any]]) -> Table:
         target = point["settings"].get("target")
         return f"{result['codec']}, {target['value']:g}{_UNITS[target['kind']]}" if target else str(result["codec"])
 
-    digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "theta_deg": 2, "encode_seconds": 3, "decode_seconds": 3}
+    digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "nmsve_paper_db": 2, "theta_deg": 2}
+    digits |= {"encode_seconds": 3, "decode_seconds": 3}
     rows = [
-        (result["mesh"]["name"], setting(result, point), *(rates.number(point[name], n) for name, n in digits.items()))
+        (
+            result["mesh"]["name"],
+            setting(result, point),
+            *(rates.number(point.get(name), n) for name, n in digits.items()),
+        )
         for result in results
         for point in result["points"]
     ]
-    return ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "theta", "encode, s", "decode, s"), rows
+    columns = ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "as printed, dB", "theta")
+    return (*columns, "encode, s", "decode, s"), rows
 
 
 def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:

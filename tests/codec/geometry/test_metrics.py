@@ -53,6 +53,8 @@ def test_a_translation_costs_distance_and_no_detail() -> None:
     # ||v - v~|| = sqrt(4) * 0.5, no Laplacian difference, 2n = 8, unit diagonal.
     assert result.nmsve == pytest.approx(1.0 / 8 / math.sqrt(2))
     assert result.nmsve_db == pytest.approx(10 * math.log10(1.0 / 8 / math.sqrt(2)))
+    assert result.nmsve_paper_db == pytest.approx(10 * math.log10(1.0 / 8))
+    assert compare(7 * SQUARE, 7 * moved, TWO).nmsve_paper_db == pytest.approx(10 * math.log10(7.0 / 8))
 
 
 def test_the_laplacian_weighs_neighbors_by_inverse_distance() -> None:

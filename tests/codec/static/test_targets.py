@@ -28,7 +28,8 @@ class Model:
     @property
     def comparison(self):
         error = self.step**self.power
-        return Comparison(error, 10 * math.log10(error), 1e3 * error, 1e3 * error, error, error, error, error)
+        level = 10 * math.log10(error)
+        return Comparison(error, level, level, 1e3 * error, 1e3 * error, error, error, error, error)
 
 
 @given(st.floats(1e-5, 0.05), st.floats(0.3, 1.5), st.sampled_from(["nmsve_db", "theta_deg", "size"]))
