@@ -25,9 +25,7 @@ from bsm.evaluation.curve import (
     bd_rate,
     compare_curves,
     distinct,
-    draco_curve,
     draw_all,
-    expected_seconds,
     latex,
     measure,
     our_curve,
@@ -194,12 +192,8 @@ class TestPictures:
         kept = distinct({**lines, "oi-r2": Line("R²", moved), "svd": Line("SVD", points[:1])})
         assert list(kept) == ["oi-r1", "oi-r1-t2", "svd"] and kept["oi-r1-t2"] == Line("R twice = R²", points)
 
-    def test_the_exact_line_is_last_and_known_to_take_longest(self):
-        mesh = torus(30, 30)
-        seconds = {curve.name: expected_seconds(curve, mesh) for curve in (*paper_curves(150), draco_curve())}
-        *others, svd, draco = seconds.values()
-        assert list(seconds)[-2:] == ["svd", "draco"] and svd > 3 * max(others) and draco < min(others)
-        assert seconds["oi-r1"] < seconds["oi-r1-t2"] <= seconds["oi-r3"]
+    def test_the_exact_line_is_last(self):
+        assert [curve.name for curve in paper_curves(150)][-2:] == ["doi-r1", "svd"]
 
     def test_several_meshes_share_a_figure_a_legend_and_colors(self, results):
         figure = pytest.importorskip("matplotlib.figure", reason="needs matplotlib (extra eval)")
@@ -237,8 +231,6 @@ class TestCommands:
         write_mesh(tmp_path / "torus.npz", torus(20, 20))
         folder = tmp_path / "out"
         words = ["curve", str(tmp_path / "torus.npz"), "-o", str(folder), "--codecs", "oi-r2,svd", "--blocks", "3"]
-        assert main(words) == 0
-        assert "torus, SVD: 5 points, some seconds" in capsys.readouterr().err
         assert main([*words, "-q", "--csv", "--latex", "--pdf"]) == 0
         made = {f"torus.{end}" for end in ("oi-r2.json", "svd.json", "paper.png", "paper.svg", "paper.pdf")}
         assert {path.name for path in folder.iterdir()} == made | {"points.csv", "points.tex"}

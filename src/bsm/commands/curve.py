@@ -72,8 +72,6 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
     chosen = [(path, read_mesh(path).mesh.bare) for path in meshes]  # rates are those of the shape
     for path, mesh in chosen:
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
-            seconds = rates.expected_seconds(curve, mesh) * args.repeat
-            console.note(f"{Path(path).stem}, {curve.label}: {len(curve.codecs)} points, {_about(seconds)}")
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
                 result = rates.run_curve(curve, mesh, Path(path).stem, args.repeat, progress, console.note)
             rates.write_result(result, folder)
@@ -89,16 +87,6 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
     else:
         print(_words(tables))
     save(tables, rates.draw_all(results))
-
-
-def _about(seconds: float) -> str:
-    return (
-        "some seconds"
-        if seconds < 10
-        else f"about {seconds:.0f} s"
-        if seconds < 90
-        else f"about {seconds / 60:.0f} min"
-    )
 
 
 def _refuse_missing(codecs: str) -> None:

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -15,19 +15,14 @@ import numpy as np
 from bsm.bitstream.errors import CorruptError, MeshError, imported
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.basis.laplacian import Fronts, dictionary_cost, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import EXACT_ITERATIONS, EXACT_POWER
-from bsm.codec.blocks.overlap import block_size as grown_size
-from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import decode
-from bsm.codec.geometry.graph import canonical, graph_of_faces
+from bsm.codec.geometry.graph import canonical
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.geometry.welding import degenerate
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import compare_sequences
-from bsm.codec.static.choice.blocks import PAPER_FRACTION
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.targets import Target
@@ -212,36 +207,6 @@ def draco_curve() -> Curve:
 
 
 MEASURED = ("nmsve_db", "nmsve_paper_db", "theta_deg", "rms_relative", "max_error_relative")
-OUR_SECONDS, PAPER_SECONDS, DRACO_SECONDS = 1.2e-4, 5e-5, 5e-6
-"""For a vertex and a point, but for the dictionaries of the paper's lines."""
-PASSES = 7.0
-"""Encoding, its check and decoding make the dictionaries of a point four times; the estimate of one is too low."""
-
-
-def expected_seconds(curve: Curve, mesh: TriangleMesh) -> float:
-    """About how long a line takes on an idle core; dictionaries by the estimate of decoders for one block."""
-    total = 0.0
-    for codec in curve.codecs:
-        seconds = DRACO_SECONDS if isinstance(codec, Draco) else OUR_SECONDS
-        if isinstance(codec, Spectral) and codec.options.paper.bits:
-            options, paper = codec.options, codec.options.paper
-            alone = options.key_interval == 1
-            solutions = paper.power * (paper.key_iterations if alone else paper.iterations)
-            if alone and paper.exact_keys:
-                solutions = EXACT_POWER * EXACT_ITERATIONS
-            fronts = _fronts(mesh, options.block_size, options.growth)
-            width = round((options.keep or PAPER_FRACTION) * len(fronts.rows))
-            work = 1e-9 * dictionary_cost(fronts, width, solutions)
-            seconds = PAPER_SECONDS + PASSES * work / options.block_size
-        total += seconds * len(mesh.positions)
-    return total
-
-
-@lru_cache(1)
-def _fronts(mesh: TriangleMesh, block_size: int, growth: float) -> Fronts:
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
-    partition = derive_partition(graph, max(1, round(graph.size / block_size)))
-    return laplacian_of(grow_blocks(graph, partition, grown_size(partition, growth)).block(0)).fronts
 
 
 def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int = 1) -> Result:
