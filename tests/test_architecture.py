@@ -28,7 +28,7 @@ FLOORS = {
         ("api",),
         ("blender", "gltf", "research", "viewer"),
         ("tiles", "vtk"),
-        ("pyvista", "trimesh"),
+        ("openmesh", "pyvista", "trimesh"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),

@@ -19,6 +19,7 @@ from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import plain_fields, without_materials
+from bsm.files.formats.om import of_openmesh
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact, named_column
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.mesh import read_mesh
@@ -72,6 +73,8 @@ def _of_library(mesh: Any) -> MeshFile:
         return _of_arrays(*mesh)
     if hasattr(mesh, "visual") and hasattr(mesh, "vertex_attributes"):
         return polygons_of(mesh).checked(DEFAULT_LIMITS)
+    if hasattr(mesh, "fv_indices") and hasattr(mesh, "halfedge_to_vertex_indices"):
+        return of_openmesh(mesh).checked(DEFAULT_LIMITS)
     if hasattr(mesh, "graph") and hasattr(mesh, "geometry"):
         return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS)
     if hasattr(mesh, "cells") and hasattr(mesh, "cell_sets"):

@@ -1,4 +1,4 @@
-"""Mesh files: OBJ, OFF, PLY, STL, VTP and npz by our own readers and writers, everything else through trimesh.
+"""Mesh files: OBJ, OFF, PLY, STL, VTP and npz by our own readers and writers, .om by openmesh, the rest by trimesh.
 
 Coordinates are in double precision; vertices, faces and corners keep their order; all other data becomes attributes and
 metadata; notes name changes and losses. Files may be hostile: a file that declares more than it contains is refused
@@ -26,12 +26,13 @@ from bsm.files.room import gunzipped, plain_text, require_archive, require_count
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
-WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")  # what we write
+WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "om", "ply", "stl", "vtp")  # what we write, .om with openmesh
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 
 
 _ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
+_ROOMS["om"] = "bsm.files.formats.om"
 
 
 def by_name(module: str, function: str) -> Any:
@@ -101,6 +102,8 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
         polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
     elif kind == "3mf":
         polygons = by_name("bsm.files.formats.three_mf", "read_3mf")(data, limits)
+    elif kind == "om":
+        polygons = by_name(_ROOMS[kind], "read_om")(data, limits)
     elif kind not in MESH_FORMATS:
         polygons = by_name("bsm.files.formats.with_trimesh", "read_with_trimesh")(data, path, kind, limits)
     elif kind not in _PLAIN:

@@ -1,0 +1,142 @@
+"""OpenMesh: its meshes in memory, and .om files, which it reads and writes itself (the extra `openmesh`)."""
+
+import os
+import struct
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError, imported
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import split_by_attributes
+from bsm.files.formats.metadata import Written, first, left_out, rgba, shown_at_vertices
+from bsm.files.formats.polygons import Column, Polygons, color_column, compact
+from bsm.files.room import require_count
+
+_HEAD = struct.Struct("<2scBIII")  # OM, the kind of faces, the version, and how many vertices, faces and edges
+_ASKED = {"Vertex normals": "vertex_normal", "Vertex colors": "vertex_color", "Face colors": "face_color"}
+_ASKED |= {"Vertex texcoords": "vertex_tex_coord"}
+"""Arguments that ask openmesh for values, by the beginning of its message if a file has none."""
+
+
+def import_openmesh(what: str) -> Any:
+    return imported("openmesh", f"{what} with openmesh", "openmesh")
+
+
+def of_openmesh(mesh: Any) -> Polygons:
+    """A `TriMesh` or `PolyMesh` of openmesh with its normals, colors and texture coordinates."""
+    try:
+        table = np.asarray(mesh.fv_indices(), np.int64)
+    except RuntimeError as error:  # deleted elements leave gaps
+        raise MeshError(f"{str(error).rstrip('.')}: mesh.garbage_collection()") from error
+    if not table.size:
+        table = np.empty((0, 3), np.int64)
+    used, columns = table >= 0, list[Column]()
+    if mesh.has_vertex_normals():
+        columns.append(Column("normal", np.array(mesh.vertex_normals()), semantic="normal"))
+    if mesh.has_vertex_colors():
+        columns.append(color_column(np.array(mesh.vertex_colors()), "vertex"))
+    if mesh.has_face_colors():
+        columns.append(color_column(np.array(mesh.face_colors()), "face"))
+    if mesh.has_halfedge_texcoords2D():
+        halfedges, ends = np.asarray(mesh.fh_indices())[used], np.asarray(mesh.halfedge_to_vertex_indices())
+        if not np.array_equal(ends[halfedges], table[used]):
+            raise MeshError("the halfedges of this mesh are not in the order of its faces")
+        values = compact(np.array(mesh.halfedge_texcoords2D())[halfedges])
+        columns.append(Column("texcoord", values, "corner", "texcoord"))
+    elif mesh.has_vertex_texcoords2D():
+        columns.append(Column("texcoord", compact(np.array(mesh.vertex_texcoords2D())), semantic="texcoord"))
+    points = np.array(mesh.points(), np.float64).reshape(-1, 3)
+    return Polygons(points, used.sum(axis=1), table[used], columns=tuple(columns))
+
+
+def made_of(mesh: TriangleMesh) -> tuple[Any, tuple[str, ...]]:
+    """An `openmesh.TriMesh`, with vertices split where corners differ, and the names of its losses."""
+    openmesh = import_openmesh("such meshes are made")
+    mesh = split_by_attributes(mesh)
+    with _quiet():
+        made = openmesh.TriMesh(mesh.positions, mesh.faces)
+    if made.n_faces() != len(mesh.faces):
+        lost = len(mesh.faces) - made.n_faces()
+        raise MeshError(
+            f"openmesh cannot hold {lost} of {len(mesh.faces)} faces: more than two meet at an edge, or neighbors are "
+            "turned against each other; write another format"
+        )
+    normal, color, texcoord = shown_at_vertices(mesh)
+    of_faces = first(mesh, "color", (3, 4), "face")
+    if normal is not None:
+        made.request_vertex_normals()
+        made.vertex_normals()[:] = normal.values
+    if color is not None:
+        made.request_vertex_colors()
+        made.vertex_colors()[:] = rgba(color) / 255.0
+    if of_faces is not None:
+        made.request_face_colors()
+        made.face_colors()[:] = rgba(of_faces) / 255.0
+    if texcoord is not None:
+        made.request_vertex_texcoords2D()
+        made.vertex_texcoords2D()[:] = texcoord.values[:, :2]
+    return made, left_out(mesh, (normal, color, texcoord, of_faces), mesh.metadata)
+
+
+def read_om(data: bytes, limits: Limits = DEFAULT_LIMITS) -> Polygons:
+    openmesh = import_openmesh(".om files are read")
+    if len(data) < _HEAD.size or not data.startswith(b"OM"):
+        raise FormatError("this is not an .om file")
+    _, _, _, vertices, faces, _ = _HEAD.unpack_from(data)
+    require_count("vertices", vertices, limits)
+    require_count("faces", faces, limits)
+    if 12 * vertices + 3 * faces > len(data):
+        raise TruncatedError(f"{len(data)} bytes for {vertices} vertices and {faces} faces")
+    asked = dict(_ASKED)
+    with tempfile.TemporaryDirectory() as folder, _quiet():
+        path = Path(folder, "mesh.om")
+        path.write_bytes(data)
+        while True:
+            try:
+                mesh = openmesh.read_polymesh(str(path), **dict.fromkeys(asked.values(), True))
+                break
+            except RuntimeError as error:
+                absent = next((words for words in asked if str(error).startswith(words)), None)
+                if absent is None:
+                    raise FormatError("openmesh cannot read this file") from error
+                del asked[absent]
+    if (mesh.n_vertices(), mesh.n_faces()) != (vertices, faces):
+        raise CorruptError(
+            f"openmesh reads {mesh.n_vertices()} of {vertices} vertices and {mesh.n_faces()} of {faces} faces"
+        )
+    return of_openmesh(mesh)
+
+
+def write_om(mesh: TriangleMesh, _stem: str) -> Written:
+    made, lost = made_of(mesh)
+    held = {"vertex_normal": made.has_vertex_normals(), "vertex_color": made.has_vertex_colors()}
+    held |= {"face_color": made.has_face_colors(), "vertex_tex_coord": made.has_vertex_texcoords2D()}
+    with tempfile.TemporaryDirectory() as folder, _quiet():
+        path = Path(folder, "mesh.om")
+        import_openmesh(".om files are written").write_mesh(str(path), made, binary=True, color_alpha=True, **held)
+        return Written(path.read_bytes(), lost)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep openmesh, which prints a line for each edge that it refuses, from writing to the terminal."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    saved = {number: os.dup(number) for number in (1, 2)}
+    sink = os.open(os.devnull, os.O_WRONLY)
+    try:
+        for number in saved:
+            os.dup2(sink, number)
+        yield
+    finally:
+        for number, copy in saved.items():
+            os.dup2(copy, number)
+            os.close(copy)
+        os.close(sink)
