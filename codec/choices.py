@@ -4,6 +4,7 @@ import difflib
 import types
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
+from dataclasses import fields
 from numbers import Integral, Real
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
@@ -32,8 +33,9 @@ def check_options(
     options: Any, choices: Mapping[str, tuple[str, ...]], ranges: Mapping[str, tuple[float, float]]
 ) -> None:
     """Give the fields of a dataclass their types, and check those with choices or a closed range; None is legal."""
-    for name, hint in get_type_hints(type(options)).items():  # fields may have their annotations as text
-        value = checked(name, getattr(options, name), hint)
+    hints = get_type_hints(type(options))  # fields may have their annotations as text
+    for name in (item.name for item in fields(options)):
+        value = checked(name, getattr(options, name), hints[name])
         object.__setattr__(options, name, value)
         if value is None:
             continue

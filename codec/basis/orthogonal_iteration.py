@@ -113,21 +113,27 @@ class DynamicSize:
     """c_i of one block of a chain after the other."""
 
     def __init__(self, lowest: float, highest: float, first: int) -> None:
-        self._lowest, self._highest, self._size = lowest, highest, first
+        self._lowest, self.highest, self._size = lowest, highest, first
 
-    def follow(self, positions: Matrix, coefficients: Matrix) -> int:
-        """Return c_i for positions, shape (n, 3), and coefficients, shape (c, 3).
+    @property
+    def reach(self) -> int:
+        """Columns to try first: more than the predecessor's, as most blocks take hardly more."""
+        return self._size + self._size // 4 + 8
+
+    def follow(self, left: float, coefficients: Matrix) -> int | None:
+        """Return c_i for coefficients, shape (c, 3), and the squared error that they leave; None: they leave too much.
 
         From the predecessor's size, one column more while the error is over eps_h, one less while under eps_l.
         """
-        captured = np.concatenate([[0.0], np.cumsum(np.square(coefficients).sum(axis=1))])
-        norms = np.sqrt(np.maximum(float(np.square(positions).sum()) - captured, 0.0))
+        norms = np.sqrt(left + np.append(np.cumsum(np.square(coefficients).sum(axis=1)[::-1])[::-1], 0.0))
+        if norms[-1] > self.highest:
+            return None
         size = min(max(self._size, 1), len(coefficients))
-        if norms[size] > self._highest:
-            while size < len(coefficients) and norms[size] > self._highest:
+        if norms[size] > self.highest:
+            while norms[size] > self.highest:
                 size += 1
         else:
-            while size > 1 and norms[size] < self._lowest and norms[size - 1] <= self._highest:
+            while size > 1 and norms[size] < self._lowest and norms[size - 1] <= self.highest:
                 size -= 1
         self._size = size
         return size

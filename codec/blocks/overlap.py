@@ -66,7 +66,7 @@ def derive_partition(graph: Graph, parts: int) -> Partition:
 
 def metis_partition(graph: Graph, parts: int) -> Partition:
     """METIS k-way partition; its labels differ between builds, so a stream has to carry them."""
-    pymetis = imported("pymetis", "METIS is not installed", "denoise")
+    pymetis = imported("pymetis", "METIS, which cuts meshes into parts, is not installed", "paper")
     if parts == 1:
         return partition_of_labels(np.zeros(graph.size, np.int32))
     adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbors)

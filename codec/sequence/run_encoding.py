@@ -22,7 +22,7 @@ from bsm.codec.signal.transform import LARGEST_LEVEL, smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, blended, encode_blocks
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Sizing, blended, encode_blocks
 from bsm.codec.static.work import Kept, mesh_memory
 
 FIRST_STEP = 0.3
@@ -79,7 +79,9 @@ def encode_first_frame(
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
     width = max(1, round(options.keep * prepared.size))
     scheme = Scheme(prepared.blocks, replace(FIRST_FRAME, whole=width), Adaptive(width, single(step)))
-    blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, progress=progress)
+    blocks = encode_blocks(
+        scheme, prepared.positions, threads=options.threads, sizing=Sizing(scheme.coding.width), progress=progress
+    )
     header = Header(
         vertices=prepared.graph.size,
         faces=len(prepared.mesh.faces),

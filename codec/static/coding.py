@@ -12,8 +12,7 @@ from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Paper
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Integers, Matrix
-from bsm.codec.basis.orthogonal_iteration import DynamicSize
-from bsm.codec.blocks.overlap import Block, Blocks
+from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal import transform
 from bsm.codec.signal.chain import ChainRules
 
@@ -22,13 +21,8 @@ from bsm.codec.signal.chain import ChainRules
 class Ground:
     """What both sides know of a block before its levels: where its rows are expected, shape (n, 3), and U."""
 
-    block: Block
     prediction: Matrix
     dictionary: Basis
-
-    def coefficients(self, values: Matrix, width: int) -> Matrix:
-        """U^T of `values`, shape (n, ...), for at most `width` columns."""
-        return transform.project(self.dictionary, values, min(width, self.block.size))
 
     def add(self, coefficients: Matrix) -> Matrix:
         """The prediction, and U times coefficients, shape (c_i, 3)."""
@@ -47,8 +41,8 @@ class Packed:
     def begin(self) -> Packed:
         return self
 
-    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
-        return transform.quantize_packed(_offered(ground, wanted, self.width, sizes), self.step, self.coarser)
+    def choose(self, coefficients: Matrix, sized: bool) -> Integers:
+        return transform.quantize_packed(coefficients, self.step, self.coarser)
 
     def write(self, levels: Integers) -> bytes:
         return pack_coefficients(transform.levels_to_unsigned(levels, self.bits, self.coarser), self.bits)
@@ -74,26 +68,19 @@ class Adaptive:
     def begin(self) -> Adaptive:
         return replace(self)
 
-    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
-        offered = _offered(ground, wanted, self.width, sizes)
+    def choose(self, coefficients: Matrix, sized: bool) -> Integers:
         levels, rows = adaptive.choose_levels(
             self.model,
-            transform.targets(offered, self.step, adaptive.TARGET_UNIT, adaptive.MAX_LEVEL),
+            transform.targets(coefficients, self.step, adaptive.TARGET_UNIT, adaptive.MAX_LEVEL),
             transform.BIT_WORTH,
         )
-        return levels if sizes is not None else levels[:rows]
+        return levels if sized else levels[:rows]
 
     def write(self, levels: Integers) -> bytes:
         return adaptive.encode_coefficients(self.model, np.asarray(levels, np.int32))
 
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
         return transform.placed(ground.prediction, ground.dictionary, np.asarray(levels, np.int32), self.step)
-
-
-def _offered(ground: Ground, wanted: Matrix, width: int, sizes: DynamicSize | None) -> Matrix:
-    residual = wanted - ground.prediction
-    coefficients = ground.coefficients(residual, width)
-    return coefficients if sizes is None else coefficients[: sizes.follow(residual, coefficients)]
 
 
 KEY_SEEDS = ("cosines", "svd")  # where a block without predecessor begins

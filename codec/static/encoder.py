@@ -54,6 +54,8 @@ class Attempt:
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
+ONE_BLOCK = "the mesh fits in one block: its basis is exact, and no orthogonal iterations follow"
+
 
 @public
 class Encoder:
@@ -95,9 +97,10 @@ class Encoder:
     def notes(self) -> tuple[str, ...]:
         """Changes of the input, and the coding of attributes."""
         sent = {attribute.name for attribute, _ in self._input.wanted}
+        one = [ONE_BLOCK] if self.options.paper.bits is not None and self._input.prepared.blocks.count == 1 else []
         left = [attribute.name for attribute in self._input.given.attributes if attribute.name not in sent]
         notes = (*(p.note for p in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
-        return (*self._input.joined.notes, *notes, *self.losses[len(self._input.joined.losses) :])
+        return (*self._input.joined.notes, *notes, *one, *self.losses[len(self._input.joined.losses) :])
 
     @property
     def losses(self) -> tuple[str, ...]:

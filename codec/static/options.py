@@ -1,13 +1,14 @@
 """Options for encoding a mesh."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Mapping
+from dataclasses import InitVar, dataclass, fields, replace
+from functools import wraps
 from typing import Any
 
 from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.choices import check_options
+from bsm.codec.choices import check_options, named
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
 from bsm.codec.static.coding import KEY_SEEDS
 from bsm.codec.static.targets import TARGETS, Contract, Target
@@ -44,7 +45,7 @@ BALANCED = Contract(0.01, look=1.0, by_part=0.01)  # what is promised unless som
 @public
 @dataclass(frozen=True, kw_only=True)
 class Paper:
-    """Options of blocks for readers of the paper. The defaults are those of the product.
+    """Options of blocks for readers of the paper; the defaults are the product's, preset "paper" has the paper's.
 
     Parameters
     ----------
@@ -62,8 +63,8 @@ class Paper:
     predict : bool
         Predict coefficients from known vertices of overlapping blocks.
     doi : (float, float), optional
-        eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
-        error of each block.
+        eps_l and eps_h of dynamic orthogonal iterations (DOI), in units of the bounding box's diagonal: c_i follows the
+        error of each block, a Frobenius norm. A bound that cannot be met is an error.
 
     Raises
     ------
@@ -73,8 +74,8 @@ class Paper:
     Examples
     --------
     >>> import bsm
-    >>> options = bsm.EncodeOptions(paper=bsm.Paper(bits=12, partition="metis"), key_interval=1)
-    >>> bsm.encode("bunny.ply", options) == bsm.encode("bunny.ply", bits=12, partition="metis", key_interval=1)
+    >>> options = bsm.EncodeOptions(paper=bsm.Paper(power=2, iterations=2), key_interval=0)
+    >>> bsm.encode("bunny.ply", options) == bsm.encode("bunny.ply", power=2, iterations=2, key_interval=0)
     True
     """
 
@@ -106,9 +107,15 @@ class EncodeOptions:
 
     Parameters
     ----------
+    preset : str, optional
+        Take the other options from this preset (`PRESETS`), except those that are given. "paper" is the codec of the
+        paper: METIS parts, blocks 15 % larger, the exact basis of the first block, each other one by one orthogonal
+        iteration of R^2 from the block before it, 12 bits for each coefficient, c_i by dynamic orthogonal iterations.
+        A given `keep` or `coefficients` fixes c instead. A given `paper` replaces all of its options.
     keep : float, optional
         Largest size of the subspace, c, as a fraction of the block size n_d; None: as many
-        as are worth coding at the step, measured on a few blocks (a tenth with `paper.bits`, as in the paper).
+        as are worth coding at the step, measured on a few blocks (a tenth with `paper.bits`, as in the paper; any
+        with `paper.doi`).
     coefficients : int, optional
         c itself; overrides `keep`.
     block_size : int
@@ -169,8 +176,10 @@ class EncodeOptions:
     >>> import bsm
     >>> options = bsm.EncodeOptions(step=0.002, keep_order=True)
     >>> data = bsm.encode("bunny.ply", options)
+    >>> data = bsm.encode("bunny.ply", bsm.EncodeOptions(preset="paper", keep=0.1))
     """
 
+    preset: InitVar[str | None] = None
     keep: float | None = None
     coefficients: int | None = None
     block_size: int = 450
@@ -193,7 +202,7 @@ class EncodeOptions:
     limits: str = "default"
     threads: int | None = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, preset: str | None) -> None:
         check_options(self, CHOICES, RANGES)
         if self.target is not None:
             self.target._require_kind(TARGETS, "a mesh")
@@ -267,8 +276,26 @@ class EncodeOptions:
         return 0.0 if self.paper.bits is not None and self.smoothing is None else self.smoothing
 
 
+def _with_preset(made: Callable[..., None]) -> Callable[..., None]:
+    """An `__init__` that takes missing options from the preset."""
+
+    @wraps(made)
+    def begun(self: EncodeOptions, *, preset: str | None = None, **given: Any) -> None:
+        if preset is not None:
+            options = changed(named("preset", PRESETS, preset), **given)
+            given = {item.name: getattr(options, item.name) for item in fields(EncodeOptions)}
+        made(self, **given)
+
+    return begun
+
+
+EncodeOptions.__init__ = _with_preset(EncodeOptions.__init__)  # type: ignore[method-assign]
+
+
 def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
-    """The options with fields changed, those of `Paper` among them."""
+    """The options with fields changed, those of `Paper` among them; a given c replaces one that follows the error."""
+    if "doi" not in changes and (changes.get("keep") is not None or changes.get("coefficients") is not None):
+        changes["doi"] = None
     if "effort" in changes or "quick" in changes:
         quick = changes.get("quick", False)
         changes = {"quick": quick, "effort": "normal", **changes}
@@ -276,6 +303,10 @@ def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
     if of_paper:
         changes["paper"] = replace(changes.get("paper", options.paper), **of_paper)
     return replace(options, **changes)
+
+
+EPS_H = 0.07
+"""eps_h of preset "paper", of a block's Frobenius norm over the diagonal; eps_l is a tenth less."""
 
 
 LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "key_interval": 0}
@@ -294,7 +325,9 @@ PRESETS: dict[str, EncodeOptions] = {
     "grid14": EncodeOptions(grid=14),
     "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
     "none": EncodeOptions(block_size=1500, contract=None),
+    "paper": EncodeOptions(
+        paper=Paper(bits=12, partition="metis", power=2, doi=(0.9 * EPS_H, EPS_H)), key_interval=0, contract=None
+    ),
 }
-"""Names for what most users want, each a promise; "balanced" is the default, and "none" promises nothing but what is
-asked for beside it. Larger blocks are smaller files and slower
-to decode."""
+"""Names for what most users want, each a promise; "balanced" is the default, "none" promises nothing but what is
+asked for beside it, and "paper" is the codec of the paper. Larger blocks are smaller files and slower to decode."""

@@ -65,9 +65,9 @@ def encode(
         Called in this thread with the finished work and the total; the first number never falls. If it raises an
         exception, the work ends, the exception reaches the caller, and unfinished files are removed.
     **keywords
-        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none"),
-        bounds (`look`, `max_error`), one target (`theta`, `nmsve_db`, `bpv`, `size`), and fields of `EncodeOptions`
-        (`step`, `block_size`, `keep_order`, `threads`, ...).
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none",
+        "paper"), bounds (`look`, `max_error`), one target (`theta`, `nmsve_db`, `bpv`, `size`), and fields of
+        `EncodeOptions` (`step`, `block_size`, `keep_order`, `threads`, ...).
 
     Returns
     -------

@@ -39,6 +39,8 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
     if base.is_grid and (excluded := [*bounds, *grids, *coding]):
         raise OptionError(f"preset {preset} fixes all positions and cannot be combined with {' and '.join(excluded)}")
+    if base.sets_coding and (excluded := [*bounds, *grids]):
+        raise OptionError(f"preset {preset} fixes the coding and cannot be combined with {' and '.join(excluded)}")
     fixed = [*grids, *coding]
     excluded = [name for name in bounds if name in (*BOUNDS, "contract")]
     if grids and preset is not None and base.contract is not None:
@@ -79,7 +81,7 @@ def sequence_options(
     from bsm.codec.static.targets import Contract, Target
 
     name = "balanced" if preset is None else preset
-    if name in ("none", "lossless", "grid14"):
+    if name in ("none", "lossless", "grid14", "paper"):
         raise OptionError(f"a sequence cannot have preset {name}: GOPs round frames together; try near-lossless")
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, Target)

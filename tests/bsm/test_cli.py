@@ -71,6 +71,7 @@ def test_info_adds_up(folder, capsys, mesh):
         (["--quick"], "positions on a grid of ", "blocks"),
         (["--set", "step=0.004"], " blocks of ", "paper"),
         (["--set", "bits=12"], " by the paper's formula\n", "refinement"),
+        (["--preset", "paper"], "\npreset paper: R^2, iterations 1, 12 bits a coefficient, METIS", "refinement"),
     ],
 )
 def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, expected, absent):

@@ -32,7 +32,7 @@ from tests.streams import events_of
         (
             ["encode", "--preset", "fien", "a.ply"],
             "bsm encode: argument --preset: unknown value fien; did you mean fine? (small, balanced, fine, "
-            "near-lossless, grid14, lossless, none)",
+            "near-lossless, grid14, lossless, none, paper)",
         ),
         (["encode"], "bsm encode: the following arguments are required: IN"),
         (["encode", "a.ply", "-j", "-3"], "bsm encode: argument -j/--jobs: -3 is less than 0"),
@@ -152,6 +152,8 @@ def test_help_says_what_presets_promise():
             assert f"{options.grid} bits" in row
         elif options.exact:
             assert "single precision" in row
+        elif options.sets_coding:
+            assert "the codec of the paper" in row
         elif options.contract is None:
             assert "only the bounds and targets" in row
         else:

@@ -375,7 +375,7 @@ def basis(study: Study) -> Iterator[Row]:
             rows.append((f"{label}, {100 * keep:g} %", (svd["bpv_paper"], svd["nmsve_db"], *above), ()))
             for own, gap in zip(gaps.values(), above, strict=True):
                 own.append(gap)
-        dynamic = point(keep=0.4, doi=(0.9 * THRESHOLD, THRESHOLD))
+        dynamic = point(doi=(0.9 * THRESHOLD, THRESHOLD))
         rows.append((f"{label}, DOI", (dynamic["bpv_paper"], dynamic["nmsve_db"]), ()))
     found = "; ".join(f"{name} is {min(own):.2f} to {max(own):.2f} dB above it" for name, own in gaps.items())
     yield printed(
@@ -413,7 +413,7 @@ def dynamic(study: Study) -> Iterator[Row]:
     low, high = 1e-4, 10.0
     for _ in range(4 if study.quick else 12):
         middle = float(np.sqrt(low * high))
-        varied = block_errors(model.mesh, paper_options(**settings, keep=5 * keep, doi=(0.9 * middle, middle)))
+        varied = block_errors(model.mesh, paper_options(**settings, doi=(0.9 * middle, middle)))
         ratio = varied[:, 1].sum() / fixed[:, 1].sum()
         if abs(ratio - 1) < 0.01:
             break

@@ -15,7 +15,7 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
-from bsm.codec.signal.transform import packed_range, project, smallest_step
+from bsm.codec.signal.transform import packed_range, smallest_step
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.choice.shaping import Aim
@@ -23,7 +23,7 @@ from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import admit, blended, encode_blocks, patience
+from bsm.codec.static.ways.block_coder import Sizing, admit, blended, encode_blocks, offer, patience
 from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
@@ -117,7 +117,7 @@ class Spectral:
             scheme,
             prepared.positions,
             threads=options.threads,
-            doi=options.paper.doi,
+            sizing=self._sizing(scheme.coding.width),
             progress=progress,
             charge=patience(options.limits, prepared.graph.size),
         )
@@ -179,25 +179,30 @@ class Spectral:
             return min(options.coefficients, size)
         if options.keep is not None:
             return min(max(1, round(options.keep * size)), size)
+        if options.paper.doi is not None:
+            return size
+        if options.paper.bits is not None:
+            return max(1, round(PAPER_FRACTION * size))
         return self._prepared.spectrum(options.paper.shift).worthwhile_size(step, self._widest)
+
+    def _sizing(self, width: int) -> Sizing:
+        return Sizing(width, min(width, max(1, round(PAPER_FRACTION * self._prepared.size))), self._options.paper.doi)
 
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
-        blocks, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
-        charge = patience(self._options.limits, len(positions))
-        width = min(self._options.coefficients or max(1, round((self._options.keep or PAPER_FRACTION) * size)), size)
+        blocks, positions, width = self._prepared.blocks, self._prepared.positions, self._width(0.0)
+        charge, sizing = patience(self._options.limits, len(positions)), self._sizing(width)
 
         def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
-            chain, found = Chain(rules, blocks.graph), np.zeros(2)
+            chain, sizes, found = Chain(rules, blocks.graph), sizing.begin(), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
-                around = chain.around(block)
-                charge(chain.work(around, width))
-                dictionary = chain.dictionary(around, width)
-                coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
-                chain.commit(block, dictionary, positions[block.vertices])
-                found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
+                around, own = chain.around(block), positions[block.vertices]
+                dictionary, coefficients = offer(chain, around, own, width, sizes, charge)
+                chain.commit(block, dictionary, own)
+                magnitudes = np.abs(coefficients)
+                found = np.maximum(found, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)])
             return found
 
         chains = rules.chains(blocks.count)

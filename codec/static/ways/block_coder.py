@@ -10,11 +10,12 @@ import numpy as np
 from bsm.bitstream.container import packets
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
-from bsm.codec.arrays import Indices, Matrix
+from bsm.codec.arrays import Basis, Indices, Matrix
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import Blend, degree_weights
 from bsm.codec.progress import Progress
-from bsm.codec.signal.chain import Chain
+from bsm.codec.signal.chain import Chain, Surroundings
+from bsm.codec.signal.transform import project, reconstruct
 from bsm.codec.static.coding import Ground, Scheme
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.work import block_cost, block_memory, ground_cost, mesh_memory
@@ -53,13 +54,50 @@ class CodedBlock:
     memory: float
 
 
+@dataclass(frozen=True)
+class Sizing:
+    """c of each block: `most`, or as dynamic orthogonal iterations find it from `first` on, up to `most`."""
+
+    most: int
+    first: int = 0
+    doi: tuple[float, float] | None = None
+
+    def begin(self) -> DynamicSize | None:
+        return None if self.doi is None else DynamicSize(*self.doi, self.first)
+
+
+def offer(
+    chain: Chain, around: Surroundings, residual: Matrix, most: int, sizes: DynamicSize | None, charge: Charge | None
+) -> tuple[Basis, Matrix]:
+    """U of a block with c_i columns, and its coefficients of a residual; no column depends on how many are tried."""
+    most = min(most, len(residual))
+    tried = most if sizes is None else min(most, sizes.reach)
+    while True:
+        if charge is not None:
+            charge(chain.work(around, tried))
+        dictionary = chain.dictionary(around, tried)
+        coefficients = project(dictionary, residual, dictionary.shape[1])
+        if sizes is None:
+            return dictionary, coefficients
+        left = float(np.square(residual - reconstruct(dictionary, coefficients)).sum())
+        size = sizes.follow(left, coefficients)
+        if size is not None:
+            return np.ascontiguousarray(dictionary[:, :size]), coefficients[:size]
+        if tried == most:
+            raise OptionError(
+                f"eps_h = {sizes.highest:g} of doi cannot be met: {most} coefficients of a block of {len(residual)} "
+                f"vertices leave an error of {left**0.5:.2g}; give a larger eps_h, or a larger keep"
+            )
+        tried = min(2 * tried, most)
+
+
 class ChainEncoder:
     """Encodes the blocks of one chain, in their order."""
 
-    def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None, charge: Charge | None = None) -> None:
+    def __init__(self, scheme: Scheme, sizing: Sizing, charge: Charge | None = None) -> None:
         self._scheme = scheme
         self._charge = charge
-        self._sizes = None if doi is None else DynamicSize(*doi, scheme.coding.width)
+        self._most, self._sizes = sizing.most, sizing.begin()
         self._chain = Chain(scheme.rules, scheme.blocks.graph)
         self._coding = scheme.coding.begin()
 
@@ -67,16 +105,17 @@ class ChainEncoder:
         """Encode the block of an index; `positions`, shape (n, 3), are those of all vertices, in BSM units."""
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
-        around, width = chain.around(block), min(coding.width, block.size)
-        if self._charge is not None:
-            self._charge(chain.work(around, width))
-        ground = Ground(block, chain.continuation(around), chain.dictionary(around, width))
-        levels = coding.choose(ground, positions[block.vertices], self._sizes)
+        around = chain.around(block)
+        prediction = chain.continuation(around)
+        residual = positions[block.vertices] - prediction
+        dictionary, coefficients = offer(chain, around, residual, self._most, self._sizes, self._charge)
+        ground = Ground(prediction, dictionary)
+        levels = coding.choose(coefficients, self._sizes is not None)
         decoded = coding.positions(ground, levels)
         coded = len(levels)
         work = block_cost(block.size, scheme.blocks.edges_of(index), 3 * coded) + chain.work(around, coded)
         work += ground_cost(around.laplacian, coded)
-        chain.commit(block, np.ascontiguousarray(ground.dictionary[:, :coded]), decoded)
+        chain.commit(block, np.ascontiguousarray(dictionary[:, :coded]), decoded)
         packet = packets.Block(index, coded, coding.write(levels))
         result = DecodedBlock(index, block.vertices, decoded, degree_weights(block.degrees))
         return CodedBlock(packet, result, work, block_memory(around.laplacian, coded))
@@ -87,14 +126,14 @@ def encode_blocks(
     positions: Matrix,
     *,
     threads: int | None,
-    doi: tuple[float, float] | None = None,
+    sizing: Sizing,
     progress: Progress | None = None,
     charge: Charge | None = None,
 ) -> list[CodedBlock]:
     """All blocks of a mesh at `positions`, shape (n, 3), in BSM units; chains are encoded side by side."""
 
     def encode_chain(indices: range) -> list[CodedBlock]:
-        chain = ChainEncoder(scheme, doi, charge)
+        chain = ChainEncoder(scheme, sizing, charge)
         return [chain.encode(index, positions) for index in indices]
 
     coded: list[CodedBlock] = []

@@ -119,7 +119,7 @@ SETTINGS = (
 """Advanced settings of the codec: `--set NAME=VALUE`."""
 
 
-PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none")
+PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none", "paper")
 PROMISES = (
     "The encoder checks the decoded result before it writes a file. All constraints apply together.\n\n"
     "preset         look  vertex  (look distance; largest error, relative to the diagonal of its component)\n"
@@ -129,7 +129,8 @@ PROMISES = (
     "near-lossless  0.25  0.05 %  a bound for measuring, of the diagonal of the whole mesh\n"
     "grid14                       exact positions on a grid of 14 bits per axis\n"
     "lossless                     exact positions in single precision, exact attributes\n"
-    "none                         only the bounds and targets that you give"
+    "none                         only the bounds and targets that you give\n"
+    "paper                        no promise: the codec of the paper, for research"
 )
 """A table of the presets; written out, because importing their definitions takes time."""
 

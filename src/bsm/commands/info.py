@@ -57,6 +57,7 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
     return {
         "version": f"{info.version >> 4}.{info.version & 15}",
         "extensions": [name for name, used in extensions.items() if used],
+        "preset": "paper" if info.is_paper else None,
         "vertices": header.vertices,
         "faces": header.faces,
         "blocks": header.blocks,
@@ -94,7 +95,7 @@ def _worded(summary: Facts) -> str:
     if not summary["frames"]:
         rates = [f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"]
         packed, *_ = summary["header"]["paper"] or (0,)
-        rates[0] += f", {summary['bpv_paper']:.3f} by the paper's formula" if packed else ""
+        rates[0] += f", bpv_paper {summary['bpv_paper']:.3f} by the paper's formula" if packed else ""
     counts = summary["metadata_bytes"]
     texts = {name: f"{counts[name]} bytes" if name in counts else value for name, value in summary["metadata"].items()}
     entries = [printable(f"  {name}: {value}") for name, value in texts.items()]
@@ -108,6 +109,7 @@ def _worded(summary: Facts) -> str:
         f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "
         f"{summary['vertices']} vertices, {summary['faces']} faces",
         positions,
+        *_paper_lines(summary),
         *_sequence_lines(summary),
         *([f"checksum of decoded positions: {summary['checksum']}"] if summary["checksum"] else []),
         "bytes:",
@@ -117,6 +119,15 @@ def _worded(summary: Facts) -> str:
         *(["metadata:", *entries] if entries else []),
     ]
     return "\n".join(lines)
+
+
+def _paper_lines(summary: Facts) -> list[str]:
+    """The settings of a stream of preset "paper"."""
+    if not summary["preset"]:
+        return []
+    bits, _, _, power, iterations, *_ = map(int, summary["header"]["paper"])
+    parts = "METIS parts" if summary["bytes"]["partition"] else "derived parts"
+    return [f"preset paper: R^{power}, iterations {iterations}, {bits} bits a coefficient, {parts}"]
 
 
 def _tile_lines(summary: Facts) -> Iterator[str]:

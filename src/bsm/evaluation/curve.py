@@ -24,7 +24,7 @@ from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import Target
 from bsm.console import finite
 from bsm.evaluation.sample import knot
@@ -154,13 +154,13 @@ EXACT_BASES: dict[str, Any] = {"key_interval": 1, "key_seed": "svd"}  # every bl
 COLD_STARTS: dict[str, Any] = {"key_interval": 1, "key_seed": "cosines", "key_iterations": 1}
 """Every block by one orthogonal iteration from cosines."""
 PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
-    ("oi-r1", "OI, R", {}),
-    ("oi-r1-t2", "OI, R, 2 iterations", {"iterations": 2}),
-    ("oi-r1-t3", "OI, R, 3 iterations", {"iterations": 3}),
+    ("oi-r1", "OI, R", {"power": 1}),
+    ("oi-r1-t2", "OI, R, 2 iterations", {"power": 1, "iterations": 2}),
+    ("oi-r1-t3", "OI, R, 3 iterations", {"power": 1, "iterations": 3}),
     ("oi-r2", "OI, R²", {"power": 2}),
     ("oi-r3", "OI, R³", {"power": 3}),
     ("oi-r4", "OI, R⁴", {"power": 4}),
-    ("oi-r1-cold", "OI, R, no warm start", COLD_STARTS),
+    ("oi-r1-cold", "OI, R, no warm start", COLD_STARTS | {"power": 1}),
     ("oi-r2-cold", "OI, R², no warm start", COLD_STARTS | {"power": 2}),
 )
 OUR_STEPS = (2.4e-2, 1.6e-2, 1.1e-2, 8e-3, 5.5e-3, 4e-3, 2.8e-3, 2e-3, 1.3e-3, 8e-4)
@@ -172,9 +172,8 @@ OUR_TARGETS = {
 
 
 def paper_options(**changes: Any) -> EncodeOptions:
-    """The paper's mode: METIS, 12 bits for every coefficient, one chain."""
-    settings: dict[str, Any] = {"partition": "metis", "bits": 12, "key_interval": 0, "power": 1}
-    return changed(EncodeOptions(), **{**settings, "threads": 1, "limits": "wide", **changes})
+    """The preset "paper", on one thread and with wide limits, for lines of the paper."""
+    return changed(PRESETS["paper"], **{"threads": 1, "limits": "wide", **changes})
 
 
 def paper_curves(block_size: int) -> tuple[Curve, ...]:
@@ -183,7 +182,7 @@ def paper_curves(block_size: int) -> tuple[Curve, ...]:
     def line(name: str, label: str, settings: Sequence[dict[str, Any]]) -> Curve:
         return Curve(name, label, tuple(Spectral(paper_options(block_size=block_size, **c)) for c in settings))
 
-    dynamic = [{"keep": 0.4, "doi": (0.9 * threshold, threshold)} for threshold in PAPER_THRESHOLDS]
+    dynamic = [{"power": 1, "doi": (0.9 * threshold, threshold)} for threshold in PAPER_THRESHOLDS]
     every = (*PAPER_LINES, ("svd", "SVD", EXACT_BASES))
     *fixed, svd = (line(name, label, [{"keep": keep, **own} for keep in PAPER_KEEPS]) for name, label, own in every)
     return (*fixed, line("doi-r1", "DOI, R", dynamic), svd)

@@ -73,6 +73,13 @@ class StreamInfo:
         samples = sum(run.vertices * run.frames for run in self.runs)
         return 8 * self.sizes["total"] / samples if samples else None
 
+    @property
+    def is_paper(self) -> bool:
+        """Whether it is coded as with the preset "paper", in that mode alone."""
+        how, header = self.header.constants, self.header
+        plain = header.key_interval == 0 and not (header.smoothing or header.refinement or header.grid)
+        return plain and how.bits > 0 and how.exact == 1 and how.springs == 0
+
     def bpv(self, carried: str = "total") -> float:
         return 8 * self.sizes[carried] / self.header.vertices
 

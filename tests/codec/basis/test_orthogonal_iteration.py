@@ -80,9 +80,10 @@ def test_the_size_grows_over_the_upper_and_shrinks_under_the_lower_threshold():
     coefficients = positions  # the basis is the identity: residuals are tails of 10, 9, 8, ...
     norms = [np.linalg.norm(positions[size:]) for size in range(10)]
     for previous in range(1, 11):
-        size = DynamicSize(norms[6] - 0.1, norms[5] + 0.1, previous).follow(positions, coefficients)
+        size = DynamicSize(norms[6] - 0.1, norms[5] + 0.1, previous).follow(0.0, coefficients)
         assert size == min(max(previous, 5), 6)
-    assert DynamicSize(1e-9, 1e-8, 3).follow(positions, coefficients) == 10
+    assert DynamicSize(1e-9, 1e-8, 3).follow(0.0, coefficients) == 10
+    assert DynamicSize(1e-9, 1e-8, 3).follow(1e-15, coefficients) is None
 
 
 def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():

@@ -226,7 +226,7 @@ def test_a_vertex_that_flies_off_is_named(far: float, said: str) -> None:
         bsm.encode_sequence(given, frames[0].faces, threads=1)
 
 
-@pytest.mark.parametrize("name", ["none", "lossless", "grid14"])
+@pytest.mark.parametrize("name", ["none", "lossless", "grid14", "paper"])
 def test_presets_that_sequences_lack_are_refused_with_the_reason(name: str) -> None:
     frames = meshes((7, 2))
     with pytest.raises(bsm.OptionError, match=f"cannot have preset {name}: .* try near-lossless"):

@@ -52,7 +52,7 @@ def test_where_everything_is_beside_everything_a_block_costs_more():
     assert dictionary_cost(fronts, 4, 12) > 2 * dictionary_cost(plain, 4, 12)
 
 
-@pytest.mark.parametrize("preset", sorted({*PRESETS} - {"none"}))
+@pytest.mark.parametrize("preset", sorted({*PRESETS} - {"none", "paper"}))
 def test_every_preset_is_within_the_limits_of_a_service(preset):
     assert work_of(encode(torus(60, 50), PRESETS[preset]), Limits.service()) < 1e4 * 3000
 
