@@ -6,14 +6,16 @@ before anything is allocated for it.
 """
 
 import importlib
+import math
 import os
 import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import FormatError, OptionError
+from bsm.bitstream.errors import FormatError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import pipes
@@ -40,7 +42,9 @@ def by_name(module: str, function: str) -> Any:
     return getattr(importlib.import_module(module), function)
 
 
-def read_mesh(source: Source, file_format: str | None = None, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
+def read_mesh(
+    source: Source, file_format: str | None = None, limits: Limits = DEFAULT_LIMITS, *, isolated: bool | None = None
+) -> MeshFile:
     """Read a mesh file.
 
     Parameters
@@ -52,6 +56,10 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
         One of `MESH_FORMATS`, or a suffix that trimesh knows. None: by the name, or else by the first bytes.
     limits : Limits
         `vertices` and `faces` bound the mesh.
+    isolated : bool, optional
+        Read the file in a process of its own, which the system ends if it exceeds the memory or work of `limits`, and
+        which can write no file and reach no other folder than the file's. None: if `limits.most_memory` is finite, as
+        for `Limits.service()`. Only Linux has this; elsewhere formats that other libraries read are then refused.
 
     Returns
     -------
@@ -63,6 +71,8 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
     ------
     FormatError, TruncatedError, CorruptError, MeshError, LimitError
         If the file is not a mesh of triangles or polygons with finite coordinates.
+    UnsupportedError
+        If the format must be read in a process of its own, and this system cannot.
     DependencyError
         If a library is needed and missing.
     OSError
@@ -76,6 +86,10 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
     (TriangleMesh(... vertices, ... faces), (), ())
     """
     given, limits = as_input(source), as_limits(limits)
+    apart = limits.most_memory < math.inf if isolated is None else isolated
+    if apart and sys.platform == "linux":
+        found: MeshFile = by_name("bsm.files.wall", "read_behind_wall")(given, file_format, limits)
+        return found
     path, name = (given.name if given.is_file else None), given.name
     head = plain_text(given.peek(_HEAD))
     require_counts_of_head(file_format or format_of_name(name) or format_of_bytes(head), head, limits)
@@ -88,6 +102,8 @@ def read_mesh(source: Source, file_format: str | None = None, limits: Limits = D
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
+    if apart and (isolated or kind not in (*MESH_FORMATS, *GLTF)):
+        raise UnsupportedError(f".{kind} files from strangers are read in a process of its own, which needs Linux")
     if kind in USD_FORMATS and path:
         usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
         return usd
