@@ -46,7 +46,8 @@ _LIBRARIES = {
     "own": ("bsm.files.mesh", *(f"bsm.files.formats.{kind}" for kind in ("npz", "obj", "off", "ply", "stl", "vtp"))),
     "dae": ("bsm.files.formats.dae", "collada", "lxml.etree"),
     "usd": ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel"),
-    "other": ("bsm.files.formats.with_trimesh", "trimesh", "lxml.etree", "networkx"),
+    "3mf": ("bsm.files.formats.three_mf", "lib3mf"),
+    "other": ("bsm.files.formats.with_trimesh", "trimesh"),
 }
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
 _QUIET = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PXR_WORK_THREAD_LIMIT": "1", "MALLOC_ARENA_MAX": "1"}
@@ -80,7 +81,7 @@ def _library(kind: str) -> str:
         return "gltf"
     if kind.startswith("usd"):
         return "usd"
-    return kind if kind == "dae" else "own" if kind in ("npz", "obj", "off", "ply", "stl", "vtp", "") else "other"
+    return kind if kind in ("dae", "3mf") else "own" if kind in ("npz", "obj", "off", "ply", "stl", "vtp", "") else "other"
 
 
 def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
