@@ -81,7 +81,8 @@ def _library(kind: str) -> str:
         return "gltf"
     if kind.startswith("usd"):
         return "usd"
-    return kind if kind in ("dae", "3mf") else "own" if kind in ("npz", "obj", "off", "ply", "stl", "vtp", "") else "other"
+    own = ("npz", "obj", "off", "ply", "stl", "vtp", "")
+    return "own" if kind in own else kind if kind in _LIBRARIES else "other"
 
 
 def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
