@@ -98,7 +98,7 @@ def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
 
 @contextmanager
 def _shared(size: int) -> Iterator[int]:
-    """Memory that other processes can map; it takes what is written."""
+    """Memory that other processes can map; pages count once they are written."""
     memory = os.memfd_create("bsm", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
     try:
         os.ftruncate(memory, size)
@@ -128,7 +128,7 @@ class _Server:
         self._socket.close()
 
     def read(self, memory: int, library: str) -> int:
-        """Let a child read what is in shared memory; return its status."""
+        """Let a child read the file that shared memory names; return its status."""
         here, there = socket.socketpair()
         with here:
             with there:
@@ -161,7 +161,7 @@ def _status_of(memory: int, library: str) -> int:
 
 
 def serve(number: int) -> None:
-    """Fork for each file that is asked for, until nobody can ask."""
+    """Fork for each file that is asked for, until the last process that can ask has ended."""
     _load("own")
     _libraries()
     with suppress(ImportError, OSError):  # it looks for the C library when it is first used
@@ -170,7 +170,7 @@ def serve(number: int) -> None:
     gc.freeze()
     with socket.socket(fileno=number) as asked:
         while True:
-            signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for the watchers
+            signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # watchers end alone
             library, files, _, _ = socket.recv_fds(asked, _KIND, 2)
             if not library:
                 return
@@ -207,7 +207,7 @@ def _watch(answer: int, memory: int) -> None:
 
 
 def _read(memory: int) -> None:
-    """Read what is asked for in shared memory, and leave the mesh or the error there."""
+    """Read the file that shared memory names, and leave the mesh or the error there."""
     try:
         asked = _message(memory, 1 << 62)
         found: dict[str, Any]
