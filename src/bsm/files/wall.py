@@ -46,6 +46,7 @@ _LIBRARIES = {
     "own": ("bsm.files.mesh", *(f"bsm.files.formats.{kind}" for kind in ("npz", "obj", "off", "ply", "stl", "vtp"))),
     "dae": ("bsm.files.formats.dae", "collada", "lxml.etree"),
     "usd": ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel"),
+    "om": ("bsm.files.formats.om", "openmesh"),
     "3mf": ("bsm.files.formats.three_mf", "lib3mf"),
     "other": ("bsm.files.formats.with_trimesh", "trimesh"),
 }
