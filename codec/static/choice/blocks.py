@@ -229,7 +229,7 @@ class Plain:
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
         self._bounds = bounds
         self._spectral = Spectral(prepared, options, WIDEST)
-        self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST
+        self.least, self.most = 1.01 * smallest_step(prepared.size), 0.5
         self.first = ALONE * bounds.first_step
 
     def at(self, step: float) -> Candidate:

@@ -16,6 +16,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
+ALIKE = 1.02  # bytes over the least, within which normals choose where a visual error is bounded
 Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another: pure functions of the step
 
 
@@ -48,17 +49,22 @@ class Search:
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
         saved = self._saved(grid.at(grid.first))
         least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
+        near = 1.0 if seen or contract.visual == math.inf else ALIKE
         for way in self._ways(bounds, grid):
             leaning = saved if isinstance(way, Gridded) else 0
             if seen and isinstance(way, Gridded) and SHAPED * grid.at(grid.first).size > least + leaning:
                 continue
-            found = widest(way, bounds, least + leaning, tries=self._tries)
+            found = widest(way, bounds, near * least + leaning, tries=self._tries)
             if found is not None:
                 kept.append(found)
-                least = found.size - leaning
+                size = found.size if seen else found.draft.size  # the guess is for steps at which a mesh looks right
+                least = min(least, size - leaning)
         if not kept:
             kept.append(self._last_resort(bounds))
-        return min((candidate.draft for candidate in kept), key=self._size)
+        most = near * min(self._size(candidate.draft) for candidate in kept)
+        alike = [candidate for candidate in kept if self._size(candidate.draft) <= most]
+        bent = self._measures.original.angle
+        return min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0).draft
 
     def _last_resort(self, bounds: Bounds) -> Candidate:
         """The result of grids that are finer than where a search began, where it came to nothing."""
@@ -131,10 +137,11 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
 
     def at(step: float) -> float | None:
         candidate, sure = way.at(step), math.inf
-        if most_bytes < math.inf:  # a step twice as wide saves three bits of a vertex at most, half as wide costs one
+        over, folded = bounds.excess(candidate), bounds.folds(candidate.positions)
+        if most_bytes < math.inf and not (folded and bounds.contract.look == math.inf):
+            # A step twice as wide saves three bits of a vertex at most, half as wide costs one.
             bits = math.log(2.0) * 8.0 * (candidate.size - most_bytes) / len(candidate.positions)
             sure = -bits * STEEPEST if bits < 0.0 else -bits / (3.0 * STEEPEST)
-        over, folded = bounds.excess(candidate), bounds.folds(candidate.positions)
         if over <= 0.0 and bounds.keeps(candidate.positions):
             kept.append((folded, candidate))
         over = max(over, SLACK) if folded else over  # a finer step has fewer folds

@@ -1,5 +1,6 @@
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -81,6 +82,18 @@ def test_wrong_targets_are_refused():
     for kind, value in (("theta", 5.0), ("theta_deg", 0.0), ("size", float("nan"))):
         with pytest.raises(OptionError):
             Target(kind, value)
+
+
+@pytest.mark.real
+def test_an_easier_target_takes_no_more_bytes_and_a_stricter_one_bends_no_more(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "static" / "c3d_spot.ply")).mesh.bare
+    found = []
+    for value in range(-30, -61, -6):
+        result = Encoder(mesh, replace(PRESETS["none"], target=Target("nmsve_db", value))).result()
+        found.append((result.size, result.comparison.angle_deg))
+    for (size, angle), (size_of_stricter, angle_of_stricter) in pairwise(found):
+        assert size <= size_of_stricter and angle_of_stricter <= 1.1 * angle
+    assert found[0][1] < 30.0, "blocks, and not a grid too coarse for any normal"
 
 
 @pytest.mark.real
