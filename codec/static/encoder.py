@@ -72,6 +72,9 @@ class Encoder:
     ----------
     look : float or None
         The look distance of the decoded mesh, once it has been checked; None if the options promise no look.
+    binding : str
+        The bound that keeps the stream from being smaller, once it has been checked: "look", "vertex error", "normal
+        error" or "visual error"; "step" if wider steps that were tried break a bound. Empty without a promise.
 
     Examples
     --------
@@ -90,6 +93,7 @@ class Encoder:
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Input(mesh, self.options)
         self.look: float | None = None
+        self.binding = ""
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         self._doubt = "" if promise is None else promise.doubt(mesh.diagonal, unit if isinstance(unit, str) else "")
 
@@ -267,7 +271,9 @@ class Encoder:
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
             verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
-        broken, self.look = ("", None) if contract is None else self._input.measured(draft, contract)
+        broken = ""
+        if contract is not None:
+            broken, self.look, self.binding = self._input.measured(draft, contract)
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         near.to(1.0)
         return draft

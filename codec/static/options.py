@@ -311,6 +311,7 @@ EPS_H = 0.07
 
 LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "key_interval": 0}
 """Blocks that the best effort also tries: fewer bytes, slower to decode."""
+WORTH = 8.0  # percents of decoding time that one percent of bytes is worth
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are kept better, or less well

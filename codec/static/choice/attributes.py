@@ -103,19 +103,20 @@ class Input:
         asked = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
         return None if asked or attribute.domain == "face" or quality.way != "bits" else first
 
-    def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None]:
-        """Return the bounds of a contract that a draft with its attributes breaks, in words, and its look distance."""
+    def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
+        """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, positions = Bounds(self.measures, contract), _decoded(self, draft)
         metric, free = bounds.metric, self.free_normals
         if metric is None:
-            return "" if bounds.keeps(positions) else bounds.had, None
+            return "" if bounds.keeps(positions) else bounds.had, None, bounds.binding(positions)
         if free is None:
             seen = [metric.distance(positions)]
         else:
             normals = self.carried[free].normals(positions)
             seen = [metric.bare(positions).distance, metric.shaded(positions, normals)]
         seen += [look.distance(positions, self.carried[at].at_corners) for at, look in self.looks]
-        return "" if bounds.keeps(positions, max(seen)) else bounds.had, max(seen)
+        binding = bounds.binding(positions, max(seen))
+        return "" if bounds.keeps(positions, max(seen)) else bounds.had, max(seen), binding
 
 
 def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:

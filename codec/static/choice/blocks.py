@@ -46,6 +46,8 @@ class RefinementBase:
     prepared: Prepared
     draft: Draft
     positions: Matrix
+    coded: int  # bytes of the blocks
+    work: float  # of their decoding
 
     @cached_property
     def frames(self) -> Matrix:
@@ -136,9 +138,9 @@ class Spectral:
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)
         body = (*prepared.before_blocks, *(block.packet for block in blocks))
-        return RefinementBase(
-            prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
-        )
+        draft, positions = Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
+        coded, work = sum(len(block.packet.data) for block in blocks), sum(block.work for block in blocks)
+        return RefinementBase(prepared, draft, positions, coded, work)
 
     def _scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""
@@ -251,20 +253,26 @@ class Refined:
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO
     ) -> None:
-        self._prepared, self._bounds, self._settled, self._ratio = prepared, bounds, settled, ratio
-        self._spectral = Spectral(prepared, options, WIDEST)
+        self._prepared, self._bounds, self._settled, self.ratio = prepared, bounds, settled, ratio
+        self._options, self._spectral = options, Spectral(prepared, options, WIDEST)
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = FINEST_LAYER, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), FINEST_LAYER)
         self.at = lru_cache(1)(self._made)
 
+    def replaced(self, first: float, prepared: Prepared | None = None, ratio: float | None = None) -> "Refined":
+        """This way with other blocks, or another ratio, from another step on."""
+        other = Refined(prepared or self._prepared, self._options, self._bounds, self._settled, ratio or self.ratio)
+        other.first = first
+        return other
+
     @cached_property
     def first(self) -> float:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.
-        return self._bounds.first_step / math.hypot(1.0, 0.93 * self._ratio / RATIO)
+        return self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
 
     def _made(self, step: float) -> Candidate:
-        base = self._base
+        base = self.base
         if self._settled:
             found = self._leveled(step, base, *self._evened(step))
             many = self._bounds.measures.shaper.folded(found.positions) > FOLDED * len(self._prepared.mesh.faces)
@@ -289,16 +297,16 @@ class Refined:
 
     def _evened(self, step: float) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
-        base, reaches = self._base, self._bounds.reaches
+        base, reaches = self.base, self._bounds.reaches
         room = (self._diagonal / step) ** 2 - 1.0
-        layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self._ratio))
+        layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self.ratio))
         steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
         near = self._near(steps)
-        levels = self._settler.levels(base.offsets, base.frames, steps, known, PULLED, near, self._ratio)
+        levels = self._settler.levels(base.offsets, base.frames, steps, known, PULLED, near, self.ratio)
         return layer, *base.within(reaches, layer, levels)
 
     @cached_property
-    def _base(self) -> RefinementBase:
+    def base(self) -> RefinementBase:
         """The blocks of all steps: those of about the right one."""
         step = max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size))
         return self._spectral.base(step, self._bounds.measures.near.within())

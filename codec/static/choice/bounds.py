@@ -17,8 +17,9 @@ from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE, Contract
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
 
+BOUNDS = "vertex error", "normal error", "visual error", "look"
 COARSEST, SEEN = 0.05, 1.0 / 32.0
 """Largest step, in BSM units; and about the one, in mean edges, at which rounding has a look of 1."""
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
@@ -132,6 +133,12 @@ class Bounds:
         if self._best is None or shares < self._best:
             self._best = shares
         return max(shares) <= 1.0
+
+    def binding(self, positions: Matrix, look: float | None = None) -> str:
+        """Return the bound that keeps a stream from being smaller; "step" where wider ones break one."""
+        shares = dict(zip(BOUNDS, self._shares(positions, look), strict=True))
+        name = max(shares, key=lambda name: shares[name])
+        return name if shares[name] > 1.0 - 4.0 * SLACK else "step"
 
     def quality(self, positions: Matrix) -> float:
         """How good positions are where as good ones as possible are wanted: less is better."""

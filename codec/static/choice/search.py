@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.choice.settling import RATIO
-from bsm.codec.static.options import RANGES, EncodeOptions
+from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
@@ -50,7 +51,8 @@ class Search:
         saved = self._saved(grid.at(grid.first))
         least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
         near = 1.0 if seen or contract.visual == math.inf else ALIKE
-        for way in self._ways(bounds, grid):
+        ways = self._ways(bounds, grid)
+        for way in ways:  # which may lead to others
             leaning = saved if isinstance(way, Gridded) else 0
             if seen and isinstance(way, Gridded) and SHAPED * grid.at(grid.first).size > least + leaning:
                 continue
@@ -59,12 +61,29 @@ class Search:
                 kept.append(found)
                 size = found.size if seen else found.draft.size  # the guess is for steps at which a mesh looks right
                 least = min(least, size - leaning)
+                ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
         most = near * min(self._size(candidate.draft) for candidate in kept)
         alike = [candidate for candidate in kept if self._size(candidate.draft) <= most]
         bent = self._measures.original.angle
         return min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0).draft
+
+    def _others(self, way: Refined, found: Candidate, bounds: Bounds) -> list[Refined]:
+        """Ways that may be smaller than one that has come to a candidate."""
+        others = list[Refined]()
+        if bounds.contract.look == math.inf:
+            return others
+        if bounds.excess(found) < -4.0 * SLACK:  # folds are in the way: fewer if steps along tangents are finer
+            others.append(way.replaced(found.step, ratio=way.ratio / math.sqrt(2.0)))
+        usual = self._prepared.parts.size == EncodeOptions.block_size and way.ratio == RATIO
+        if usual and way.base.coded > found.size / 4.0:
+            parts = replace(self._prepared.parts, size=LARGE_BLOCKS["block_size"])
+            larger = way.replaced(found.step, replace(self._prepared, parts=parts))
+            with suppress(LimitError):  # blocks that decoders would refuse
+                saved = (way.base.coded - larger.base.coded) / found.size
+                others += [larger] if larger.base.work < way.base.work * (1.0 + WORTH * saved) else []
+        return others
 
     def _last_resort(self, bounds: Bounds) -> Candidate:
         """The result of grids that are finer than where a search began, where it came to nothing."""

@@ -108,18 +108,20 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     taken, bpv = size_of(job.input), 8 * (size - images) / vertices
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
+    other = encoder.binding not in ("", "look") and not (found and found.apart)
+    binds = f"the {encoder.binding} binds, " if other else ""
     _finish(
         job,
         console,
         notes,
         encoder.vertex_order,
         f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, size)}, "
-        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{errors}; "
+        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{binds}{errors}; "
         f"{seconds:.2f} s",
     )
     counts = {"vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
-    ends = {"look": encoder.look, "seconds": seconds, "notes": notes}
+    ends = {"look": encoder.look, "binding": encoder.binding, "seconds": seconds, "notes": notes}
     return {"input": job.input, "output": job.output, **counts, **sizes, **numbers, **ends}
 
 
