@@ -105,16 +105,17 @@ class Input:
 
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
-        bounds, positions = Bounds(self.measures, contract), _decoded(self, draft)
+        bounds, decoded = Bounds(self.measures, contract), draft.decoded
+        positions = self.prepared.units.into(decoded)
         metric, free = bounds.metric, self.free_normals
         if metric is None:
             return "" if bounds.keeps(positions) else bounds.had, None, bounds.binding(positions)
         if free is None:
-            seen = [metric.distance(positions)]
+            seen = [metric.distance(decoded)]
         else:
-            normals = self.carried[free].normals(positions)
-            seen = [metric.bare(positions).distance, metric.shaded(positions, normals)]
-        seen += [look.distance(positions, self.carried[at].at_corners) for at, look in self.looks]
+            normals = self.carried[free].normals(decoded)
+            seen = [metric.bare(decoded).distance, metric.shaded(decoded, normals)]
+        seen += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
         binding = bounds.binding(positions, max(seen))
         return "" if bounds.keeps(positions, max(seen)) else bounds.had, max(seen), binding
 
@@ -131,8 +132,7 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
         if given.looks:
             given.carried = given.carry(given.wanted)
         kept = _shaded(given, search, asked)
-        positions = _decoded(given, kept)
-        seen = max((look.distance(positions, given.carried[at].at_corners) for at, look in given.looks), default=0.0)
+        seen = max((look.distance(kept.decoded, given.carried[at].at_corners) for at, look in given.looks), default=0.0)
         if seen <= contract.look:
             return kept
         asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
@@ -173,7 +173,7 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Attrib
     if attribute.semantic == "color":
         rough = range(0 if kept_whole(attribute) else 15)
         steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
-    mesh = TriangleMesh(given.prepared.positions, given.prepared.mesh.faces)
+    mesh = given.prepared.mesh
     look_of = AttributeLook(
         mesh, attribute.semantic, given.carry_with(at, steps[-1])[at].at_corners, threads=given.options.threads
     )
@@ -192,7 +192,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     bare, metric, free = search.smallest(contract), given.measures.look, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
         return given.dressed(bare)
-    decoded, asked = _decoded(given, bare), contract.look
+    decoded, asked = bare.decoded, contract.look
 
     def seen(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
         return metric.shaded(positions, carried[free].normals(positions)) / asked
@@ -205,7 +205,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     recomputed = given.carry_with(free, Quality("recompute"))
     given.carried = given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)])
     kept, coded = given.dressed(bare), given.carried
-    before = seen(recomputed, given.prepared.positions)
+    before = seen(recomputed, given.prepared.mesh.positions)
     if metric.against_faces or before > 1.0 - SLACK:
         return kept
     given.carried = recomputed
@@ -214,7 +214,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
             other = given.dressed(bare)
             if other.size >= kept.size:
                 break
-            share = seen(recomputed, _decoded(given, bare))
+            share = seen(recomputed, bare.decoded)
             if share <= 1.0:
                 kept, coded = other, recomputed
             if attempt or bare.places is None:  # else the first choice again, now that no normals lean on places
@@ -225,11 +225,6 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
             bare = search.smallest(contract)
     given.carried = coded
     return kept
-
-
-def _decoded(given: Input, draft: Draft) -> Positions:
-    """Return the decoded positions, in the units of coding."""
-    return given.prepared.units.into(draft.decoded)
 
 
 def kept_whole(colors: Attribute) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Matrix
+from bsm.codec.arrays import Indices, Matrix, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
@@ -60,7 +60,8 @@ class Measures:
     def look(self) -> LookMetric | None:
         """None: nothing of the mesh can be seen."""
         own = () if self.normals is None else (Attribute("normal", self.normals.reshape(-1, 3), "corner", "normal"),)
-        mesh = TriangleMesh(self.prepared.positions, self.prepared.mesh.faces, own)
+        # As given and as decoded, to the last bit: in BSM units, rounding may show other shades.
+        mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, own)
         try:
             return LookMetric(mesh, threads=self._threads)
         except MeshError:
@@ -196,10 +197,9 @@ class Bounds:
     def _look(self, positions: Matrix) -> float:
         return 0.0 if self.metric is None else self.metric.with_room(self._decoded(positions))
 
-    def _decoded(self, positions: Matrix) -> Matrix:
+    def _decoded(self, positions: Matrix) -> Positions:
         """As a decoder has them."""
-        units = self.measures.prepared.units
-        return np.ascontiguousarray(units.into(units.back(positions)))
+        return self.measures.prepared.units.back(positions)
 
 
 def reaches(prepared: Prepared, contract: Contract) -> Matrix:

@@ -127,7 +127,7 @@ class Search:
         metric = self._measures.look
         if metric is None:
             return "nothing is visible"
-        return f"look {metric.distance(self._prepared.units.into(draft.decoded)):.3g}"
+        return f"look {metric.distance(draft.decoded):.3g}"
 
     def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
         """Ways that may be smallest, first those that are smaller at their first step."""
