@@ -101,7 +101,7 @@ def encode(
     entries = checked_metadata(metadata)
     with watched("encoding", progress) as reported:
         source = with_metadata(without_provenance(as_mesh(mesh)), chosen, entries)
-        if lengths := in_own_unit(keywords, source.metadata):
+        if lengths := in_own_unit(keywords, source.metadata, source):
             chosen = keywords_to.encode_options(**{**keywords, **lengths})
         if simplify:
             from bsm.simplification import encode_simplified

@@ -1,11 +1,16 @@
 """Lengths with units: `0.05mm`, `0.1%`, `0.001`."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Mapping
 from numbers import Real
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bsm.bitstream.errors import ArgumentError, OptionError
+
+if TYPE_CHECKING:
+    from bsm.codec.geometry.mesh import TriangleMesh
 
 NUMBER = r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)"
 LENGTH = re.compile(NUMBER + r" *(%|[a-zA-Zµ]*)")
@@ -41,21 +46,53 @@ def parse_bytes(name: str, value: Any) -> float:
     return float(found[1]) * float((1024 if found[3] else 1000) ** " kMG".index(found[2] or " "))
 
 
-def in_own_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options that are lengths in another unit than the mesh's, converted to that."""
+class UnitError(OptionError):
+    """The unit of a mesh is needed, and the mesh does not say it."""
+
+
+DOUBTFUL = 0.02  # of the diagonal: a bare number from here on may be meant as a length
+
+
+def in_own_unit(
+    options: Mapping[str, Any], metadata: Mapping[str, Any], mesh: TriangleMesh | None = None
+) -> dict[str, Any]:
+    """Return the options that are lengths in another unit than the mesh's, converted to that.
+
+    Raises
+    ------
+    OptionError
+        If a length is a number without a unit that may not be a share of the diagonal, or the mesh has no unit.
+    """
     value, own = options.get("max_error"), unit_of(metadata)
-    number, unit = _parts("max_error", value) if isinstance(value, str) else (0.0, "")
+    number, unit = (0.0, "") if value is None else _parts("max_error", value)
+    if unit == "" and number >= DOUBTFUL:
+        here = f", {number * mesh.diagonal:.3g} {own}".rstrip() + " here" if mesh else ""
+        raise OptionError(
+            f"max_error: {number:g} is {100 * number:.3g} % of the diagonal{here}; for that write {100 * number:.3g}%, "
+            f"for a length {number:g}{own or 'mm'}"
+        )
     if unit in ("", "%"):
         return {}
     if not own:
-        raise OptionError(
-            f"max_error is in {unit}, but the mesh has no unit: add unit={unit} to its metadata "
-            f"(--meta unit={unit}) if that is right, or give max_error in percent of the diagonal, such as 0.1%"
+        other = "mm" if unit in ("m", "meter", "meters") else "m"
+        long = float((mesh.positions.max(axis=0) - mesh.positions.min(axis=0)).max()) if mesh else 0.0
+        asked = f"is it {long:.3g} {other} or {long:.3g} {unit} long?" if long else "which is it?"
+        raise UnitError(
+            f"max_error is in {unit}, but the mesh has no unit: {asked} Give it, --meta unit={other} or --meta "
+            f"unit={unit}, or give max_error in percent of the diagonal, such as 0.1%"
         )
-    size, other = metres(own), metres(unit)
-    if size is None or other is None or other == size:
+    size, asked_for = metres(own), metres(unit)
+    if size is None or asked_for is None or asked_for == size:
         return {}
-    return {"max_error": f"{number * other / size:.12g}{own.strip()}"}
+    return {"max_error": f"{number * asked_for / size:.12g}{own.strip()}"}
+
+
+def asked_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> tuple[str, float]:
+    """Return the unit for errors, and how many of it are one of the mesh's: that of `max_error`, or the mesh's own."""
+    value, own = options.get("max_error"), unit_of(metadata)
+    unit = "" if value is None else _parts("max_error", value)[1].strip("%")
+    size, other = metres(own), metres(unit)
+    return (own, 1.0) if not unit or size is None or other is None else (unit, size / other)
 
 
 def _parts(name: str, value: Any) -> tuple[float, str]:

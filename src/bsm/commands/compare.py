@@ -21,13 +21,13 @@ from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, adder, limits_of
 from bsm.comparison import Pair, compare_meshes, order_of_used, pair, paired_frames, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
-from bsm.files.mesh import GLTF, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
-from bsm.files.stream import SequenceStream, decode_whole, is_stream, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, peek_header
 from bsm.lengths import length, unit_of
 from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
@@ -189,7 +189,7 @@ def sentence(compared: dict[str, Any], unit: str) -> str:
 def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
     """Compare two scenes of glTF primitive by primitive, if they have the same ones."""
     paths = (args.original, args.decoded)
-    if not all(Path(path).suffix[1:].lower() in GLTF for path in paths):
+    if not all(map(is_scene, paths)):
         return False
     from bsm.files.room import as_format_error
     from bsm.gltf.compress import as_shares

@@ -18,13 +18,13 @@ from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
-from bsm.files.mesh import GLTF, WRITTEN_FORMATS, by_name, format_of_name, save_written, unknown_suffix, written_mesh
+from bsm.files.mesh import WRITTEN_FORMATS, by_name, format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
-from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header
 from bsm.jobs.plan import plan
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Task, anywhere, came_to
@@ -74,7 +74,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
-    if Path(args.input).suffix[1:].lower() in GLTF:
+    if is_scene(args.input):
         return _restore(args, console)
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:

@@ -2,19 +2,25 @@
 
 import argparse
 import os
+import shlex
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
-from bsm.files.mesh import MESH_FORMATS
+from bsm.files.mesh import GLTF, MESH_FORMATS, WRITTEN_FORMATS
+from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
-from bsm.files.sequence import SEQUENCES_READ
+from bsm.files.sequence import SEQUENCE_FORMATS, SEQUENCES_READ
 from bsm.jobs.encode import EncodeJob, encode_one
 from bsm.jobs.plan import plan, plan_trees
 from bsm.jobs.run import Run, run_jobs
+
+_OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json", "zip")
+"""Suffixes that are not names of streams."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,6 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
+    _refuse_other_formats(args.inputs, args.output)
     members: tuple[str, ...] = ()
     one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
     if args.piped_frames and args.format not in (None, "npy"):
@@ -81,3 +88,19 @@ def run(args: argparse.Namespace, console: Console) -> int:
     more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more)
     return run_jobs(many, job, console, encode_one, jobs)
+
+
+def _refuse_other_formats(inputs: Sequence[str], output: str | None) -> None:
+    """Raise an error that names the right command if the name of the output is that of another format."""
+    suffix = Path(output or "").suffix[1:].lower()
+    if output is None or output.endswith("/") or suffix not in _OTHERS or Path(output).is_dir():
+        return
+    stream, scene = (shlex.quote(str(Path(output).with_suffix(end))) for end in (".bsm", ".glb"))
+    given = shlex.join(inputs if len(inputs) < 4 else [inputs[0], "..."])
+    moving = len(inputs) > 1 or Path(inputs[0]).is_dir() or Path(inputs[0]).suffix[1:].lower() in (*CACHES, "npz")
+    advice = f"bsm encode {given} -o {stream}"
+    if suffix in GLTF:
+        advice = f"{advice}; bsm glb {stream} -o {scene}" if moving else f"bsm glb {given} -o {scene}"
+    elif suffix in (SEQUENCE_FORMATS if moving else WRITTEN_FORMATS):
+        advice += f"; then bsm decode {stream} -o {shlex.quote(output)}"
+    raise OptionError(f"{output}: encode writes streams, .bsm. Run: {advice}")

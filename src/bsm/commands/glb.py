@@ -1,16 +1,19 @@
 """bsm glb: a scene of glTF with its geometry coded, or one of a sequence."""
 
 import argparse
+import shlex
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import adder, within
 from bsm.console import Console
+from bsm.files.mesh import GLTF, read_mesh, size_with_parts, written_mesh
 from bsm.files.output import write_output
-from bsm.files.pipes import read_bytes
-from bsm.files.stream import is_stream
+from bsm.files.pipes import read_bytes, read_chunks
+from bsm.files.sequence import open_sequence
+from bsm.files.stream import decode_whole, is_stream, peek_header
 from bsm.gltf.compress import ImageRule, compress, count_primitives
-from bsm.gltf.document import read_document
+from bsm.gltf.document import Document, read_document
 from bsm.gltf.write import moving_scene
 
 MANY = 16  # primitives from which on a page waits longer for decoding than for the bytes that it saves
@@ -20,7 +23,9 @@ VISIBLE = 0.01  # of the diagonal of a component: an error that is worth a note
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    scene = ".glb, .gltf with the files beside it, or the stream of a sequence, which is wrapped in a scene"
+    scene = (
+        ".glb, .gltf with the files beside it, any mesh file, or the stream of a sequence, which is wrapped in a scene"
+    )
     add("input", "SCENE", scene)
     add("-o --output", "OUT.glb", "the compressed scene", required=True)
     promised = "quality of each mesh (default: grid14, as exact as Draco with 14 bits)"
@@ -41,7 +46,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     rule = ImageRule.parse(args.images) if args.images else None
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"{args.output}: the output must be a .glb")
-    if is_stream(args.input):
+    if not Path(args.input).is_dir() and is_stream(args.input) and _moves(args.input):
         if any((args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)) or (
             args.preset != PRESETS[-1]
         ):
@@ -51,7 +56,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         write_output(args.output, scene, overwrite=args.force)
         console.note(f"{args.input} -> {args.output}: a sequence, {len(stream)} -> {len(scene)} bytes")
         return
-    document = read_document(args.input)
+    document, taken = _document(args.input, console)
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     if args.preset == "lossless" and args.quick:
         raise OptionError("--quick rounds positions to a grid; leave out --preset lossless")
@@ -67,7 +72,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     write_output(args.output, found.data, overwrite=args.force)
     console.note(
         f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
-        f"{document.received} -> {len(found.data)} bytes; largest vertex error {found.error[0]:.3g}, at most "
+        f"{taken or document.received} -> {len(found.data)} bytes; largest vertex error {found.error[0]:.3g}, at most "
         f"{100 * found.error[1]:.3g} % of the diagonal of its component"
     )
     if found.error[1] > VISIBLE:
@@ -80,6 +85,32 @@ def run(args: argparse.Namespace, console: Console) -> None:
         console.note(f"{args.input}: {images} bytes are unchanged images; --images webp:85 makes them smaller")
     for reason, count in found.left.items():
         console.note(f"{args.input}: {count} unchanged: {reason}")
+
+
+def _moves(path: str) -> bool:
+    header = peek_header(read_chunks(path))[0]
+    return header is not None and header.gop_frames > 0
+
+
+def _document(path: str, console: Console) -> tuple[Document, int | None]:
+    """Return a scene, or a mesh as one; and the bytes of the mesh file."""
+    if not Path(path).is_dir() and is_stream(path):
+        mesh = decode_whole(read_chunks(path))
+    elif Path(path).suffix[1:].lower() in GLTF:
+        return read_document(path), None
+    else:
+        if open_sequence(path) is not None:
+            stream = shlex.quote(f"{Path(path).stem}.bsm")
+            advice = f"bsm encode {shlex.quote(path)} -o {stream}; bsm glb {stream} -o {Path(path).stem}.glb"
+            raise OptionError(f"{path} is a sequence. Run: {advice}")
+        source = read_mesh(path)
+        mesh = source.mesh
+        for note in source.notes:
+            console.note(f"{path}: {note}")
+    written = written_mesh(mesh, "glb", path)
+    if written.left_out:
+        console.note(f"{path}: glb cannot hold {', '.join(written.left_out)}")
+    return Document(written.data), size_with_parts(path, mesh.metadata)
 
 
 def _qualities(args: argparse.Namespace) -> dict[str, str]:

@@ -4,15 +4,15 @@ import argparse
 import base64
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.inspection import StreamInfo, inspect_stream
-from bsm.files.mesh import GLTF, by_name
+from bsm.files.mesh import by_name
 from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
+from bsm.files.stream import is_scene
 from bsm.jobs.plan import input_names
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task
@@ -38,7 +38,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     limits = limits_of(args.limits)
     if is_tiles(args.input):
         return {"input": args.input, **open_tiles(args.input).manifest}
-    if Path(args.input).suffix[1:].lower() in GLTF:
+    if is_scene(args.input):
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
         streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
         return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}

@@ -6,10 +6,12 @@ before anything is allocated for it.
 """
 
 import importlib
+import json
 import math
 import os
 import re
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,7 +19,7 @@ from typing import Any
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files import pipes
 from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import MeshFile, Polygons
@@ -151,6 +153,22 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
 def unknown_suffix(path: str | os.PathLike[str], *more: str) -> OptionError:
     """Return an error that lists the suffixes that can be written."""
     return OptionError(f"{path}: unknown format; use one of .{', .'.join((*more, *WRITTEN_FORMATS))}")
+
+
+def size_with_parts(path: str, metadata: Metadata) -> int | None:
+    """The bytes of a file and of those beside it that it names: materials, images, buffers; None if not known."""
+    size = pipes.size_of(path)
+    if size is None or is_url(path) or path == "-":
+        return size
+    names = {*str(metadata.get("mtllib", "")).split("\n"), *(name for name, _ in images_in(metadata).values())}
+    if Path(path).suffix.lower() == ".gltf":
+        with suppress(ValueError, TypeError, AttributeError, KeyError):
+            tree = json.loads(Path(path).read_bytes())
+            names = {part["uri"] for kind in ("buffers", "images") for part in tree.get(kind, []) if "uri" in part}
+    for name in filter(None, names):
+        with suppress(FormatError, OSError, ValueError):
+            size += os.path.getsize(file_beside(Path(path).resolve().parent, name))
+    return size
 
 
 def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:

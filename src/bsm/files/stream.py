@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from itertools import chain
+from pathlib import Path
 
 import numpy as np
 
@@ -13,12 +14,18 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import Progress
+from bsm.files.mesh import GLTF
 from bsm.files.pipes import Source, as_input, is_pipe
 
 
 def is_stream(source: Source) -> bool:
     """Whether something begins like a stream; nothing is taken from an `Input`, and the path of a pipe is not asked."""
     return not is_pipe(source) and as_input(source).peek(len(MAGIC)) == MAGIC
+
+
+def is_scene(path: str) -> bool:
+    """Whether a path is that of a glTF scene; a stream may have any name."""
+    return Path(path).suffix[1:].lower() in GLTF and not is_stream(path)
 
 
 def decode_whole(

@@ -20,13 +20,13 @@ from bsm.codec.static.encoder import Attempt, Encoder
 from bsm.codec.static.targets import ANY_ANGLE
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.jobs.task import Facts, Task, came_to
-from bsm.lengths import in_own_unit
+from bsm.lengths import asked_unit, in_own_unit
 from bsm.libraries import PROVENANCE, has_provenance, with_metadata
 from bsm.options import encode_options, sequence_options
 from bsm.simplification import Simplified, encode_simplified
@@ -75,7 +75,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     with console.progress("reading", until=READ):
         source = read_mesh(job.input, job.format)
     mesh = with_metadata(source.mesh, chosen, job.metadata)
-    if lengths := in_own_unit(job.options, mesh.metadata):
+    if lengths := in_own_unit(job.options, mesh.metadata, mesh):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
     begin = time.perf_counter()
     options = {**job.options, "simplify": job.simplify}
@@ -104,8 +104,8 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         *([f"no look is promised; measured: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
     vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
-    errors, numbers = _errors(result, found, mesh.diagonal or 1.0)
-    taken, bpv = size_of(job.input), 8 * (size - images) / vertices
+    errors, numbers = _errors(result, found, mesh.diagonal or 1.0, *asked_unit(job.options, mesh.metadata))
+    taken, bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     other = encoder.binding not in ("", "look") and not (found and found.apart)
@@ -125,19 +125,25 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     return {"input": job.input, "output": job.output, **counts, **sizes, **numbers, **ends}
 
 
-def _errors(result: Attempt, found: Simplified | None, diagonal: float) -> tuple[str, Facts]:
+def _errors(result: Attempt, found: Simplified | None, diagonal: float, unit: str, per_own: float) -> tuple[str, Facts]:
     """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
+
+    def farthest(relative: float) -> tuple[str, Facts]:
+        share, value = f"{100 * relative:.3g} % of the diagonal", relative * diagonal * per_own
+        facts = {"max_error_relative": relative, **({"max_error": value, "unit": unit} if unit else {})}
+        return (f"{value:.3g} {unit} ({share})" if unit else share), facts
+
     if found is not None and found.apart:
-        farthest = found.apart / diagonal
-        words = (
-            f"{found.before} faces before simplifying, surfaces at most {100 * farthest:.3g} % of the diagonal apart"
-        )
-        return words, {"faces_before": found.before, "max_error_relative": farthest}
+        words, facts = farthest(found.apart / diagonal)
+        return f"{found.before} faces before simplifying, surfaces at most {words} apart", {
+            "faces_before": found.before,
+            **facts,
+        }
     error = result.comparison
-    words = f"largest vertex error {100 * error.max_error_relative:.3g} % of the diagonal, mean normal error "
-    words += f"{error.angle_deg:.2f} degrees{'; all triangles are kept' if found else ''}"
+    words, facts = farthest(error.max_error_relative)
     angles = {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
-    return words, {**angles, "max_error_relative": error.max_error_relative}
+    kept = "; all triangles are kept" if found else ""
+    return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", {**angles, **facts}
 
 
 def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
@@ -151,6 +157,8 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         raise OptionError("--permutation is the order of one mesh; with --runs the faces change")
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
     entries = {**source.metadata, **rate, **job.metadata}
+    if lengths := in_own_unit(job.options, entries, None):
+        chosen = sequence_options(**{"keep_order": source.rigged > 0, **job.options, **lengths}, threads=job.threads)
     metadata, generations = with_provenance(entries, job.provenance, job.input, job.options, chosen)
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
     numbers, size = count(), 0

@@ -84,8 +84,8 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
 _MOST_BYTES = 1 << 63
 _FIELDS: Mapping[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
-    **dict.fromkeys(("seconds", "max_error_relative", "kg"), lambda value: type(value) in (int, float)),
-    **dict.fromkeys(("input", "output", "output_sha256"), lambda value: isinstance(value, str)),
+    **dict.fromkeys(("seconds", "max_error_relative", "max_error", "kg"), lambda value: type(value) in (int, float)),
+    **dict.fromkeys(("input", "output", "output_sha256", "unit"), lambda value: isinstance(value, str)),
     "error": lambda value: isinstance(value, str) and bool(value.strip()),
     "exit": lambda value: type(value) is int and 0 < value < 256,
 }
@@ -150,7 +150,23 @@ def totals(files: Sequence[Facts]) -> Facts:
         "input_bytes": taken,
         "output_bytes": given,
         "ratio": taken / given if given else None,
+        "largest_error": largest_error(done),
     }
+
+
+def largest_error(files: Sequence[Facts]) -> str:
+    """The largest vertex error of files, in words: in each unit, and of those without one relative."""
+    worst: dict[str, Facts] = {}
+    for facts in files:
+        if facts.get("max_error_relative") is not None:
+            unit, name = facts.get("unit", ""), "max_error" if facts.get("unit") else "max_error_relative"
+            worst[unit] = max(worst.get(unit, facts), facts, key=lambda one: float(one[name]))
+    sizes = [
+        (f"{facts['max_error']:.3g} {unit}" if unit else f"{100 * facts['max_error_relative']:.3g} % of the diagonal")
+        + f" ({facts['input']})"
+        for unit, facts in worst.items()
+    ]
+    return " and ".join(sizes)
 
 
 def table(files: Sequence[Facts]) -> Iterator[str]:
@@ -168,6 +184,8 @@ def _cells(facts: Facts) -> str:
     taken, given, farthest, kg = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative", "kg"))
     sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
     ratio = f"{taken / given:.2f}" if taken and given else ""
-    error = f"{100 * farthest:.3g} %" if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
+    length = f"{facts['max_error']:.3g} {facts['unit']}" if facts.get("unit") else ""
+    share = f"{100 * farthest:.3g} %" if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
+    error = length or share
     seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"
     return f"{sizes} {ratio:>7} {error:>10} {seconds:>8}"

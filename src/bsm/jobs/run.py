@@ -15,8 +15,9 @@ from bsm.console import Console, print_json
 from bsm.exits import exit_of, report_error, worded
 from bsm.files import pipes
 from bsm.files.output import refuse_collisions, refuse_to_overwrite
-from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table
+from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, largest_error, options_of, read_report, recorded, table
 from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
+from bsm.lengths import UnitError
 
 LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
 
@@ -48,11 +49,15 @@ def run_jobs(
         elif show:
             print(show(facts))
         return 0
-    begin = time.perf_counter()
+    begin, asked_once = time.perf_counter(), 0
 
     def ended(job: Job, outcome: Outcome) -> None:
+        nonlocal asked_once
         for line in outcome.notes:
             console.note(line)
+        asked_once += isinstance(outcome.error, UnitError)
+        if isinstance(outcome.error, UnitError) and asked_once > 1:
+            return  # the same question for each file
         if outcome.error is not None:
             report_error(outcome.error, as_json=run.json)
         elif show and not run.json:
@@ -62,6 +67,9 @@ def run_jobs(
     good = [facts for facts in done if "error" not in facts]
     taken, given = (sum(facts.get(key) or 0 for facts in good) for key in ("input_bytes", "output_bytes"))
     sizes = f", {came_to(taken, given)}" if taken and given else ""
+    sizes += f", largest vertex error {worst}" if (worst := largest_error(good)) else ""
+    if asked_once > 1:
+        console.note(f"{asked_once} files in all have no unit")
     for line in table(done) if run.report is not None else ():
         console.note(line)
     console.note(f"{len(good)} of {counted(files=len(done))}{sizes}, {time.perf_counter() - begin:.2f} s")
