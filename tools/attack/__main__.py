@@ -11,6 +11,7 @@ growth   files that are large in one place, read at four times the size
 costly   small files of meshes that take long to encode, found by a search
 manifests  manifests and indexes of tiles, mutated by their grammar
 doors    files of others, read by other libraries and compared with what comes back from a stream
+judges   encoded meshes by the decoder of release 1.0 and by the reference decoder
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
@@ -20,7 +21,7 @@ from tools.command import dispatch
 
 COMMANDS = {
     name: f"{name}:main"
-    for name in ("fuzz", "sweep", "readers", "growth", "proof", "costly", "manifests", "uses", "doors")
+    for name in ("fuzz", "sweep", "readers", "growth", "proof", "costly", "manifests", "uses", "doors", "judges")
 }
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 
