@@ -23,7 +23,7 @@ typedef struct {
     Layer layer;
     Packet *chunk;
     int64_t count, at, inside, moves; /* moves: of the bytes of the chunks */
-    Reading reading;
+    Coding coding;
 } LevelsAhead;
 
 /* Blocks `first` to `first + count` of whole chains are ready, or failed ahead. */
@@ -145,13 +145,13 @@ static bool are_left(const LevelsAhead *levels, const Reader *reader) {
 static bool read_stretch(LevelsAhead *levels) {
     const Packet *chunk = levels->chunk + levels->at;
     Layer *layer = &levels->layer;
-    if (levels->inside == 0 && !begin_reading(&levels->context, chunk->data, &levels->reading)) return false;
+    if (levels->inside == 0 && !begin_coding(&levels->context, chunk->data, &levels->coding)) return false;
     int64_t first = chunk->first + levels->inside, count = least(chunk->count - levels->inside, AT_ONCE);
-    int64_t done = code_levels(levels->reading.coder, layer->bank, layer->corners, layer->levels, first, count);
+    int64_t done = code_levels(levels->coding.coder, layer->bank, layer->corners, layer->levels, first, count);
     levels->inside += count;
-    if (done < count) return nonsense(&levels->reading, "");
+    if (done < count) return nonsense(&levels->coding, "");
     if (levels->inside < chunk->count) return true;
-    if (!check_chunk_done(&levels->reading, done, count)) return false;
+    if (!check_chunk_done(&levels->coding, done, count)) return false;
     layer->read += chunk->count;
     levels->inside = 0;
     return ++levels->at < levels->count;

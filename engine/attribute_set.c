@@ -51,16 +51,16 @@ static bool read_seams(Attributes *attributes, int64_t index, Span payload, Aren
     Ints joined, firsts;
     Ints2 ends;
     Bank bank;
-    Reading reading;
+    Coding coding;
     if (!attributes->has_corners || !zero_bytes(attributes->arena, size, &joins->seams)
         || !zero_bytes(scratch, size, &others) || !take_ints(scratch, size, &joined)
         || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
         || !make_bank(scratch, EDGE_BANK, &bank)
-        || !begin_reading(context, payload, &reading))
+        || !begin_coding(context, payload, &coding))
         return false;
     look_at_others(attributes, index, others);
-    code_edges(reading.coder, bank, attributes->corners, joins->seams, const_bytes(others), ends);
-    if (!finish_reading(&reading)) return false;
+    code_edges(coding.coder, bank, attributes->corners, joins->seams, const_bytes(others), ends);
+    if (!finish_coding(&coding)) return false;
     joins->count = join_corners(attributes->corners, const_bytes(joins->seams), joined, firsts);
     return true;
 }
@@ -299,17 +299,17 @@ bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 pl
 
 bool code_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first,
     int64_t count) {
-    Reading reading;
+    Coding coding;
     int64_t done;
-    if (!begin_reading(context, payload, &reading)) return false;
+    if (!begin_coding(context, payload, &coding)) return false;
     if (attribute->declaration.domain == BSMDEC_FACE) {
-        done = code_faces(reading.coder, group->model, group->corners, group->face_values, first, count);
+        done = code_faces(coding.coder, group->model, group->corners, group->face_values, first, count);
     } else {
         ValueKind kind = value_kind(&attribute->declaration);
         done = (kind == NORMALS ? code_normals : kind == TEXCOORDS ? code_texcoords : code_scalars)(
-            reading.coder, group->model, group->corners, group->values, first, count);
+            coding.coder, group->model, group->corners, group->values, first, count);
     }
-    return check_chunk_done(&reading, done, count);
+    return check_chunk_done(&coding, done, count);
 }
 
 static bool mark_fresh(Attributes *attributes, const Attribute *attribute, const Packet *packet) {

@@ -98,12 +98,12 @@ static bool read_packed(Chains *chains, Span payload, int64_t count, Arena *scra
 
 /* Coded coefficients (M 9.1 to M 9.11), `count` rows of three. */
 static bool read_levels(Chains *chains, Span payload, Ints2 levels) {
-    Reading reading;
+    Coding coding;
     if (levels.rows > chains->header->coefficients)
         return FAIL(chains->context, CORRUPT, "# coefficients are too many", levels.rows);
-    if (!begin_reading(chains->context, payload, &reading)) return false;
-    code_block(reading.coder, chains->bank, chains->past, const_ints2(chains->expectations), levels);
-    return finish_reading(&reading);
+    if (!begin_coding(chains->context, payload, &coding)) return false;
+    code_block(coding.coder, chains->bank, chains->past, const_ints2(chains->expectations), levels);
+    return finish_coding(&coding);
 }
 
 /* Springs at each row, the factor of L + S + shift, and what continues what they hang on (M 7.3, M 7.4). */

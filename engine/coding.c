@@ -1,17 +1,15 @@
 #include "engine/coding.h"
 
-#include <stdlib.h>
-
 enum { AHEAD = 4 };
 
 #ifdef BSMDEC_WRITES
-static void begin_writing(Reading *writing) {
+static void begin_writing(Coding *writing) {
     Writing *to = writing->context->writing;
     writing->state[1] = UINT32_MAX;
     writing->coder = (Coder){{writing->state, CODER_STATES}, {to->data + to->size, to->room - to->size}};
 }
 
-static bool finish_writing(const Reading *writing) {
+static bool finish_writing(const Coding *writing) {
     Writing *to = writing->context->writing;
     int64_t size = finish_coder(writing->coder);
     if (size < 0) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
@@ -20,12 +18,14 @@ static bool finish_writing(const Reading *writing) {
     return true;
 }
 
-bool room_to_write(Reading *writing, int64_t bytes) {
+bool room_to_write(Coding *writing, int64_t bytes) {
     Writing *to = writing->context->writing;
     int64_t room = to != NULL ? to->size + writing->state[CODER_POSITION] + bytes + AHEAD : 0;
     if (to == NULL || room < to->room) return true;
-    uint8_t *data = realloc(to->data, (size_t)(2 * room));
-    if (data == NULL) return FAIL(writing->context, NO_MEMORY, "a payload has no room");
+    uint8_t *data;
+    if (!TAKE_OF_HOST(writing->context, 2 * room, data)) return false;
+    memcpy(data, to->data, (size_t)to->room);
+    host_give(writing->context, to->data, (size_t)to->room);
     to->data = data;
     to->room = 2 * room;
     writing->coder.data = (Bytes){to->data + to->size, to->room - to->size};
@@ -33,37 +33,37 @@ bool room_to_write(Reading *writing, int64_t bytes) {
 }
 #endif
 
-bool begin_reading(Context *context, Span payload, Reading *reading) {
+bool begin_coding(Context *context, Span payload, Coding *coding) {
     uint64_t code = 0;
     for (int i = 0; i < AHEAD; i++) code = code << 8 | (i < payload.size ? payload.data[i] : 0);
     if (failed(context)) return false;
 #ifdef BSMDEC_WRITES
-    *reading = (Reading){.context = context};
-    if (context->writing != NULL) return begin_writing(reading), true;
+    *coding = (Coding){.context = context};
+    if (context->writing != NULL) return begin_writing(coding), true;
 #endif
     if (code >= UINT32_MAX) return FAIL(context, CORRUPT, "an entropy-coded payload cannot begin with ff ff ff ff");
-    *reading = (Reading){.context = context, .state = {(int64_t)code, UINT32_MAX, AHEAD, 1, 0}};
-    reading->coder = (Coder){{reading->state, CODER_STATES}, {(uint8_t *)payload.data, payload.size}}; /* only read */
+    *coding = (Coding){.context = context, .state = {(int64_t)code, UINT32_MAX, AHEAD, 1, 0}};
+    coding->coder = (Coder){{coding->state, CODER_STATES}, {(uint8_t *)payload.data, payload.size}}; /* only read */
     return true;
 }
 
-bool ran_over(const Reading *reading) { return reading->state[CODER_POSITION] > reading->coder.data.size + AHEAD; }
+bool ran_over(const Coding *coding) { return coding->state[CODER_POSITION] > coding->coder.data.size + AHEAD; }
 
-bool nonsense(const Reading *reading, const char *what) {
-    if (ran_over(reading))
-        return FAIL(reading->context, TRUNCATED, "an entropy-coded payload of # bytes ends before its last symbol",
-            reading->coder.data.size);
-    return FAIL(reading->context, CORRUPT, what);
+bool nonsense(const Coding *coding, const char *what) {
+    if (ran_over(coding))
+        return FAIL(coding->context, TRUNCATED, "an entropy-coded payload of # bytes ends before its last symbol",
+            coding->coder.data.size);
+    return FAIL(coding->context, CORRUPT, what);
 }
 
-bool finish_reading(const Reading *reading) {
+bool finish_coding(const Coding *coding) {
 #ifdef BSMDEC_WRITES
-    if (reading->context->writing != NULL) return finish_writing(reading);
+    if (coding->context->writing != NULL) return finish_writing(coding);
 #endif
-    int64_t left = reading->coder.data.size - reading->state[CODER_POSITION];
-    if (ran_over(reading)) return nonsense(reading, "");
+    int64_t left = coding->coder.data.size - coding->state[CODER_POSITION];
+    if (ran_over(coding)) return nonsense(coding, "");
     return left <= 0
-        || FAIL(reading->context, CORRUPT, "# bytes are left over behind the last symbol of a payload", left);
+        || FAIL(coding->context, CORRUPT, "# bytes are left over behind the last symbol of a payload", left);
 }
 
 bool make_bank(Arena *arena, BankPlan plan, Bank *bank) {

@@ -46,7 +46,7 @@ bool make_learners(Arena *arena, int64_t count, Longs2 *learners) {
     return zero_longs2(arena, count, LEARNER_COLUMNS, learners);
 }
 
-bool check_chunk_done(const Reading *reading, int64_t done, int64_t count) {
-    if (ran_over(reading) || done < count) return nonsense(reading, "a value is out of its range");
-    return finish_reading(reading);
+bool check_chunk_done(const Coding *coding, int64_t done, int64_t count) {
+    if (ran_over(coding) || done < count) return nonsense(coding, "a value is out of its range");
+    return finish_coding(coding);
 }

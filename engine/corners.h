@@ -17,6 +17,6 @@ INLINE void start_learner(Longs2 learners, int64_t k, int term, int64_t weight) 
     learner->weight[term] = learner->start[term] = weight;
 }
 /* What a kernel of values says of a payload: how many of `count` it has done. */
-bool check_chunk_done(const Reading *reading, int64_t done, int64_t count);
+bool check_chunk_done(const Coding *coding, int64_t done, int64_t count);
 
 #endif

@@ -178,19 +178,19 @@ typedef struct {
 
 static bool read_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count,
     int64_t columns, int64_t stair, Arena *scratch) {
-    Reading reading;
+    Coding coding;
     Longs slow;
-    if (!take_longs(scratch, columns, &slow) || !begin_reading(context, payload, &reading)) return false;
-    for (int64_t i = 0; i < count && !ran_over(&reading); i++) {
+    if (!take_longs(scratch, columns, &slow) || !begin_coding(context, payload, &coding)) return false;
+    for (int64_t i = 0; i < count && !ran_over(&coding); i++) {
         const Matrix *m = matrices + i;
         Ints2 levels = {m->levels, m->rows, columns};
         ConstInts2 reference = {m->reference, m->reference_rows, columns};
         if (m->lead > 0)
-            code_matrix(reading.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns),
+            code_matrix(coding.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns),
                 m->rows, columns, slow);
-        else code_matrix(reading.coder, bank, levels, reference, 0, columns, 0, (m->rows + 1) / 2, 0, slow);
+        else code_matrix(coding.coder, bank, levels, reference, 0, columns, 0, (m->rows + 1) / 2, 0, slow);
     }
-    return finish_reading(&reading);
+    return finish_coding(&coding);
 }
 
 /* to += scalar * from. */

@@ -78,12 +78,12 @@ bool begin_grid(GridField *field, Context *context, const Header *header, ConstI
 }
 
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {
-    Reading reading;
-    if (!begin_reading(field->context, payload, &reading)) return false;
+    Coding coding;
+    if (!begin_coding(field->context, payload, &coding)) return false;
     int64_t done = method_of(field->header) == LIGHT
-        ? code_light(reading.coder, field->corners, field->light, first, count)
-        : code_grid(reading.coder, field->model, field->corners, field->grid, first, count);
-    return check_chunk_done(&reading, done, count);
+        ? code_light(coding.coder, field->corners, field->light, first, count)
+        : code_grid(coding.coder, field->model, field->corners, field->grid, first, count);
+    return check_chunk_done(&coding, done, count);
 }
 
 /* V 12. */
@@ -123,10 +123,10 @@ bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scr
     int64_t count = vertices.size;
     Ints2 values;
     Longs2 low, near, high, chosen;
-    Reading reading;
+    Coding coding;
     if (!take_ints2(scratch, count, AXES, &values) || !take_longs2(scratch, count, AXES, &low)
         || !take_longs2(scratch, count, AXES, &near) || !take_longs2(scratch, count, AXES, &high)
-        || !take_longs2(scratch, count, AXES, &chosen) || !begin_reading(field->context, payload, &reading))
+        || !take_longs2(scratch, count, AXES, &chosen) || !begin_coding(field->context, payload, &coding))
         return false;
     for (int64_t i = 0; i < AXES * count; i++) {
         int j = (int)(i % AXES);
@@ -137,9 +137,9 @@ bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scr
         high.data[i] = number_of(up + header->center[j]);
         chosen.data[i] = number_of(field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + j]);
     }
-    int64_t done = code_floats(reading.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
+    int64_t done = code_floats(coding.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
         const_longs2(high), chosen);
-    if (!check_chunk_done(&reading, done, count)) return false;
+    if (!check_chunk_done(&coding, done, count)) return false;
     double spoiled = 0.0;
     for (int64_t i = 0; i < AXES * count; i++) {
         double place = float_of(chosen.data[i]);

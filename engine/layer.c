@@ -102,10 +102,10 @@ static bool slide(Layer *layer, Arena *scratch) {
 }
 
 bool code_layer(Layer *layer, int64_t first, int64_t count, Span payload) {
-    Reading reading;
-    return begin_reading(layer->context, payload, &reading)
-        && check_chunk_done(&reading,
-            code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count), count);
+    Coding coding;
+    return begin_coding(layer->context, payload, &coding)
+        && check_chunk_done(&coding,
+            code_levels(coding.coder, layer->bank, layer->corners, layer->levels, first, count), count);
 }
 
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {

@@ -8,29 +8,29 @@
 
 enum { FIRST, COPY, LOOSE };
 
-static bool read_permutation(Reading *reading, Arena *scratch, Ints values) {
+static bool read_permutation(Coding *coding, Arena *scratch, Ints values) {
     Bank bank;
     Ints tree;
     if (!make_bank(scratch, STEP_BANK, &bank) || !take_ints(scratch, values.size + 1, &tree)) return false;
-    bool legal = code_steps(reading->coder, bank, values, tree);
-    return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not a permutation");
+    bool legal = code_steps(coding->coder, bank, values, tree);
+    return (legal && !ran_over(coding)) || nonsense(coding, "a payload is not a permutation");
 }
 
-static bool read_turns(Reading *reading, Arena *scratch, Ints values) {
+static bool read_turns(Coding *coding, Arena *scratch, Ints values) {
     Bank bank;
     if (!make_bank(scratch, TURN_BANK, &bank)) return false;
-    bool legal = code_turns(reading->coder, bank, values);
-    return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not numbers from 0 to 2");
+    bool legal = code_turns(coding->coder, bank, values);
+    return (legal && !ran_over(coding)) || nonsense(coding, "a payload is not numbers from 0 to 2");
 }
 
 /* Whole numbers, as a matrix of one column (F 9.3). */
-static bool read_column(Reading *reading, Arena *scratch, Ints values) {
+static bool read_column(Coding *coding, Arena *scratch, Ints values) {
     Bank bank;
     Longs slow;
     if (!make_bank(scratch, MATRIX_BANK, &bank) || !take_longs(scratch, 1, &slow)) return false;
-    code_matrix(reading->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0,
+    code_matrix(coding->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0,
         values.size, 1, slow);
-    return !ran_over(reading) || nonsense(reading, "");
+    return !ran_over(coding) || nonsense(coding, "");
 }
 
 /* Corner k of a face, of the three in ascending order. */
@@ -93,11 +93,11 @@ static void arrange(ConstInts2 faces, Ints numbers, Ints order, Ints places, Int
 }
 
 /* What each given vertex is, as C 9 numbers vertices, -1 for a loose one (F 9.2, F 9.3). */
-static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Arena *scratch, Ints met) {
-    Context *context = reading->context;
+static bool read_sources(Coding *coding, int64_t vertices, int64_t copies, Arena *scratch, Ints met) {
+    Context *context = coding->context;
     Ints kinds, back;
     if (!zero_ints(scratch, met.size, &kinds) || !zero_ints(scratch, copies, &back)
-        || !read_turns(reading, scratch, kinds) || !read_column(reading, scratch, back))
+        || !read_turns(coding, scratch, kinds) || !read_column(coding, scratch, back))
         return false;
     int64_t counted[3] = {0}, known = 0, copied = 0;
     for (int64_t i = 0; i < met.size; i++) counted[kinds.data[i]]++;
@@ -118,21 +118,21 @@ static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Are
 }
 
 /* Corners as given vertices (F 9.4): the copies of vertex v are `members` from starts[v] on. */
-static bool read_corners(Reading *reading, int64_t copies, Ints starts, Ints members, Arena *scratch, Ints2 faces) {
+static bool read_corners(Coding *coding, int64_t copies, Ints starts, Ints members, Arena *scratch, Ints2 faces) {
     Ints steps, visits;
     if (!zero_ints(scratch, 3 * faces.rows, &steps) || !zero_ints(scratch, starts.size, &visits)
-        || (copies > 0 && !read_column(reading, scratch, steps)))
+        || (copies > 0 && !read_column(coding, scratch, steps)))
         return false;
     for (int64_t i = 0; i < 3 * faces.rows; i++) {
         int64_t v = faces.data[i], count = starts.data[v + 1] - starts.data[v];
         if (steps.data[i] < 0 || steps.data[i] >= count)
-            return FAIL(reading->context, CORRUPT, "a corner refers to a missing copy");
+            return FAIL(coding->context, CORRUPT, "a corner refers to a missing copy");
         faces.data[i] = members.data[starts.data[v] + (visits.data[v]++ + steps.data[i]) % count];
     }
     return true;
 }
 
-static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int64_t copies, int64_t loose,
+static bool read_order(Coding *coding, ConstInts2 faces, int64_t vertices, int64_t copies, int64_t loose,
     Arena *arena, Arena *scratch, Numbering *numbering) {
     int64_t m = faces.rows;
     Ints numbers, places, turns, order, corners, source, starts, members, coded;
@@ -140,8 +140,8 @@ static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int
     if (!zero_ints(scratch, vertices, &numbers) || !zero_ints(scratch, m, &places) || !zero_ints(scratch, m, &turns)
         || !take_ints2(arena, m, 3, &arranged) || !take_ints2(scratch, m, 3, &renumbered)
         || !take_ints(arena, 3 * m, &corners) || !take_ints(arena, vertices + copies + loose, &source)
-        || !read_permutation(reading, scratch, numbers) || !read_permutation(reading, scratch, places)
-        || !read_turns(reading, scratch, turns))
+        || !read_permutation(coding, scratch, numbers) || !read_permutation(coding, scratch, places)
+        || !read_turns(coding, scratch, turns))
         return false;
     for (int64_t i = 0; i < 3 * m; i++) renumbered.data[i] = numbers.data[faces.data[i]];
     if (!suggest(const_ints2(renumbered), vertices, scratch, &order)
@@ -149,9 +149,9 @@ static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int
         return false;
     arrange(faces, numbers, order, places, turns, arranged, corners);
     if (copies + loose > 0) {
-        if (!read_sources(reading, vertices, copies, scratch, source)
+        if (!read_sources(coding, vertices, copies, scratch, source)
             || !invert(const_ints(source), vertices, scratch, &starts, &members)
-            || !read_corners(reading, copies, starts, members, scratch, arranged))
+            || !read_corners(coding, copies, starts, members, scratch, arranged))
             return false;
         for (int64_t i = 0; i < source.size; i++) source.data[i] = source.data[i] < 0 ? -1 : coded.data[source.data[i]];
     } else {
@@ -180,11 +180,11 @@ bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *h
         if (!(positions.data[i] - positions.data[i] == 0.0))
             return FAIL(context, CORRUPT, "the position of a loose vertex is not finite");
     }
-    Reading reading;
+    Coding coding;
     Mark mark = mark_of(scratch);
-    bool done = begin_reading(context, take_rest(&cursor), &reading)
-        && read_order(&reading, faces, header->vertices, copies, loose, arena, scratch, numbering)
-        && finish_reading(&reading);
+    bool done = begin_coding(context, take_rest(&cursor), &coding)
+        && read_order(&coding, faces, header->vertices, copies, loose, arena, scratch, numbering)
+        && finish_coding(&coding);
     release_to(scratch, mark);
     if (!done) return false;
     numbering->loose = const_doubles2(positions);

@@ -12,4 +12,10 @@ typedef struct Writing {
     int count;
 } Writing;
 
+/* Faces, and values of each vertex, or of each row of an attribute; all arrays stay with the caller. */
+typedef struct {
+    const int32_t *faces, *values;
+    int64_t faces_count, rows, columns;
+} Written;
+
 #endif

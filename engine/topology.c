@@ -24,13 +24,13 @@ static bool make_models(Arena *arena, int64_t vertices, ValenceModel *models, Ba
         && open_bank(&models->rare, *rare, RARE_NODES, RARE_NODES, 1);
 }
 
-static int64_t code_count(Reading *reading, Bank rare, int64_t count) {
+static int64_t code_count(Coding *coding, Bank rare, int64_t count) {
     int64_t context = 0;
-    return code_one_unsigned(reading->coder, rare, (ConstLongs){&context, 1}, 0, RARE_UNARY, count, RARE_HEADER);
+    return code_one_unsigned(coding->coder, rare, (ConstLongs){&context, 1}, 0, RARE_UNARY, count, RARE_HEADER);
 }
 
 /* The conquest (C 6) of faces that do not repeat a corner, with more memory for its front each time it asks. */
-static bool code_surface(Reading *reading, Conquest *walk, Arena *scratch, Ints2 faces) {
+static bool code_surface(Coding *coding, Conquest *walk, Arena *scratch, Ints2 faces) {
     walk->faces = faces.data;
     walk->face_room = faces.rows;
     walk->turns = 4 * faces.rows; /* each real face has at most three dummy neighbors */
@@ -40,13 +40,13 @@ static bool code_surface(Reading *reading, Conquest *walk, Arena *scratch, Ints2
     if (!TAKE(scratch, walk->vertex_room, walk->vertices) || !TAKE(scratch, walk->front.capacity, walk->front.nodes))
         return false;
     for (;;) {
-        ConquestEnd end = conquer(reading->coder, walk);
+        ConquestEnd end = conquer(coding->coder, walk);
         if (end == CONQUEST_DONE) return true;
         Node *nodes = walk->front.nodes, *wider;
         int64_t made = walk->front.capacity;
         if (end == CONQUEST_NONSENSE || made > INT32_MAX / 2)
-            return nonsense(reading, "a connectivity payload does not make its triangles");
-        if (!room_to_write(reading, TURN_BYTES)) return false;
+            return nonsense(coding, "a connectivity payload does not make its triangles");
+        if (!room_to_write(coding, TURN_BYTES)) return false;
         if (walk->front.heads[MADE] + 3 <= made) continue;
         if (!TAKE(scratch, 2 * made, wider)) return false;
         memcpy(wider, nodes, (size_t)made * sizeof *nodes);
@@ -73,7 +73,7 @@ static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
 }
 
 /* Which fans are the same vertex (C 7): corners become vertices. Returns their number, -1 for nonsense. */
-static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, Ints known) {
+static int64_t join_fans(Coding *coding, Arena *scratch, Ints2 faces, Ints known) {
     Ints after, before, vertex, sibling, latest;
     int64_t fans = known.size;
     Bank bank;
@@ -87,7 +87,7 @@ static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, Ints kno
         if (!take_ints(scratch, fans, &known)) return -1;
         for (int64_t i = 0; i < fans; i++) known.data[i] = -1;
     }
-    int64_t count = code_fans(reading->coder, bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
+    int64_t count = code_fans(coding->coder, bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
     for (int64_t i = 0; count >= 0 && i < 3 * faces.rows; i++) faces.data[i] = vertex.data[faces.data[i]];
     return count;
 }
@@ -103,56 +103,56 @@ static void number_vertices(const Surface *surface, int64_t fans, Ints corners) 
 }
 #endif
 
-static bool code_faces_of(Reading *reading, const Header *header, const Surface *surface, Arena *arena, Arena *scratch,
+static bool code_faces_of(Coding *coding, const Header *header, const Surface *surface, Arena *arena, Arena *scratch,
     Ints2 *faces) {
-    Context *context = reading->context;
+    Context *context = coding->context;
     Conquest walk = {.map = surface->guide};
     Bank rare;
     if (!make_models(scratch, header->vertices, &walk.model, &rare)) return false;
-    int64_t repeated = code_count(reading, rare, surface->repeated);
-    int64_t lonely = code_count(reading, rare, surface->lonely);
-    int64_t surplus = code_count(reading, rare, surface->surplus);
-    int64_t dummies = walk.dummies = code_count(reading, rare, surface->dummies);
+    int64_t repeated = code_count(coding, rare, surface->repeated);
+    int64_t lonely = code_count(coding, rare, surface->lonely);
+    int64_t surplus = code_count(coding, rare, surface->surplus);
+    int64_t dummies = walk.dummies = code_count(coding, rare, surface->dummies);
     int64_t proper = header->faces - repeated, regular = header->vertices - lonely, fans = regular + surplus;
     if (proper < 0 || regular < 0 || lonely > 3 * repeated || fans > 3 * proper || dummies > 3 * proper
         || header->faces > INT32_MAX / 3 || fans + dummies > INT32_MAX)
-        return nonsense(reading, "the counts at the start of a connectivity payload contradict each other");
+        return nonsense(coding, "the counts at the start of a connectivity payload contradict each other");
     double memory = FACE_MEMORY * (double)header->faces + VERTEX_MEMORY * (double)header->vertices
         + FAN_MEMORY * (double)(surplus + dummies);
     if (!WITHIN(context, vertices, fans + dummies)
-        || !within_memory(context, memory, header->vertices, (double)reading->coder.data.size))
+        || !within_memory(context, memory, header->vertices, (double)coding->coder.data.size))
         return false;
     if (!take_ints2(arena, header->faces, 3, faces)) return false;
     Ints2 usual = {faces->data, proper, 3};
     Ints corners = {faces->data + 3 * proper, 3 * repeated}, known = {surface->used.data, fans};
     walk.vertex_room = fans + dummies;
-    if (!code_surface(reading, &walk, scratch, usual) || !room_to_write(reading, FAN_BYTES * (fans + corners.size)))
+    if (!code_surface(coding, &walk, scratch, usual) || !room_to_write(coding, FAN_BYTES * (fans + corners.size)))
         return false;
 #ifdef BSMDEC_WRITES
     if (context->writing != NULL) number_vertices(surface, fans, corners);
 #endif
-    int64_t count = surplus > 0 ? join_fans(reading, scratch, usual, known) : fans;
+    int64_t count = surplus > 0 ? join_fans(coding, scratch, usual, known) : fans;
     if (failed(context)) return false;
-    if (count != regular || code_degenerate(reading->coder, corners, count) != header->vertices)
-        return nonsense(reading, "a connectivity payload does not make its vertices");
-    return finish_reading(reading);
+    if (count != regular || code_degenerate(coding->coder, corners, count) != header->vertices)
+        return nonsense(coding, "a connectivity payload does not make its vertices");
+    return finish_coding(coding);
 }
 
 bool code_connectivity(Context *context, Span payload, const Header *header, const Surface *surface, Arena *arena,
     Arena *scratch, Ints2 *faces) {
-    Reading reading;
+    Coding coding;
     Mark mark = mark_of(scratch);
-    bool done = begin_reading(context, payload, &reading)
-        && code_faces_of(&reading, header, surface, arena, scratch, faces);
+    bool done = begin_coding(context, payload, &coding)
+        && code_faces_of(&coding, header, surface, arena, scratch, faces);
     release_to(scratch, mark);
     return done;
 }
 
 bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
-    Reading reading;
+    Coding coding;
     Bank bank;
-    if (!make_bank(scratch, LABEL_BANK, &bank) || !begin_reading(context, payload, &reading)) return false;
-    int64_t used = code_labels(reading.coder, bank, graph->offsets, graph->neighbors, labels, parts);
-    return finish_reading(&reading)
+    if (!make_bank(scratch, LABEL_BANK, &bank) || !begin_coding(context, payload, &coding)) return false;
+    int64_t used = code_labels(coding.coder, bank, graph->offsets, graph->neighbors, labels, parts);
+    return finish_coding(&coding)
         && (used == parts || FAIL(context, CORRUPT, "the partition has # parts where the header has #", used, parts));
 }

@@ -74,6 +74,7 @@ FLOORS = {
         ("declaration", "grid", "layer", "order", "packet", "structure"),
         ("attribute", "dictionaries", "grammar", "topology"),
         ("attribute_set", "chain", "parts", "reader"),
+        ("writing",),
         ("assembly", "gop"),
         ("frames",),
         ("state",),

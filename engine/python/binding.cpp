@@ -1,5 +1,4 @@
 // bsmdec as a class of Python. Arrays are numpy's own; nothing is decoded under the interpreter's lock.
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -278,72 +277,54 @@ using Rows = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::devi
 template <typename T> using Row = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Table = nb::ndarray<const int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
-// Memory of payloads, which the engine may enlarge.
-struct Payloads : Writing {
-    explicit Payloads(int64_t most) : Writing{} {
-        room = most;
-        data = (uint8_t *)std::malloc((size_t)room);
-        if (data == nullptr) throw std::bad_alloc();
-    }
-    ~Payloads() { std::free(data); }
-    Payloads(const Payloads &) = delete;
-
-    nb::list list() const {
-        nb::list all;
-        for (int i = 0; i < count; i++) {
-            int64_t first = i > 0 ? ends[i - 1] : 0;
-            all.append(nb::bytes(data + first, (size_t)(ends[i] - first)));
-        }
-        return all;
-    }
-};
-
-// A decoder whose functions write.
-class Writer {
+// What encoders write with, and the payloads that they have written.
+class Output {
   public:
-    Writer() {
-        bsmdec_limits bounds;
-        bsmdec_default_limits(&bounds, sizeof bounds);
-        for (const auto &limit : LIMITS) bounds.*limit.field = 1e300;
-        bsmdec_options options = {};
-        options.size = sizeof options;
-        options.limits = &bounds;
-        writer = bsmdec_open(&options);
-        if (writer == nullptr) throw std::bad_alloc();
+    Output() : encoding(open_encoding()) {
+        if (encoding == nullptr) throw std::bad_alloc();
     }
-    ~Writer() { bsmdec_close(writer); }
-    Writer(const Writer &) = delete;
+    ~Output() { close_encoding(encoding); }
+    Output(const Output &) = delete;
 
-    template <typename Work> void begin(Work work) {
+    template <typename Work> void run(Work work) {
         if (unlocked(work)) return;
-        const bsmdec_error &error = *bsmdec_last_error(writer);
+        const bsmdec_error &error = *encoding_error(encoding);
         nb::module_ limits = nb::module_::import_("bsm.bitstream.limits");
         nb::object found = limits.attr("decoder_error")((int)error.status, text_of(error.message), -1, -1, -1,
             limits.attr("DEFAULT_LIMITS"), nb::make_tuple(0, 0, 0, 0, 0, 0, 0));
         raise(found);
     }
 
-    bsmdec *writer;
+    nb::list payloads() const {
+        const Writing &written = *encoding_payloads(encoding);
+        nb::list all;
+        for (int i = 0; i < written.count; i++) {
+            int64_t first = i > 0 ? written.ends[i - 1] : 0;
+            all.append(nb::bytes(written.data + first, (size_t)(written.ends[i] - first)));
+        }
+        return all;
+    }
+
+    Encoding *encoding;
 };
 
-// The payload of faces, the order of vertices and of faces in it, and the decoded faces (see inside.h).
+// The payload of faces, the order of vertices and of faces in it, and the decoded faces (see writing.h).
 nb::tuple faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional<Row<int32_t>> merged) {
-    Writer writer;
-    Payloads payloads(1 << 16);
+    Output output;
     size_t count = faces.shape(0);
     Written given = {faces.data(), merged ? merged->data() : nullptr, (int64_t)count,
         merged ? (int64_t)merged->size() : vertices, 1};
     Array order = array_of("int32", (size_t)vertices), face_order = array_of("int32", count);
     Array coded = array_of("int32", count, 3);
-    writer.begin([&] {
-        return write_faces(writer.writer, given, vertices, &payloads, (int32_t *)order.data,
-            (int32_t *)face_order.data, (int32_t *)coded.data);
+    output.run([&] {
+        return encode_faces(output.encoding, given, vertices, (int32_t *)order.data, (int32_t *)face_order.data,
+            (int32_t *)coded.data);
     });
-    return nb::make_tuple(payloads.list()[0], order.numpy, face_order.numpy, coded.numpy);
+    return nb::make_tuple(output.payloads()[0], order.numpy, face_order.numpy, coded.numpy);
 }
 
 // Writes or reads the values of one field, chunk after chunk.
-class Field : public Shared, Writer {
+class Field : public Shared, Output {
   public:
     Field(Rows<int32_t, 3> faces, Table values) : faces(faces), values(values) {}
 
@@ -351,41 +332,41 @@ class Field : public Shared, Writer {
         if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows()))
             throw nb::value_error("a grid has three axes");
         begin([&] {
-            return write_grid(
-                writer, given(), largest.data(), light, origin.data(), step, exact ? exact->data() : nullptr);
+            return encode_positions(
+                encoding, given(), largest.data(), light, origin.data(), step, exact ? exact->data() : nullptr);
         });
     }
     void levels() {
         if (values.shape(1) != 3) throw nb::value_error("levels have three axes");
-        begin([&] { return write_levels(writer, given()); });
+        begin([&] { return encode_levels(encoding, given()); });
     }
     void attribute(nb::bytes declaration, int64_t vertices, Row<int32_t> at, std::optional<Rows<int32_t, 3>> places) {
         if ((at.size() > 0 && at.size() != rows()) || (places && (int64_t)places->shape(0) != vertices))
             throw nb::value_error("rows and vertices do not fit together");
         kept = nb::make_tuple(at, places);
         begin([&] {
-            return write_values(writer, given(), (const uint8_t *)declaration.c_str(), (int64_t)declaration.size(),
-                vertices, at.size() > 0 ? at.data() : nullptr, places ? places->data() : nullptr);
+            return encode_attribute(encoding, given(), (const uint8_t *)declaration.c_str(),
+                (int64_t)declaration.size(), vertices, at.size() > 0 ? at.data() : nullptr,
+                places ? places->data() : nullptr);
         });
     }
 
     // The payloads of the next rows.
     nb::list write(int64_t count) {
-        if (count < 1 || count > (int64_t)rows() - next) throw nb::value_error("so many rows are not left");
-        Payloads payloads(1024 + 160 * count * (int64_t)(values.shape(1) + 4));
-        code(count, nullptr, 0, &payloads);
-        return payloads.list();
+        code(count, [&](int64_t first) { return encode_chunk(encoding, first, count); });
+        return payloads();
     }
 
     // Read the next rows; all values, as far as they are known.
     nb::object read(nb::bytes payload, int64_t count) {
-        if (count < 1 || count > (int64_t)rows() - next) throw nb::value_error("so many rows are not left");
-        code(count, (const uint8_t *)payload.c_str(), (int64_t)payload.size(), nullptr);
-        return copy_of(values_of_field(writer), "int32", rows(), values.shape(1));
+        const uint8_t *data = (const uint8_t *)payload.c_str();
+        int64_t size = (int64_t)payload.size();
+        code(count, [&](int64_t first) { return decode_chunk(encoding, first, count, data, size); });
+        return copy_of(encoding_values(encoding), "int32", rows(), values.shape(1));
     }
 
     nb::object order() {
-        const int32_t *all = order_of_field(writer);
+        const int32_t *all = encoding_order(encoding);
         return all == nullptr ? nb::none() : copy_of(all, "int32", rows());
     }
 
@@ -393,17 +374,25 @@ class Field : public Shared, Writer {
     Rows<int32_t, 3> faces;
     Table values;
     nb::object kept;
-    int64_t next = 0;
+    int64_t next = -1; // before it has begun
 
     size_t rows() const { return values.shape(0); }
     Written given() const {
         return {faces.data(), values.data(), (int64_t)faces.shape(0), (int64_t)values.shape(0),
             (int64_t)values.shape(1)};
     }
-    void code(int64_t count, const uint8_t *payload, int64_t size, Writing *writing) {
-        int64_t first = next;
+    template <typename Work> void begin(Work work) {
+        if (next >= 0) throw nb::value_error("a field begins once");
         next = (int64_t)rows(); // nothing goes on after an error
-        begin([&] { return code_chunk(writer, first, count, payload, size, writing); });
+        run(work);
+        next = 0;
+    }
+    template <typename Work> void code(int64_t count, Work work) {
+        int64_t first = next;
+        if (first < 0 || count < 1 || count > (int64_t)rows() - first)
+            throw nb::value_error("so many rows are not left");
+        next = (int64_t)rows();
+        run([&] { return work(first); });
         next = first + count;
     }
 };

@@ -1,7 +1,10 @@
 /* What lies inside a decoder, for the binding in C++, which cannot read the engine's own headers. */
 #include "engine/python/inside.h"
 
+#include <stdlib.h>
+
 #include "engine/decoder.h"
+#include "engine/writing.h"
 
 void decoder_state(const bsmdec *decoder, double *state) {
     const Spent *spent = &decoder->context.spent;
@@ -34,3 +37,66 @@ const char *decoder_skim(bsmdec *decoder, int64_t *numbers) {
     memcpy(numbers, all, sizeof all);
     return p.type == ATTRIBUTE_FRAME ? p.declaration->name : "";
 }
+
+struct Encoding {
+    Writer writer;
+    CodedField field;
+    Writing payloads;
+};
+
+Encoding *open_encoding(void) {
+    Encoding *encoding = calloc(1, sizeof *encoding);
+    if (encoding != NULL) open_writer(&encoding->writer, library_allocator());
+    return encoding;
+}
+
+void close_encoding(Encoding *encoding) {
+    end_payloads(&encoding->writer.context, &encoding->payloads);
+    end_field(&encoding->field);
+    close_writer(&encoding->writer);
+    free(encoding);
+}
+
+const bsmdec_error *encoding_error(const Encoding *encoding) { return &encoding->writer.context.error; }
+const Writing *encoding_payloads(const Encoding *encoding) { return &encoding->payloads; }
+
+static bool begin_again(Encoding *encoding, int64_t room) {
+    end_payloads(&encoding->writer.context, &encoding->payloads);
+    encoding->payloads = (Writing){0};
+    return begin_payloads(&encoding->writer.context, room, &encoding->payloads);
+}
+
+bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
+    int32_t *faces) {
+    return begin_again(encoding, 1 << 16)
+        && write_faces(&encoding->writer, given, vertices, &encoding->payloads, order, face_order, faces);
+}
+
+bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
+    double step, const double *exact) {
+    return begin_positions(&encoding->field, &encoding->writer.context, given, largest, light, origin, step, exact);
+}
+
+bool encode_levels(Encoding *encoding, Written given) {
+    return begin_refinement(&encoding->field, &encoding->writer.context, given);
+}
+
+bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
+    const int32_t *at, const int32_t *places) {
+    Writer *writer = &encoding->writer;
+    Declaration declared;
+    return parse_declaration(&writer->context, (Span){declaration, size}, &writer->scratch, &declared)
+        && begin_attribute(&encoding->field, &writer->context, given, &declared, vertices, at, places);
+}
+
+bool encode_chunk(Encoding *encoding, int64_t first, int64_t count) {
+    return begin_again(encoding, room_of_chunk(&encoding->field, count))
+        && code_chunk(&encoding->field, first, count, (Span){0}, &encoding->payloads);
+}
+
+bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size) {
+    return code_chunk(&encoding->field, first, count, (Span){payload, size}, NULL);
+}
+
+const int32_t *encoding_order(const Encoding *encoding) { return order_of_field(&encoding->field); }
+const int32_t *encoding_values(const Encoding *encoding) { return values_of_field(&encoding->field); }

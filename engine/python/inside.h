@@ -21,27 +21,24 @@ void decoder_header(const bsmdec *decoder, double *numbers);
 enum { SKIMMED_NUMBERS = 18 };
 const char *decoder_skim(bsmdec *decoder, int64_t *numbers);
 
-/* Faces, and values of each vertex, or of each row of an attribute; all arrays stay with the caller. */
-typedef struct {
-    const int32_t *faces, *values;
-    int64_t faces_count, rows, columns;
-} Written;
-
-/* Begin a field: positions on a grid, of floats in its cells also `exact` ones; levels; values of an attribute on rows
- * at vertices, with their places on a grid or NULL. An error is that of the decoder, which does nothing else. */
-bool write_grid(bsmdec *decoder, Written given, const int32_t *largest, int light, const double *origin, double step,
-    const double *exact);
-bool write_levels(bsmdec *decoder, Written given);
-bool write_values(bsmdec *decoder, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
+/* What an encoder writes payloads with (engine/writing.h): faces, or the chunks of one field. */
+typedef struct Encoding Encoding;
+Encoding *open_encoding(void);
+void close_encoding(Encoding *encoding);
+const bsmdec_error *encoding_error(const Encoding *encoding);
+/* The payloads of the last call that wrote some. */
+const Writing *encoding_payloads(const Encoding *encoding);
+bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
+    int32_t *faces);
+bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
+    double step, const double *exact);
+bool encode_levels(Encoding *encoding, Written given);
+bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places);
-/* Write CONNECTIVITY of faces whose numbers are below `rows`, and say in which order vertices and faces are coded, and
- * which faces a decoder makes. `values` has the vertex of each number; NULL: the number itself. */
-bool write_faces(bsmdec *decoder, Written given, int64_t vertices, Writing *writing, int32_t *order,
-    int32_t *face_order, int32_t *faces);
-/* Write the payloads of rows, or, without `writing`, read that of one kind of values. */
-bool code_chunk(bsmdec *decoder, int64_t first, int64_t count, const uint8_t *payload, int64_t size, Writing *writing);
-/* The rows in the order of coding, all of them (NULL: as they are numbered), and the first kind of values. */
-const int32_t *order_of_field(const bsmdec *decoder);
-const int32_t *values_of_field(const bsmdec *decoder);
+/* Write the payloads of rows, or read that of one kind of values. */
+bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
+bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
+const int32_t *encoding_order(const Encoding *encoding);
+const int32_t *encoding_values(const Encoding *encoding);
 
 #endif
