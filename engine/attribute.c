@@ -56,8 +56,7 @@ bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, v
     return true;
 }
 
-/* The direction of a place on the unfolded octahedron (D 4.2). */
-static void unfold(const int64_t *word, int64_t size, double *direction) {
+void unfold_direction(const int64_t *word, int64_t size, double *direction) {
     int64_t u = word[0] - size, v = word[1] - size, across = u < 0 ? -u : u, along = v < 0 ? -v : v;
     int64_t w = size - across - along;
     if (w < 0) {
@@ -90,7 +89,7 @@ static double number_of_bits(const int64_t *word, const double *offset, bool is_
 static void restore(const Declaration *d, const int64_t *word, int64_t row, void *values) {
     double number[MOST_COMPONENTS];
     bool is_double = d->kind == BSMDEC_FLOAT64;
-    if (d->coding == OCTAHEDRAL) unfold(word, d->largest[0] / 2, number);
+    if (d->coding == OCTAHEDRAL) unfold_direction(word, d->largest[0] / 2, number);
     for (int j = 0; j < d->components; j++) {
         if (d->coding == BITS)
             number[j] = number_of_bits(word + j * (1 + is_double), d->offset + j * (1 + is_double), is_double);

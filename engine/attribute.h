@@ -57,6 +57,8 @@ INLINE size_t kind_size(int kind) {
 }
 
 INLINE bool is_kind(int kind) { return kind >= BSMDEC_UINT8 && kind <= BSMDEC_FLOAT64; }
+/* The direction of a place on the unfolded octahedron, 0 to twice `size` on each axis (D 4.2). */
+void unfold_direction(const int64_t *word, int64_t size, double *direction);
 /* One number of values of a kind. */
 double load_number(const void *values, int64_t place, int kind);
 void store_number(void *values, int64_t place, int kind, double number);

@@ -102,14 +102,6 @@ static bool place_values(GridField *field, ConstInts vertices) {
     return spoiled == 0.0 || FAIL(field->context, NUMERIC, "positions are not finite in the unit of the mesh");
 }
 
-/* Numbers of floats in their order (V 16.1). */
-static int64_t number_of(double value) {
-    float single = (float)value;
-    uint32_t bits;
-    memcpy(&bits, &single, sizeof bits);
-    return bits >> 31 ? (int64_t)INT32_MAX - (int64_t)bits : (int64_t)bits;
-}
-
 static double float_of(int64_t number) {
     uint32_t bits = (uint32_t)(number < 0 ? (int64_t)INT32_MAX - number : number);
     float single;
@@ -132,10 +124,10 @@ bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scr
         int j = (int)(i % AXES);
         int32_t value = values.data[i] = field->values.data[AXES * (int64_t)vertices.data[i / AXES] + j];
         double down = (value - 0.5) * header->scale, middle = value * header->scale, up = (value + 0.5) * header->scale;
-        low.data[i] = number_of(down + header->center[j]);
-        near.data[i] = number_of(middle + header->center[j]);
-        high.data[i] = number_of(up + header->center[j]);
-        chosen.data[i] = number_of(field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + j]);
+        low.data[i] = number_of_float(down + header->center[j]);
+        near.data[i] = number_of_float(middle + header->center[j]);
+        high.data[i] = number_of_float(up + header->center[j]);
+        chosen.data[i] = number_of_float(field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + j]);
     }
     int64_t done = code_floats(coding.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
         const_longs2(high), chosen);

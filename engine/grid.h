@@ -22,6 +22,14 @@ typedef struct {
     bool broken;
 } GridField;
 
+/* Numbers of floats in their order (V 16.1). */
+INLINE int64_t number_of_float(double value) {
+    float single = (float)value;
+    uint32_t bits;
+    memcpy(&bits, &single, sizeof bits);
+    return bits >> 31 ? (int64_t)INT32_MAX - (int64_t)bits : (int64_t)bits;
+}
+
 bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
     Arena *scratch);
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload);

@@ -17,8 +17,7 @@ static void require_shortest(Cursor *cursor, bool is_shortest) {
     if (!is_shortest) FAIL(cursor->context, CORRUPT, "a map is not in its shortest form");
 }
 
-/* Whether bytes are UTF-8: no form longer than needed, no surrogates, nothing above U+10FFFF. */
-static bool is_text(Span bytes) {
+bool is_text(Span bytes) {
     for (int64_t i = 0; i < bytes.size;) {
         uint32_t first = bytes.data[i++];
         if (first < 0x80) continue;

@@ -21,6 +21,8 @@ typedef struct {
     Value key[MOST_ENTRIES], value[MOST_ENTRIES], item[MOST_ENTRIES];
 } Map;
 
+/* Whether bytes are UTF-8: no form longer than needed, no surrogates, nothing above U+10FFFF. */
+bool is_text(Span bytes);
 /* The entries of a payload, whose bytes they point to. */
 bool parse_map(Context *context, Span payload, Map *map);
 

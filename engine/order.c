@@ -8,7 +8,7 @@
 
 enum { FIRST, COPY, LOOSE };
 
-static bool read_permutation(Coding *coding, Arena *scratch, Ints values) {
+static bool code_permutation(Coding *coding, Arena *scratch, Ints values) {
     Bank bank;
     Ints tree;
     if (!make_bank(scratch, STEP_BANK, &bank) || !take_ints(scratch, values.size + 1, &tree)) return false;
@@ -16,19 +16,19 @@ static bool read_permutation(Coding *coding, Arena *scratch, Ints values) {
     return (legal && !ran_over(coding)) || nonsense(coding, "a payload is not a permutation");
 }
 
-static bool read_turns(Coding *coding, Arena *scratch, Ints values) {
+static bool code_small(Coding *coding, Arena *scratch, Ints values) {
     Bank bank;
     if (!make_bank(scratch, TURN_BANK, &bank)) return false;
     bool legal = code_turns(coding->coder, bank, values);
     return (legal && !ran_over(coding)) || nonsense(coding, "a payload is not numbers from 0 to 2");
 }
 
-/* Whole numbers, as a matrix of one column (F 9.3). */
-static bool read_column(Coding *coding, Arena *scratch, Ints values) {
+/* Whole numbers, as a matrix of one column (F 9.3); a writer says how many come before all that are 0. */
+static bool code_column(Coding *coding, Arena *scratch, Ints values, int64_t used) {
     Bank bank;
     Longs slow;
     if (!make_bank(scratch, MATRIX_BANK, &bank) || !take_longs(scratch, 1, &slow)) return false;
-    code_matrix(coding->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0,
+    code_matrix(coding->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, used, 1, 0,
         values.size, 1, slow);
     return !ran_over(coding) || nonsense(coding, "");
 }
@@ -97,7 +97,7 @@ static bool read_sources(Coding *coding, int64_t vertices, int64_t copies, Arena
     Context *context = coding->context;
     Ints kinds, back;
     if (!zero_ints(scratch, met.size, &kinds) || !zero_ints(scratch, copies, &back)
-        || !read_turns(coding, scratch, kinds) || !read_column(coding, scratch, back))
+        || !code_small(coding, scratch, kinds) || !code_column(coding, scratch, back, 0))
         return false;
     int64_t counted[3] = {0}, known = 0, copied = 0;
     for (int64_t i = 0; i < met.size; i++) counted[kinds.data[i]]++;
@@ -121,7 +121,7 @@ static bool read_sources(Coding *coding, int64_t vertices, int64_t copies, Arena
 static bool read_corners(Coding *coding, int64_t copies, Ints starts, Ints members, Arena *scratch, Ints2 faces) {
     Ints steps, visits;
     if (!zero_ints(scratch, 3 * faces.rows, &steps) || !zero_ints(scratch, starts.size, &visits)
-        || (copies > 0 && !read_column(coding, scratch, steps)))
+        || (copies > 0 && !code_column(coding, scratch, steps, 0)))
         return false;
     for (int64_t i = 0; i < 3 * faces.rows; i++) {
         int64_t v = faces.data[i], count = starts.data[v + 1] - starts.data[v];
@@ -140,8 +140,8 @@ static bool read_order(Coding *coding, ConstInts2 faces, int64_t vertices, int64
     if (!zero_ints(scratch, vertices, &numbers) || !zero_ints(scratch, m, &places) || !zero_ints(scratch, m, &turns)
         || !take_ints2(arena, m, 3, &arranged) || !take_ints2(scratch, m, 3, &renumbered)
         || !take_ints(arena, 3 * m, &corners) || !take_ints(arena, vertices + copies + loose, &source)
-        || !read_permutation(coding, scratch, numbers) || !read_permutation(coding, scratch, places)
-        || !read_turns(coding, scratch, turns))
+        || !code_permutation(coding, scratch, numbers) || !code_permutation(coding, scratch, places)
+        || !code_small(coding, scratch, turns))
         return false;
     for (int64_t i = 0; i < 3 * m; i++) renumbered.data[i] = numbers.data[faces.data[i]];
     if (!suggest(const_ints2(renumbered), vertices, scratch, &order)
@@ -192,3 +192,90 @@ bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *h
         return FAIL(context, CORRUPT, "a sequence of frames with vertices in no face");
     return true;
 }
+
+#ifdef BSMDEC_WRITES
+enum { STEP_BYTES = 128, COLUMN_BYTES = 16, TURN_BYTES_EACH = 4, SLACK_BYTES = 64 }; /* more than one entry can take */
+
+static bool write_permutation(Coding *coding, Arena *scratch, Ints values) {
+    if (values.size >= MOST_GIVEN)
+        return FAIL(coding->context, MISUSED, "# vertices or faces are too many to keep their order", values.size);
+    return room_to_write(coding, STEP_BYTES * values.size + SLACK_BYTES) && code_permutation(coding, scratch, values);
+}
+
+static bool write_turns(Coding *coding, Arena *scratch, Ints values) {
+    return room_to_write(coding, TURN_BYTES_EACH * values.size + SLACK_BYTES) && code_small(coding, scratch, values);
+}
+
+static bool write_column(Coding *coding, Arena *scratch, Ints values) {
+    int64_t used = values.size;
+    while (used > 0 && values.data[used - 1] == 0) used--;
+    return room_to_write(coding, COLUMN_BYTES * values.size + SLACK_BYTES)
+        && code_column(coding, scratch, values, used);
+}
+
+/* The order of faces, and the corner of each given face that decoders would take for the first (C 9.5, C 9.6). */
+static bool write_faces_order(Coding *coding, const Arrangement *a, Arena *scratch) {
+    int64_t m = a->coded.rows, n = a->vertices.size;
+    Ints2 numbers;
+    Ints order, places, turns, vertices;
+    if (!take_ints2(scratch, m, 3, &numbers) || !take_ints(scratch, m, &places) || !take_ints(scratch, m, &turns)
+        || !take_ints(scratch, n, &vertices))
+        return false;
+    memcpy(vertices.data, a->vertices.data, (size_t)n * sizeof *vertices.data);
+    for (int64_t i = 0; i < 3 * m; i++) numbers.data[i] = a->vertices.data[a->coded.data[i]];
+    if (!suggest(const_ints2(numbers), n, scratch, &order)) return false;
+    for (int64_t rank = 0; rank < m; rank++) {
+        const int32_t *face = numbers.data + 3 * (int64_t)order.data[rank];
+        int64_t place = places.data[rank] = a->face_places.data[order.data[rank]];
+        int first = 0;
+        for (int k = 1; k < 3; k++)
+            if (face[k] < face[first]) first = k;
+        for (int k = 2; k >= 0; k--) {
+            bool same = true;
+            for (int j = 0; j < 3; j++) same = same && face[(first + k + j) % 3] == a->faces.data[3 * place + j];
+            if (same) turns.data[place] = k;
+        }
+    }
+    return write_permutation(coding, scratch, vertices) && write_permutation(coding, scratch, places)
+        && write_turns(coding, scratch, turns);
+}
+
+/* Which given vertices are copies of others or in no face (F 9.2, F 9.3), and which of them each corner has (F 9.4). */
+static bool write_sources(Coding *coding, const Arrangement *a, Arena *scratch) {
+    int64_t given = a->source.size, n = a->vertices.size, size = 3 * a->corners.rows, known = 0, copied = 0;
+    Ints kinds, back, ranks, counts, visits, steps;
+    if (given >= MOST_GIVEN)
+        return FAIL(coding->context, MISUSED, "# vertices are too many for an order that is kept", given);
+    if (!take_ints(scratch, given, &kinds) || !take_ints(scratch, a->copies, &back)
+        || !take_ints(scratch, given, &ranks) || !zero_ints(scratch, n, &counts)
+        || !zero_ints(scratch, n, &visits) || !take_ints(scratch, size, &steps))
+        return false;
+    for (int64_t v = 0; v < given; v++) {
+        int32_t source = a->source.data[v];
+        kinds.data[v] = source < 0 ? LOOSE : counts.data[source] > 0 ? COPY : FIRST;
+        if (source < 0) continue;
+        if (kinds.data[v] == FIRST) known++;
+        else back.data[copied++] = (int32_t)(known - 1 - source);
+        ranks.data[v] = counts.data[source]++;
+    }
+    for (int64_t i = 0; i < size; i++) {
+        int32_t v = a->corners.data[i], source = a->source.data[v], count = counts.data[source];
+        int32_t step = (ranks.data[v] - visits.data[source]++ % count) % count;
+        steps.data[i] = step < 0 ? step + count : step;
+    }
+    return write_turns(coding, scratch, kinds) && write_column(coding, scratch, back)
+        && (a->copies == 0 || write_column(coding, scratch, steps));
+}
+
+bool write_order(Context *context, const Arrangement *arrangement, Arena *scratch, Writing *writing) {
+    Coding coding;
+    Mark mark = mark_of(scratch);
+    context->writing = writing;
+    bool done = begin_coding(context, (Span){0}, &coding) && write_faces_order(&coding, arrangement, scratch)
+        && (arrangement->copies + arrangement->loose == 0 || write_sources(&coding, arrangement, scratch))
+        && finish_coding(&coding);
+    context->writing = NULL;
+    release_to(scratch, mark);
+    return done;
+}
+#endif

@@ -16,4 +16,15 @@ typedef struct {
 bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch,
     Numbering *numbering);
 
+/* A mesh in the order that it was given and as it is coded, for writers. */
+typedef struct {
+    ConstInts2 faces, coded;          /* of joined vertices; as CONNECTIVITY has them */
+    ConstInts vertices, face_places;  /* the joined vertex and face of each coded one */
+    ConstInts source;                 /* the joined vertex of each given one, -1: it is in no face */
+    ConstInts2 corners;               /* given faces, of given vertices */
+    int64_t copies, loose;
+} Arrangement;
+/* Write the coded part of ORDER. */
+bool write_order(Context *context, const Arrangement *arrangement, Arena *scratch, struct Writing *writing);
+
 #endif

@@ -1,6 +1,6 @@
-"""One file of C for the decoder: `python -m tools.amalgamate FOLDER` writes bsmdec.c and bsmdec.h there.
+"""One file of C for the library: `python -m tools.amalgamate FOLDER` writes it there.
 
-All headers come first, then all sources; names that several files use for themselves get a suffix in each, and what
+bsmdec.c and bsmdec.h are the decoder, bsm.c is the decoder and the encoder, whose interface is bsmenc.h. All headers come first, then all sources; names that several files use for themselves get a suffix in each, and what
 is not the library's interface is static.
 """
 
@@ -17,11 +17,10 @@ FOLDERS = ("bitstream", "codec/basis", "codec/blocks", "codec/signal", "codec/se
 FILES = ("codec/geometry/graph.c", "codec/geometry/units.c")
 SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
 CHOICES = ("bitstream/isa.c", "codec/isa.c")
-INTERFACE, VECTORS = "engine/bsmdec.h", "codec/basis/vectors.h"
+INTERFACES, VECTORS = ("engine/bsmdec.h", "engine/bsmenc.h"), "codec/basis/vectors.h"
 OF_LEVELS = ("bitstream/fields/wide.h", VECTORS)  # headers that depend on the level of the processor
 LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
-_HEAD = """#include "bsmdec.h"
-#pragma GCC diagnostic ignored "-Wunused-function"
+_HEAD = """#pragma GCC diagnostic ignored "-Wunused-function"
 #if !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #pragma GCC diagnostic ignored "-Wattributes"
@@ -63,11 +62,11 @@ _SCALAR = """
 """
 _OWN = re.compile(r'^#include "([^"]+)"\n', re.MULTILINE)
 _WORDS = r"(?!typedef|static|extern|return|INLINE|SHARED|KERNEL|OFTEN|struct|enum|union)(?:const )?"
-_PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_)[^=;{{]*\([^;{{]*\);)", re.MULTILINE)
+_PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_|bsmenc_)[^=;{{]*\([^;{{]*\);)", re.MULTILINE)
 _FUNCTION = re.compile(
     r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:OFTEN )?(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(", re.MULTILINE
 )
-_BARE = re.compile(rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE)
+_BARE = re.compile(rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_|bsmenc_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE)
 _DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
 _TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)
 _CONSTANTS = re.compile(r"enum \{(.*?)\}", re.DOTALL)
@@ -75,10 +74,10 @@ _VARIABLES = re.compile(r"^static const [^=;({]*?(\w+)(?:\[[^=;]*)? = (.*?);$", 
 _MACRO = re.compile(r"^\s*#\s*define (\w+)", re.MULTILINE)
 
 
-def sources() -> list[str]:
-    """The files of the library, kernels first, by their paths in the repository."""
+def sources(*, encodes: bool = False) -> list[str]:
+    """The files of the decoder or of the whole library, kernels first, by their paths in the repository."""
     kernels = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.c"))]
-    engine = sorted((ROOT / "engine").glob("*.c"))
+    engine = sorted((ROOT / "engine").glob("*.c")) + sorted((ROOT / "engine/encode").glob("*.c")) * encodes
     paths = (str(path.relative_to(ROOT)) for path in [*kernels, *(ROOT / name for name in FILES), *engine])
     return [path for path in paths if path not in CHOICES]
 
@@ -103,7 +102,7 @@ def _bare(text: str) -> str:
 def _headers(path: str, seen: dict[str, str]) -> None:
     """Note the headers that a file asks for, each behind those that it asks for itself."""
     for name in _OWN.findall(_read(path)):
-        if name not in seen and name != INTERFACE:
+        if name not in seen and name not in INTERFACES:
             seen[name] = ""
             _headers(name, seen)
             del seen[name]
@@ -146,9 +145,9 @@ def _apart(texts: dict[str, str], seen_by: dict[str, dict[str, str]]) -> None:
                     texts[path] = re.sub(rf"\b{name}\b", f"{name}_{Path(header).stem}", texts[path])
 
 
-def amalgamated() -> str:
-    """The source of the whole library; it includes bsmdec.h."""
-    files, seen_by = sources(), dict[str, dict[str, str]]()
+def amalgamated(*, encodes: bool = False) -> str:
+    """The source of the decoder, which includes bsmdec.h, or of the whole library, which includes bsmenc.h."""
+    files, seen_by = sources(encodes=encodes), dict[str, dict[str, str]]()
     headers: dict[str, str] = {}
     for path in files:
         _headers(path, headers)
@@ -159,7 +158,8 @@ def amalgamated() -> str:
     own = {path: _names(texts[path]) for path in files}
     shared = {name for text in headers.values() for name in re.findall(r"\w+", _bare(text))}
     count = Counter(name for names in own.values() for name in names)
-    pieces, per_isa = [_HEAD, *map(_private, headers.values())], [_private(headers[path]) for path in OF_LEVELS]
+    head = '#define BSMDEC_WRITES\n#include "bsmenc.h"\n' if encodes else '#include "bsmdec.h"\n'
+    pieces, per_isa = [head, _HEAD, *map(_private, headers.values())], [_private(headers[path]) for path in OF_LEVELS]
     for path in files:
         suffix = re.sub(r"\W", "_", path[:-2])
         clashing = [name for name in own[path] if count[name] > 1 or name in shared]
@@ -181,17 +181,19 @@ def _each_isa(text: str) -> Iterator[str]:
     yield "#endif\n"
 
 
-def interface() -> str:
-    """The header of the library."""
-    return _read(INTERFACE)
+def interface(*, encodes: bool = False) -> str:
+    """The header of the decoder, or of the encoder."""
+    return _read(INTERFACES[encodes])
 
 
 def main() -> None:
-    """Write both files."""
+    """Write all files."""
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "bsmdec.c").write_text(amalgamated())
     (folder / "bsmdec.h").write_text(interface())
+    (folder / "bsm.c").write_text(amalgamated(encodes=True))
+    (folder / "bsmenc.h").write_text(interface(encodes=True))
 
 
 if __name__ == "__main__":
