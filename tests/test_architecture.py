@@ -67,7 +67,7 @@ FLOORS = {
     ),
     "engine": (
         ("bsmdec", "arithmetic", "costs"),
-        ("context", "pool"),
+        ("bsmenc", "context", "pool"),
         ("payloads", "wire"),
         ("coding", "maps", "zstd"),
         ("corners", "header", "metadata"),
@@ -83,7 +83,7 @@ FLOORS = {
         ("sequence",),
         ("decoder",),
         ("changes", "split"),
-        ("whole", "python", "wasm"),
+        ("whole", "encode", "python", "wasm"),
     ),
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
@@ -141,8 +141,9 @@ def c_name(path: Path) -> str:
 
 
 def included(path: Path) -> set[Path]:
-    """The headers that a C file includes itself, as paths from the root of the repository."""
-    return {ROOT / name for name in re.findall(r'^\s*#\s*include "([^"]+)"', SOURCES[path], re.MULTILINE)}
+    """The headers that a C file includes itself, by their paths from the root or from its own folder."""
+    names = re.findall(r'^\s*#\s*include "([^"]+)"', SOURCES[path], re.MULTILINE)
+    return {(ROOT if "/" in name else path.parent) / name for name in names}
 
 
 @cache

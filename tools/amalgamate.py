@@ -1,7 +1,8 @@
 """One file of C for the library: `python -m tools.amalgamate FOLDER` writes it there.
 
-bsmdec.c and bsmdec.h are the decoder, bsm.c is the decoder and the encoder, whose interface is bsmenc.h. All headers come first, then all sources; names that several files use for themselves get a suffix in each, and what
-is not the library's interface is static.
+bsmdec.c and bsmdec.h are the decoder, bsm.c is the decoder and the encoder, whose interface is bsmenc.h. All headers
+come first, then all sources; names that several files use for themselves get a suffix in each, and what is not the
+library's interface is static.
 """
 
 from __future__ import annotations
@@ -66,7 +67,9 @@ _PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_|bsmenc_)[^=;{{]*\([^;{{
 _FUNCTION = re.compile(
     r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:OFTEN )?(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(", re.MULTILINE
 )
-_BARE = re.compile(rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_|bsmenc_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE)
+_BARE = re.compile(
+    rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_|bsmenc_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE
+)
 _DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
 _TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)
 _CONSTANTS = re.compile(r"enum \{(.*?)\}", re.DOTALL)

@@ -1,5 +1,5 @@
 /* What is given to the encoder, and whether its streams keep what they promise. */
-#include "engine/encode/encoder.h"
+#include "engine/encode/checking.h"
 
 #ifdef BSMDEC_WRITES
 
@@ -172,7 +172,10 @@ typedef struct {
     Arena arena;
 } Proof;
 
+/* Fail, because the decoder has no memory, or because it gives something else. */
 static bool differs(Proof *proof, const char *what) {
+    if (bsmdec_last_error(proof->decoder)->status == BSMDEC_NO_MEMORY)
+        return FAIL(&proof->encoder->writer.context, NO_MEMORY, "out of memory");
     return FAIL(&proof->encoder->writer.context, FAULT, "$ differ after decoding; please report it, with the mesh",
         .name = what);
 }
@@ -314,10 +317,8 @@ static bool decode_all(Proof *proof) {
         || !take_words(&proof->arena, 3 * proof->faces, &proof->corners))
         return false;
     if (bsmdec_faces(proof->decoder, proof->corners.data, (size_t)proof->corners.size) != BSMDEC_OK
-        || bsmdec_positions(proof->decoder, proof->positions.data, (size_t)(3 * proof->vertices)) != BSMDEC_OK) {
-        context->error = *bsmdec_last_error(proof->decoder);
-        return failed(context) ? false : differs(proof, "sizes");
-    }
+        || bsmdec_positions(proof->decoder, proof->positions.data, (size_t)(3 * proof->vertices)) != BSMDEC_OK)
+        return differs(proof, "sizes");
     return true;
 }
 

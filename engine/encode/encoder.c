@@ -1,5 +1,5 @@
 /* The functions of bsmenc.h. */
-#include "engine/encode/encoder.h"
+#include "engine/encode/checking.h"
 
 #include "engine/arithmetic.h"
 #include "engine/corners.h"
@@ -14,7 +14,7 @@ static const double JOINED = 0.05, FACES_CODED = 0.2, ATTRIBUTES_CODED = 0.5, PO
 
 const char *bsmenc_version(void) { return BSMENC_VERSION; }
 
-bool report(Encoder *encoder, double part) {
+static bool report(Encoder *encoder, double part) {
     if (encoder->options.progress == NULL || encoder->options.progress(encoder->options.host, part) == 0) return true;
     return FAIL(&encoder->writer.context, STOPPED, "stopped");
 }

@@ -10,8 +10,8 @@
 #define BSMDEC_FAULT ((bsmdec_status)BSMENC_FAULT)
 #define BSMDEC_STOPPED ((bsmdec_status)BSMENC_STOPPED)
 
-/* A number rounded to single precision. It is volatile because GCC 12, in loops over three numbers, makes vectors of the
- * conversions, and leaves them out. */
+/* A number rounded to single precision. It is volatile because GCC 12, in loops over three numbers, makes vectors of
+ * the conversions, and leaves them out. */
 INLINE double in_single(double value) {
     volatile float single = (float)value;
     return single;

@@ -132,11 +132,13 @@ class Decoded:
     runs: list[tuple[int, int, npt.NDArray[Any]]] = field(default_factory=list)
 
 
-def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None) -> Path:
+def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None, encodes: bool = False) -> Path:
     """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these files and flags, whoever asks."""
     source, header = files or (amalgamated(), interface())
-    command = [compiler, *FLAGS, *(WARNINGS if files is None else ["-w"]), *flags]
-    name = hashlib.sha256("\0".join([source, header, *command]).encode()).hexdigest()[:16]
+    command = [compiler, *FLAGS, *(WARNINGS if files is None or encodes else ["-w"]), *flags]
+    name = hashlib.sha256(
+        "\0".join([source, header, interface(encodes=True) * encodes, *command]).encode()
+    ).hexdigest()[:16]
     folder = ROOT / "build" / "bsmdec" / name
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "lock").open("w") as lock:
@@ -144,14 +146,18 @@ def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = 
         if not (folder / "bsmdec.so").exists():
             (folder / "bsmdec.c").write_text(source)
             (folder / "bsmdec.h").write_text(header)
+            if encodes:
+                (folder / "bsmenc.h").write_text(interface(encodes=True))
             subprocess.run([*command, "bsmdec.c", "-o", "part.so", "-lm"], check=True, cwd=folder)
             (folder / "part.so").rename(folder / "bsmdec.so")
     return folder
 
 
-def build(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None) -> ctypes.CDLL:
+def build(
+    *flags: str, compiler: str = "cc", files: tuple[str, str] | None = None, encodes: bool = False
+) -> ctypes.CDLL:
     """The library, compiled from one file, of this source and header if they are given."""
-    library = ctypes.CDLL(str(compiled(*flags, compiler=compiler, files=files) / "bsmdec.so"))
+    library = ctypes.CDLL(str(compiled(*flags, compiler=compiler, files=files, encodes=encodes) / "bsmdec.so"))
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
     if hasattr(library, "bsmdec_last_misuse"):

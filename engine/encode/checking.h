@@ -1,6 +1,6 @@
-/* One mesh on its way into a stream (encoder only). */
-#ifndef BSMDEC_ENCODER_H
-#define BSMDEC_ENCODER_H
+/* What is given to the encoder, and whether its streams keep what they promise. */
+#ifndef BSMDEC_CHECKING_H
+#define BSMDEC_CHECKING_H
 
 #include "engine/encode/carrying.h"
 #include "engine/encode/rounding.h"
@@ -26,6 +26,5 @@ typedef struct {
 bool check_mesh(Encoder *encoder);
 /* Decode the stream with bsmdec and compare it with what was given. */
 bool prove_stream(Encoder *encoder);
-bool report(Encoder *encoder, double part);
 
 #endif
