@@ -42,6 +42,7 @@ TURNED = 1.5  # degrees that normals may be turned, on average over the picture 
 MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
 _LARGEST = 1e150
+FAR = 1e3  # times as far away as most vertices: the stray vertex of a scan
 
 Paint = Callable[[Canvas, Faces, Matrix], list[Picture]]
 
@@ -136,7 +137,7 @@ class LookMetric:
         self._pictures = Gallery(self._cameras, positions, self._shape.faces, self._shape.normals(positions))
         seen = ((self._pictures.picture(self._idle[-1], side) < BACKGROUND).any() for side in self._sides)
         if self._size.largest < LEAST_AREA or not any(seen):
-            raise MeshError("the mesh cannot be looked at: its faces have no area")
+            raise MeshError(f"the mesh cannot be looked at: its faces have no area{_outlier(used)}")
         own = own_normals(mesh)
         self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
         self._known: dict[bytes, Look] = {}
@@ -344,6 +345,16 @@ def _with_three_places(mesh: TriangleMesh) -> Mask:
     pairs = (first, second), (second, third), (third, first)
     differs: Mask = np.all([(one != other).any(axis=1) for one, other in pairs], axis=0)
     return differs
+
+
+def _outlier(used: Positions) -> str:
+    """The vertex that is so far away that all others are one point, in words."""
+    far = np.abs(used - np.median(used, axis=0)).max(axis=1)
+    farthest = int(far.argmax())
+    if far[farthest] < FAR * np.median(far):
+        return ""
+    place = ", ".join(f"{number:g}" for number in used[farthest].tolist())
+    return f" beside the distance to the vertex at ({place}); remove it if it is a stray one"
 
 
 def key_of(*arrays: Matrix | Normals) -> bytes:

@@ -1,5 +1,6 @@
 """The encoder of meshes: join, prepare, and draft a stream by the options."""
 
+import math
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -94,6 +95,7 @@ class Encoder:
         self._input = Input(mesh, self.options)
         self.look: float | None = None
         self.binding = ""
+        self._unseen = ""
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         self._doubt = "" if promise is None else promise.doubt(mesh.diagonal, unit if isinstance(unit, str) else "")
 
@@ -110,7 +112,8 @@ class Encoder:
     def losses(self) -> tuple[str, ...]:
         """The notes about losses that the options do not ask for."""
         doubt = [f"the preset's bound holds, and no other: {self._doubt}"] if self._doubt else []
-        return (*self._input.joined.losses, *doubt)
+        unseen = [f"no look is promised: {self._unseen}"] if self._unseen else []
+        return (*self._input.joined.losses, *doubt, *unseen)
 
     @property
     def mesh(self) -> TriangleMesh:
@@ -274,6 +277,7 @@ class Encoder:
         broken = ""
         if contract is not None:
             broken, self.look, self.binding = self._input.measured(draft, contract)
+            self._unseen = self._input.measures.unseen if contract.look < math.inf else ""
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         near.to(1.0)
         return draft

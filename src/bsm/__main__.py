@@ -1,6 +1,7 @@
 """`python -m bsm` is the command `bsm`."""
 
 import gc
+import os
 import signal
 import sys
 import warnings
@@ -14,6 +15,12 @@ def run() -> NoReturn:
     gc.set_threshold(100_000)
     if not sys.warnoptions:  # commands print notes; warnings of libraries are for those who write programs
         warnings.simplefilter("ignore")
+    # Where standard streams are closed, no file that is opened may take their places.
+    while (free := os.open(os.devnull, os.O_RDWR)) <= 2:
+        pass
+    os.close(free)
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     try:
         from bsm.cli import main
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import shutil
 import sys
 import threading
@@ -46,7 +47,7 @@ class Console:
                 yield progress
             return
         reports = not self.quiet and self.kept is None
-        shown = reports and sys.stderr.isatty() and not self.json
+        shown = reports and sys.stderr is not None and sys.stderr.isatty() and not self.json
         with Progress(what, shown=shown, lines=reports and self.json, heard=self.heard) as progress:
             self._running.append(progress)
             try:
@@ -183,14 +184,22 @@ def _write(text: str, bar: str = "") -> None:
     global _bar
     with _writing:
         wiped = f"\r{' ' * len(_bar)}\r" if _bar else ""
-        print(f"{wiped}{text}{bar}", end="", file=sys.stderr, flush=True)
+        _put(f"{wiped}{text}{bar}")
         _bar = bar
 
 
 def _say_json(line: Mapping[str, Any]) -> None:
     """Write a line at once, since the clock of a bar writes, too."""
-    sys.stderr.write(json.dumps(line) + "\n")
-    sys.stderr.flush()
+    _put(json.dumps(line) + "\n")
+
+
+def _put(text: str) -> None:
+    """Write to standard error, if it is open and has room: no result is lost for a note."""
+    try:
+        if sys.stderr is not None:
+            print(text, end="", file=sys.stderr, flush=True)
+    except (OSError, ValueError):
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 - as long as the program runs
 
 
 def finite(value: float) -> float | None:

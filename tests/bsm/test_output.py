@@ -12,11 +12,14 @@ from contextlib import suppress
 
 import pytest
 
+from bsm import encode
+from bsm.files.mesh import write_mesh
 from bsm.files.output import open_output
 from bsm.jobs.plan import plan
 from bsm.jobs.run import task_of
 from bsm.jobs.task import Task
 from tests.bsm.program import contents
+from tests.shapes import torus
 
 
 def test_a_file_is_written(tmp_path):
@@ -237,3 +240,17 @@ def test_an_attempt_that_was_cut_off_may_be_made_again(tmp_path):
     task = task_of(Task(), job)
     assert not task.may_replace(task.output)
     assert task.repeated().may_replace(task.output)
+
+
+@pytest.mark.parametrize("closed", ["2>&-", "2>/dev/full"])
+@pytest.mark.parametrize(
+    "words", ["encode a.ply -o b.bsm", "encode a.ply -o b.bsm --json", "info a.bsm", "verify a.bsm"]
+)
+@pytest.mark.skipif(sys.platform != "linux", reason="a shell and a device that is always full")
+def test_no_result_is_lost_for_a_note(closed, words, tmp_path):
+    write_mesh(tmp_path / "a.ply", torus(12, 8))
+    (tmp_path / "a.bsm").write_bytes(encode(tmp_path / "a.ply"))
+    ended = subprocess.run(f"{sys.executable} -m bsm {words} {closed}", shell=True, cwd=tmp_path, capture_output=True)
+    assert ended.returncode == 0
+    assert not words.startswith("encode") or (tmp_path / "b.bsm").read_bytes() == (tmp_path / "a.bsm").read_bytes()
+    assert bool(ended.stdout) == ("json" in words or "info" in words)

@@ -51,6 +51,7 @@ class Measures:
         self._threads = threads
         self.normals = normals
         self.near = near or Nearing(None)
+        self.unseen = ""  # why there is no look
 
     @cached_property
     def reference(self) -> Reference:
@@ -64,7 +65,8 @@ class Measures:
         mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, own)
         try:
             return LookMetric(mesh, threads=self._threads)
-        except MeshError:
+        except MeshError as error:
+            self.unseen = error.message
             return None
         finally:
             self.near.by()

@@ -12,6 +12,7 @@ from typing import Any
 
 from bsm import __version__
 from bsm.bitstream.errors import OptionError, counted
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
@@ -52,17 +53,22 @@ class EncodeJob(Task):
     cache_mesh: str | None = None
     provenance: bool | None = None
     simplify: bool = False
+    untrusted: bool = False
 
 
 def encode_one(job: EncodeJob, console: Console) -> Facts:
     for path in filter(None, (job.output, job.permutation)):
         refuse_to_overwrite(path, job.may_replace(path))
     runs = bool(job.options.get("runs"))
+    asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
+    plain = all(choice is None for choice in asked)
+    if job.untrusted:
+        if job.members or not plain:
+            raise OptionError("--untrusted reads single meshes; leave out the options for sequences")
+        return _encode_mesh(job, console)
     if job.members:
         return _encode_sequence(job, console, open_frames(job.members, job.format, runs=runs))
-    asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
-    plain = all(choice is None for choice in asked)
     sequence = open_sequence(job.input, job.format, None if plain else wanted)
     return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console)
 
@@ -73,7 +79,8 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
     chosen = encode_options(**job.options, threads=job.threads)
     with console.progress("reading", until=READ):
-        source = read_mesh(job.input, job.format)
+        limits = Limits.service() if job.untrusted else DEFAULT_LIMITS
+        source = read_mesh(job.input, job.format, limits, isolated=job.untrusted or None)
     mesh = with_metadata(source.mesh, chosen, job.metadata)
     if lengths := in_own_unit(job.options, mesh.metadata, mesh):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)

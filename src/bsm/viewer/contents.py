@@ -159,7 +159,7 @@ def made(
     return replace(content, facts={**content.facts, "seconds": seconds})
 
 
-def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:
+def _work(pipe: Connection, name: str, size: int, mesh: TriangleMesh, preset: str) -> None:
     """Encode an upload in a process; send reports, then the result or an error message."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -167,18 +167,22 @@ def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:
         pipe.send({"stage": stage, "share": share})
 
     try:
-        report("reading", 0.0)
-        mesh = read_mesh(data, limits=Limits.service()).mesh
-        pipe.send(made(name, len(data), mesh, preset, report))
+        pipe.send(made(name, size, mesh, preset, report))
     except (BsmError, MemoryError) as error:
         pipe.send({"error": worded(error)})
 
 
 def uploaded(name: str, data: bytes, preset: str) -> Generator[dict[str, Any] | Content]:
     """Encode a file dropped on the page, in a process that ends with this generator; yield its reports."""
+    yield {"stage": "reading", "share": 0.0}
+    try:
+        mesh = read_mesh(data, limits=Limits.service()).mesh
+    except (BsmError, MemoryError) as error:
+        yield {"error": worded(error)}
+        return
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
-    process = context.Process(target=_work, args=(there, PurePath(name).name, data, preset), daemon=True)
+    process = context.Process(target=_work, args=(there, PurePath(name).name, len(data), mesh, preset), daemon=True)
     process.start()
     there.close()
     try:

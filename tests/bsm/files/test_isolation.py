@@ -12,6 +12,7 @@ import pytest
 
 import bsm
 from bsm import FormatError, LimitError, Limits, MeshError, UnsupportedError
+from bsm.cli import main
 from bsm.files import wall
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.shapes import torus
@@ -178,3 +179,13 @@ def test_other_systems_refuse(monkeypatch, tmp_path):
     assert len(read_mesh(TRIANGLE, limits=Limits.service()).mesh.faces) == 1
     with pytest.raises(MeshError):
         read_mesh(b"v 0 0 0\n", limits=Limits.service())
+
+
+def test_the_command_reads_untrusted_files_behind_the_wall(tmp_path, capsys):
+    write_mesh(tmp_path / "a.ply", torus(20, 16))
+    assert main(["encode", str(tmp_path / "a.ply"), "--untrusted", "-q"]) == 0
+    assert bsm.decode(tmp_path / "a.bsm").faces.shape == (640, 3)
+    (tmp_path / "b.ply").write_bytes(b"ply\nformat ascii 1.0\nelement vertex 2000000\n")
+    assert main(["encode", str(tmp_path / "b.ply"), "--untrusted", "-q"]) == 6
+    assert main(["encode", str(tmp_path / "a.ply"), "--untrusted", "-q", "-f", "--kg", "1"]) == 2
+    assert "single meshes" in capsys.readouterr().err

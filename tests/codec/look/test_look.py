@@ -1,6 +1,7 @@
 """Looking the same: known answers, what must be seen, and what must not."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 from bsm import Attribute, MeshError, TargetError, TriangleMesh, decode, encode
 from bsm.codec.look.measure import Look, LookMetric, look, summed
 from bsm.codec.look.pictures import CREASE, LEAST_PIXELS, Canvas, Shape, Size, axes, cameras, difference
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import PRESETS
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, soup, tetrahedron, together, torus, turned
 
@@ -409,3 +412,15 @@ def test_the_mesh_as_given_judges_what_was_promised(seed):
     assert (
         look(given, decode(stream)).distance <= {"balanced": 1, "fine": 0.5, "near-lossless": 0.25, "small": 3}[preset]
     )
+
+
+def test_a_look_that_cannot_be_measured_is_said():
+    """Where one stray vertex is very far away, all others are one point of its pictures."""
+    small, far = torus(12, 8), [[1e12, 0, 0]]
+    faces = np.vstack([small.faces, [[0, 1, len(small.positions)]]])
+    stray = TriangleMesh(np.vstack([small.positions * 1e-4, far]), faces)
+    with pytest.raises(MeshError, match=r"beside the distance to the vertex at \(1e\+12, 0, 0\)"):
+        LookMetric(stray)
+    encoder = Encoder(stray, replace(PRESETS["balanced"], threads=1))
+    encoder.encode()
+    assert encoder.look is None and "(1e+12, 0, 0); remove it" in encoder.losses[-1]
