@@ -253,7 +253,7 @@ class Decoder(StreamDecoder):
 
     _wanted = mask_of(CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, VALUES, LOSS, END)
     _of_sequences = False
-    _misfit = UnsupportedError, "this is a sequence; decode it with bsm.decode_sequence or bsm.SequenceDecoder"
+    _misfit = UnsupportedError, "this is a sequence, and not a mesh (in Python, bsm.decode_sequence)"
 
     def __init__(
         self,
@@ -340,7 +340,7 @@ class SequenceDecoder(StreamDecoder):
 
     _wanted = mask_of(CONNECTIVITY, ATTRIBUTE, VALUES, FRAME, LOSS, END)
     _of_sequences = True
-    _misfit = FormatError, "this is a static mesh and no sequence; decode it with bsm.decode or bsm.Decoder"
+    _misfit = FormatError, "this is a mesh, and not a sequence (in Python, bsm.decode)"
 
     def __init__(
         self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, tolerant: bool = False, start: int = 0

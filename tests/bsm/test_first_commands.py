@@ -105,7 +105,9 @@ def test_any_mesh_becomes_a_compressed_scene(folder, capsys):
     assert [run(*shlex.split(line)[1:]) for line in advice] == [0, 0]
 
 
-def test_materials_and_images_count_as_input(folder, capsys):
+@pytest.fixture
+def statue(folder):
+    """An OBJ with a material and a picture of noise; the size of all three files."""
     pillow = pytest.importorskip("PIL.Image", reason="needs Pillow (extra formats)")
     pixels = np.random.default_rng(1).integers(0, 255, (64, 64, 3)).astype(np.uint8)
     pillow.fromarray(pixels).save("skin.png")
@@ -114,7 +116,83 @@ def test_materials_and_images_count_as_input(folder, capsys):
     places = "".join(f"v {x} {y} {z}\n" for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)))
     faces = "f 1/1 2/2 3/3\nf 1/1 4/2 2/3\nf 2/1 4/2 3/3\nf 1/1 3/2 4/3\n"
     (folder / "statue.obj").write_text(f"mtllib skin.mtl\n{places}{corners}usemtl skin\n{faces}")
-    size = sum((folder / name).stat().st_size for name in ("statue.obj", "skin.mtl", "skin.png"))
+    return sum((folder / name).stat().st_size for name in ("statue.obj", "skin.mtl", "skin.png"))
+
+
+def test_materials_and_images_count_as_input(statue, capsys):
     for words in (["encode", "statue.obj"], ["glb", "statue.obj", "-o", "statue.glb"]):
         assert run(*words) == 0
-        assert f"{size} -> " in capsys.readouterr().err
+        said = capsys.readouterr().err
+        assert f"{statue} -> " in said and "--images webp:85 makes them smaller" in said
+
+
+def test_images_are_written_anew(statue, folder, capsys):
+    assert run("encode", "statue.obj", "--images", "webp:50") == 0
+    assert "unchanged" not in capsys.readouterr().err
+    assert run("encode", "statue.obj", "-o", "large.bsm") == 0
+    sizes = [(folder / name).stat().st_size for name in ("statue.bsm", "large.bsm")]
+    assert sizes[0] < 0.5 * sizes[1]
+    (folder / "back").mkdir()
+    for output in ("back/statue.obj", "back/statue.glb"):
+        assert run("decode", "statue.bsm", "-o", output) == 0
+    assert (folder / "back/statue.0.webp").read_bytes()[8:12] == b"WEBP"
+    assert "statue.0.webp" in next((folder / "back").glob("*.mtl")).read_text()
+    assert b"EXT_texture_webp" in (folder / "back/statue.glb").read_bytes()
+    assert run("encode", "statue.obj", "-f", "--images", "gif") == 2
+    assert "webp:85" in capsys.readouterr().err
+
+
+@pytest.fixture
+def walk(folder):
+    """A sequence of twelve frames, and the scene that `bsm glb` makes of it."""
+    frames = np.array([torus(16, 12).positions + 0.1 * number for number in range(12)])
+    np.savez("walk.npz", positions=frames, faces=torus(16, 12).faces)
+    assert run("encode", "walk.npz", "-q") == 0 and run("glb", "walk.bsm", "-o", "walk.glb", "-q") == 0
+    return frames
+
+
+def test_one_frame_is_one_file(walk, capsys):
+    for name in ("frame3.obj", "frame3.ply", "frame3.stl"):
+        assert run("decode", "walk.bsm", "--frames", "3:4", "-o", name) == 0
+        low = bsm.load(name).positions.min(axis=0)
+        assert np.allclose(low, walk[3].min(axis=0), atol=0.05), "frames count from 0"
+    assert run("decode", "walk.bsm", "--frames", "12:13", "-o", "none.obj") == 2
+    assert "count from 0" in capsys.readouterr().err
+    assert run("decode", "walk.bsm", "-o", "all.obj") == 2
+    said = capsys.readouterr().err
+    assert "all-%04d.obj" in said and "--frames 0:1" in said
+    assert run("decode", "walk.bsm", "-o", "all-%04d.obj") == 0 and bsm.load("all-0011.obj") is not None
+
+
+def test_the_scene_of_a_sequence_is_read(walk, folder, capsys):
+    assert run("decode", "walk.glb", "-o", "back.npz") == 0
+    assert np.load("back.npz")["positions"].shape == walk.shape
+    assert run("decode", "walk.glb", "--frames", "2:3", "-o", "two.ply") == 0
+    for pair in (("walk.npz", "walk.glb"), ("walk.glb", "walk.bsm"), ("walk.glb", "walk.glb")):
+        assert run("compare", *pair) == 0, pair
+    assert "worst_frame" in capsys.readouterr().out
+    assert run("verify", "walk.glb") == 0 and "1 stream" in capsys.readouterr().err
+    assert run("verify", "ring.glb") == 3 and "no streams" in capsys.readouterr().err
+    assert run("compare", "walk.npz", "ring.ply") == 3
+    said = capsys.readouterr().err
+    assert "bsm." not in said.replace("walk.npz", "") and "--animation" not in said
+
+
+def test_folders_are_decoded_verified_and_compared(folder, capsys):
+    for name in ("scans/a.ply", "scans/deep/b.obj"):
+        (folder / name).parent.mkdir(exist_ok=True)
+        bsm.save(torus(16, 12), name)
+    assert run("encode", "-r", "scans", "-o", "small", "--meta", "unit=mm") == 0
+    assert "of 2 files" in (said := capsys.readouterr().err) and "mm (scans/" in said, "the largest error, in units"
+    assert run("verify", "small") == 2 and "verify -r" in capsys.readouterr().err
+    assert run("verify", "-r", "small") == 0 and "2 of 2 files" in capsys.readouterr().err
+    assert run("decode", "-r", "small", "-o", "back") == 0
+    assert {path.name for path in (folder / "back").rglob("*.ply")} == {"a.ply", "b.ply"}
+    for other in ("small", "back"):
+        assert run("compare", "-r", "scans", other) == 0
+        assert "2 of 2 files compared; largest vertex error" in capsys.readouterr().out
+    (folder / "back/a.ply").unlink()
+    assert run("compare", "-r", "scans", "back", "--json") == 9
+    files = json.loads(capsys.readouterr().out)["files"]
+    assert [file["exit"] for file in files if "error" in file] == [9]
+    assert run("decode", "-r", "scans") == 2 and "no streams in" in capsys.readouterr().err

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import asdict, replace
@@ -11,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import MeshError, OptionError, counted
+from bsm.bitstream.errors import BsmError, MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
@@ -21,6 +22,7 @@ from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, adder, limits_of
 from bsm.comparison import Pair, compare_meshes, order_of_used, pair, paired_frames, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
+from bsm.exits import exit_of, worded
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
@@ -28,6 +30,9 @@ from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, peek_header
+from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, plan_trees
+from bsm.jobs.report import largest_error
+from bsm.jobs.task import Facts
 from bsm.lengths import length, unit_of
 from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
@@ -48,6 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     drawn = "draw both and their difference, from the side where it is largest (implies --look); for sequences, "
     add("--picture", "FILE.png", f"{drawn}a curve of the error of each frame")
     colored = "draw the error of each vertex of A in colors, from blue to red: a picture (.png), or A as a mesh with "
+    add("-r --recursive", "", "A and B are folders: compare each file in A and below with that of its name in B")
     add("--map", "FILE", f"{colored}colors (.ply, .obj, .glb)")
     add_limits_flag(parser)
     add("--json", "", "print the result as JSON")
@@ -85,7 +91,54 @@ EXPLAINED = {
 }
 
 
-def run(args: argparse.Namespace, console: Console) -> None:
+def run(args: argparse.Namespace, console: Console) -> int:
+    if args.recursive:
+        return _compare_trees(args, console)
+    _compare_one(args, console)
+    return 0
+
+
+def _compare_trees(args: argparse.Namespace, console: Console) -> int:
+    """Compare the files of two folders, with a line for each, and the largest error; return the code of a failure."""
+    if args.map or args.picture or args.permutation or args.look or args.surface:
+        raise OptionError("-r measures vertex errors; leave out --look, --surface, --picture, --map and --permutation")
+    jobs = plan_trees([args.original], None, "", (*MESH_SUFFIXES, *STREAM_SUFFIXES))
+    done: list[Facts] = []
+    for path in (job.input for job in jobs):
+        facts: Facts = {"input": path}
+        try:
+            facts["output"] = other = _same_name(path, args)
+            original, decoded = (_load(name, args, console).without_isolated_vertices()[0] for name in (path, other))
+            facts |= _compared(original, decoded, pair(original, decoded), args, console)
+            facts |= {"unit": unit} if (unit := unit_of(original.metadata)) else {}
+            said = sentence(facts, unit)
+        except (BsmError, OSError) as error:
+            facts |= {"error": worded(error), "exit": exit_of(error).code}
+            said = f"not compared: {facts['error']}"
+        done.append(facts)
+        if not args.json:
+            print(f"{path}: {said}")
+    good = [facts for facts in done if "error" not in facts]
+    if args.json:
+        print_json({"files": done})
+    else:
+        worst = largest_error(good)
+        print(f"{len(good)} of {counted(files=len(done))} compared{f'; largest vertex error {worst}' if worst else ''}")
+    return next((int(facts["exit"]) for facts in done if "error" in facts), 0)
+
+
+def _same_name(path: str, args: argparse.Namespace) -> str:
+    """The file in B that has the name of one in A, whatever its format."""
+    place = Path(args.decoded, Path(path).relative_to(args.original))
+    endings = (*STREAM_SUFFIXES, *MESH_SUFFIXES)
+    candidates = [place, *(place.with_suffix(end) for end in endings), Path(f"{place}.bsm")]
+    found = next((name for name in candidates if name.is_file()), None)
+    if found is None:
+        raise FileNotFoundError(errno.ENOENT, "no file of this name, in any format", str(place.with_suffix("")))
+    return str(found)
+
+
+def _compare_one(args: argparse.Namespace, console: Console) -> None:
     if _compare_scenes(args, console) or _compare_sequences(args, console):
         return
     with console.progress("reading") as progress:
@@ -197,6 +250,8 @@ def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
 
     with as_format_error("glTF"):
         sides = [read_document(path, limits_of(args.limits)) for path in paths]
+        if any(side.moving for side in sides):
+            return False
         listed = [[len(mesh["primitives"]) for mesh in side.items("meshes")] for side in sides]
         whole = args.map or args.picture or args.look or args.permutation
         if whole or listed[0] != listed[1]:
@@ -271,8 +326,9 @@ def _pieces_of(frames: Iterable[tuple[Positions, Faces]]) -> Pieces:
 def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Pieces | None:
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
-        if Path(path).is_file() and is_stream(path):
-            header, chunks = peek_header(read_chunks(path))
+        moving = _moving(path) if Path(path).is_file() and is_scene(path) else None
+        if moving or (Path(path).is_file() and is_stream(path)):
+            header, chunks = peek_header(iter([moving]) if moving else read_chunks(path))
             if header is None or not header.gop_frames:
                 return None
             stream = SequenceStream(chunks, limits=limits_of(args.limits))
@@ -283,6 +339,13 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
         if source.meshes is None:
             return [(np.array(list(source.frames)), source.faces)]
         return _pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
+
+
+def _moving(path: str) -> bytes | None:
+    """The stream whose frames a glTF scene shows, None if it shows none."""
+    from bsm.gltf.document import read_document
+
+    return read_document(path).moving
 
 
 def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:

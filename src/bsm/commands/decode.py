@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -19,20 +20,24 @@ from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, by_name, format_of_name, save_written, unknown_suffix, written_mesh
+from bsm.files.motion.folder import is_numbered
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header
-from bsm.jobs.plan import plan
+from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Task, anywhere, came_to
+
+NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"
 
 
 @dataclass(frozen=True, kw_only=True)
 class DecodeJob(Task):
     given: str | None = None
+    recursive: bool = False
     many: bool = False
     format: str | None = None
     blocks: int | None = None
@@ -58,11 +63,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     part("--tolerant", "", "continue after damage; list the lost parts and leave them out")
     add("--permutation", "FILE.npy", "restore the order of the input; the file that encode wrote with the same option")
     add_limits_flag(parser)
-    adder(parser.add_argument_group("sequences"))("--frames", "A:B", "decode frames A to B - 1 only")
+    add("-r --recursive", "", "decode every stream in folders and their subfolders; OUT gets the same folders")
+    numbered = "decode frames A to B - 1 only, counted from 0: 0:1 is the first, which may be written as a mesh"
+    adder(parser.add_argument_group("sequences"))("--frames", "A:B", numbered)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    jobs = plan(args.inputs, args.output, lambda _: f".{args.format or 'ply'}", sole_folder=True)
+    suffix = f".{args.format or 'ply'}"
+    if args.recursive:
+        jobs = plan_trees(args.inputs, args.output, suffix, STREAM_SUFFIXES)
+    else:
+        jobs = plan(args.inputs, args.output, lambda _: suffix, sole_folder=True)
     if args.permutation and len(jobs) > 1:
         raise OptionError("--permutation is for one input")
     if args.permutation and (args.blocks is not None or args.tolerant):
@@ -75,7 +86,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
     if is_scene(args.input):
-        return _restore(args, console)
+        document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
+        if (moving := document.moving) is not None:
+            return _decode_sequence(args, console, iter([moving]))
+        return _restore(args, console, document)
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
@@ -109,11 +123,10 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
 
 
-def _restore(args: DecodeJob, console: Console) -> Facts:
+def _restore(args: DecodeJob, console: Console, document: Any) -> Facts:
     """Write a glTF scene without compressed geometry, or its rest pose as a mesh."""
     kind, begin = args.format or format_of_name(args.output) or "ply", time.perf_counter()
     refuse_to_overwrite(args.output, args.may_replace(args.output))
-    document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
     if kind == "glb":
         file = Written(by_name("bsm.gltf.compress", "restore")(document))
     else:
@@ -144,12 +157,16 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     # The output by default: an npz, or a folder if the format is one of meshes.
     suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
     output = default_output(args.input, suffix) if args.given is None else str(args.output)
-    if args.given is not None and args.many:
+    if args.recursive:
+        output = str(Path(args.output).with_suffix(suffix))
+    elif args.given is not None and args.many:
         output = output_inside(args.given, args.input, suffix)
+    first, last = _range(args.frames)
+    if last - first == 1 and _is_mesh_file(output, args.format):
+        return _decode_frame(args, console, chunks, first, output)
     kind = sequence_kind(output, args.format)
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
-    first, last = _range(args.frames)
     stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
     header, frames = stream.header, stream.changing_frames()
     ahead = list(islice(frames, 1))  # whose faces are those that are written first
@@ -180,7 +197,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
             if expected:
                 progress(count, expected)
         if count == 0:
-            raise OptionError("the stream does not contain these frames")
+            raise OptionError(NO_FRAMES)
     lost = [attribute.name for attribute in stream.attributes] if args.permutation else shared.left_out
     if lost:
         because = " with --permutation" if args.permutation else ""
@@ -193,6 +210,29 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     console.note(f"{args.input} -> {output}: {counts}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
     return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
+
+
+def _is_mesh_file(output: str, file_format: str | None) -> bool:
+    """Whether an output is one file of a format of meshes."""
+    kind = file_format or format_of_name(output)
+    return kind in WRITTEN_FORMATS and kind not in ONE_FILE and not is_numbered(output) and not Path(output).is_dir()
+
+
+def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], number: int, output: str) -> Facts:
+    """Write one frame of a sequence as a mesh."""
+    kind = str(args.format or format_of_name(output))
+    refuse_to_overwrite(output, args.may_replace(output))
+    begin = time.perf_counter()
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, number, limits_of(args.limits))
+    found = next(stream.changing_frames(), None)
+    if found is None or found[0] != number:
+        raise OptionError(NO_FRAMES)
+    mesh = TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata)
+    if args.permutation:
+        mesh = reorder(mesh, read_permutation(args.permutation))
+    facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
+    file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
+    return facts | _saved(args, console, output, kind, file, f"frame {number}, ", time.perf_counter() - begin)
 
 
 def _range(text: str | None) -> tuple[int, int]:

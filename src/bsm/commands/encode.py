@@ -8,8 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
+from bsm.commands.flags import IMAGES, add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
+from bsm.files.images import ImageRule
 from bsm.files.mesh import GLTF, MESH_FORMATS, WRITTEN_FORMATS
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
@@ -41,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     fewer = "try a half, a quarter, ... of the triangles, and keep the smallest file that keeps the promise to the "
     fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"
     add("--simplify", "", fewer)
+    add("--images", "RULE", IMAGES)
     add("--permutation", "FILE.npy", "write the input vertex of each decoded vertex")
     meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
     add("--meta", "NAME=TEXT", meta, action="append", default=[])
@@ -87,6 +89,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
         metadata[name] = value
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
+    if args.images:
+        ImageRule.parse(args.images)
     more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more)
     return run_jobs(many, job, console, encode_one, jobs)

@@ -119,6 +119,7 @@ SETTINGS = (
 """Advanced settings of the codec: `--set NAME=VALUE`."""
 
 
+IMAGES = "recompress images with Pillow: webp, jpeg, png; webp:85 sets the quality, webp:85@1024 also the longest side"
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none", "paper")
 PROMISES = (
     "The encoder checks the decoded result before it writes a file. All constraints apply together.\n\n"

@@ -5,14 +5,15 @@ import shlex
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import adder, within
+from bsm.commands.flags import IMAGES, adder, within
 from bsm.console import Console
+from bsm.files.images import ImageRule
 from bsm.files.mesh import GLTF, read_mesh, size_with_parts, written_mesh
 from bsm.files.output import write_output
 from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import decode_whole, is_stream, peek_header
-from bsm.gltf.compress import ImageRule, compress, count_primitives
+from bsm.gltf.compress import compress, count_primitives
 from bsm.gltf.document import Document, read_document
 from bsm.gltf.write import moving_scene
 
@@ -38,8 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--one-grid", "", "one grid for all meshes with equal scale and rotation, so that touching meshes still touch")
     add("-j --jobs", "N", "threads, each for a primitive (0: one per core; default 1)", type=within(0), default=1)
     add("--fallback", "", "also write OUT.fallback.bin with plain arrays, for viewers without the extension")
-    images = "recompress images with Pillow: webp, jpeg, png; webp:85 sets the quality, webp:85@1024 also the "
-    add("--images", "RULE", f"{images}longest side")
+    add("--images", "RULE", IMAGES)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
@@ -96,6 +96,7 @@ def _document(path: str, console: Console) -> tuple[Document, int | None]:
     """Return a scene, or a mesh as one; and the bytes of the mesh file."""
     if not Path(path).is_dir() and is_stream(path):
         mesh = decode_whole(read_chunks(path))
+        console.note(f"{path}: compressed already: errors add up")
     elif Path(path).suffix[1:].lower() in GLTF:
         return read_document(path), None
     else:

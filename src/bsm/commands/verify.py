@@ -1,16 +1,18 @@
 """bsm verify: check that streams are complete and can be decoded."""
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
-from bsm.bitstream.errors import counted
-from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
+from bsm.bitstream.errors import FormatError, OptionError, counted
+from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits_of
 from bsm.console import Console
 from bsm.exits import worded
-from bsm.files.inspection import inspect_stream
+from bsm.files.inspection import StreamInfo, inspect_stream
+from bsm.files.mesh import by_name
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import decode_through, decode_whole
-from bsm.jobs.plan import input_names
+from bsm.files.stream import decode_through, decode_whole, is_scene
+from bsm.jobs.plan import STREAM_SUFFIXES, input_names, plan_trees
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task
 from bsm.tiles.shards import is_tiles, open_tiles
@@ -27,27 +29,50 @@ class VerifyJob(Task):
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(parser, "stream, folder of tiles, or - for standard input")
     add_limits_flag(parser)
+    adder(parser)("-r --recursive", "", "check every stream in folders and their subfolders")
     parser.add_argument("--quick", action="store_true", help="check structure and checksums only; do not decode")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     jobs = [Job(name) for name in input_names(args.inputs)]
+    if args.recursive:
+        jobs = [replace(job, output="") for job in plan_trees(args.inputs, None, "", STREAM_SUFFIXES)]
     return run_jobs(asked(Run, args), asked(VerifyJob, args), console, verify_one, jobs)
 
 
 def verify_one(args: VerifyJob, console: Console) -> Facts:
-    limits = limits_of(args.limits)
     if is_tiles(args.input):
         return _verify_tiles(args, console)
+    if Path(args.input).is_dir():
+        raise OptionError(f"{args.input} is a folder, and not one of tiles; bsm verify -r checks the streams in it")
+    if is_scene(args.input):
+        return _verify_scene(args, console)
     chunks = list(read_chunks(args.input))
     with console.progress("decoding"):
-        info = inspect_stream(iter(chunks), limits)
-        if not args.quick:
-            decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
+        info = _checked(chunks, args)
     checked = not args.quick and info.checksum is not None
     checksum, size = ", positions match the encoder's" if checked else "", info.sizes["total"]
     console.note(f"{args.input}: whole, {counted(blocks=info.header.blocks)}, {size} bytes{checksum}")
     return {"input": args.input, "ok": True, "decoded": not args.quick, "checked": checked, "bytes": size}
+
+
+def _checked(chunks: list[bytes], args: VerifyJob) -> StreamInfo:
+    limits = limits_of(args.limits)
+    info = inspect_stream(iter(chunks), limits)
+    if not args.quick:
+        decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
+    return info
+
+
+def _verify_scene(args: VerifyJob, console: Console) -> Facts:
+    """Check every stream of a glTF scene."""
+    document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
+    with console.progress("decoding"):
+        sizes = [_checked([document.view(number)], args).sizes["total"] for number in document.streams]
+    if not sizes:
+        raise FormatError(f"{args.input}: this scene has no streams; bsm glb makes one that has")
+    console.note(f"{args.input}: whole, {counted(streams=len(sizes))}, {sum(sizes)} bytes")
+    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": sum(sizes)}
 
 
 def _verify_tiles(args: VerifyJob, console: Console) -> Facts:

@@ -210,8 +210,8 @@ def sequence_kind(path: str, file_format: str | None) -> str:
         if is_numbered(path) or suffix in ONE_FILE:
             return suffix
         raise OptionError(
-            f"{path}: this is a sequence; write it to one file (.{', .'.join(ONE_FILE)}), to a folder, or to numbered "
-            f"files, {Path(path).with_suffix('')}%04d.{suffix}"
+            f"{path}: this is a sequence; write it to one file (.{', .'.join(ONE_FILE)}), to a folder, to numbered "
+            f"files, {Path(path).with_suffix('')}-%04d.{suffix}, or write one frame, --frames 0:1 for the first"
         )
     if file_format is None and suffix[:1].isalpha() and not _is_folder(path):
         raise OptionError(

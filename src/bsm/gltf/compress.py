@@ -9,7 +9,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Self
+from typing import Any
 from urllib.parse import quote
 
 import numpy as np
@@ -17,7 +17,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from bsm.bitstream.errors import BsmError, FormatError, MeshError, OptionError, UnsupportedError, imported
+from bsm.bitstream.errors import BsmError, FormatError, MeshError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
@@ -25,6 +25,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.threads import ordered_map
+from bsm.files.images import ImageRule, smaller
 from bsm.files.room import as_format_error
 from bsm.gltf import document as gltf
 from bsm.gltf.coding import (
@@ -717,48 +718,3 @@ def _short(node: Any) -> Any:
     if not isinstance(node, float) or abs(node) > _MOST or np.float32(node) != node:
         return node
     return int(node) if node.is_integer() and abs(node) < _WHOLE else float(str(np.float32(node)))
-
-
-# -------------------------------------------------------------------------------------------------------------- images
-
-
-@dataclass(frozen=True)
-class ImageRule:
-    """How images are written: format, quality from 1 to 100, and the most pixels of a side (0: any number)."""
-
-    kind: str
-    quality: int = 85
-    side: int = 0
-
-    @classmethod
-    def parse(cls, text: str) -> Self:
-        """The rule that "webp", "webp:85" or "webp:85@1024" says."""
-        match = re.fullmatch(r"(webp|jpeg|png)(?::(\d{1,3}))?(?:@(\d{1,5}))?", text)
-        if not match or not 1 <= int(match[2] or 85) <= 100:
-            raise OptionError(f"images are written as webp, webp:85 or webp:85@1024 (jpeg, png, too), not as {text!r}")
-        return cls(match[1], int(match[2] or 85), int(match[3] or 0))
-
-
-def smaller(data: bytes, rule: ImageRule) -> bytes | None:
-    """An image by a rule; None if that would not be smaller, or Pillow cannot read it."""
-    pillow = imported("PIL.Image", "images are written with Pillow", "formats")
-    try:  # what Pillow does not know is an OSError
-        found = _written(pillow.open(io.BytesIO(data)), rule, pillow.Resampling.LANCZOS)
-    except (OSError, ValueError, SyntaxError, pillow.DecompressionBombError):
-        return None
-    return found if found and len(found) < len(data) else None
-
-
-def _written(image: Any, rule: ImageRule, how: Any) -> bytes | None:
-    """The file of an image; None if the format would lose what shows through."""
-    if rule.kind == "jpeg" and image.mode not in ("RGB", "L"):
-        if "A" in image.getbands() or "transparency" in image.info:
-            return None
-        image = image.convert("RGB")
-    if rule.side and max(image.size) > rule.side:
-        factor = rule.side / max(image.size)
-        size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
-        image = image.resize(size, how)
-    written = io.BytesIO()
-    image.save(written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {}))
-    return written.getvalue()

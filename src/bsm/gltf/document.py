@@ -72,6 +72,12 @@ class Document:
         moving = (mesh.get("extensions", {}).get(EXTENSION) for mesh in self.items("meshes"))
         return sorted({int(how["stream"]) for how in (*held, *moving) if how})
 
+    @property
+    def moving(self) -> bytes | None:
+        """The stream whose frames a mesh of the scene shows, None if there is none."""
+        held = (mesh.get("extensions", {}).get(EXTENSION) for mesh in self.items("meshes"))
+        return next((self.view(int(how["stream"])) for how in held if how), None)
+
     def items(self, name: str) -> list[Tree]:
         found = self.tree.get(name, [])
         if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):

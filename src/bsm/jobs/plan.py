@@ -12,7 +12,7 @@ from bsm.files import pipes
 from bsm.files.output import default_output, no_link, output_inside, own_name, refuse_collisions
 from bsm.jobs.task import Job
 
-MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
+MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae", ".vtp")
 """Suffixes of the mesh files that a search of folders finds."""
 
 
@@ -41,19 +41,25 @@ def plan(
     return jobs
 
 
-def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[Job]:
-    """Return a job for each mesh file in folders and subfolders; `output` gets the same subfolders."""
+STREAM_SUFFIXES = (".bsm",)
+
+
+def plan_trees(
+    folders: Sequence[str], output: str | None, suffix: str, read: Sequence[str] = MESH_SUFFIXES
+) -> list[Job]:
+    """Return a job for each file that is read in folders and subfolders; `output` gets the same subfolders."""
     jobs = []
     for folder in folders:
         if pipes.is_url(folder) or not Path(folder).is_dir():
             raise OptionError(f"{folder}: not a local folder; --recursive searches local folders")
         for path in sorted(Path(folder).rglob("*")):
-            if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
+            if path.suffix.lower() in read and path.is_file():
                 place = path if output is None else Path(output, path.relative_to(folder))
                 jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix)))))
     jobs = apart(jobs, lambda _: suffix)
     if not jobs:
-        raise OptionError(f"no mesh files in {', '.join(folders)} or subfolders ({', '.join(MESH_SUFFIXES)})")
+        what = "streams" if read == STREAM_SUFFIXES else "mesh files"
+        raise OptionError(f"no {what} in {', '.join(folders)} or subfolders ({', '.join(read)})")
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
     for parent in {Path(job.output).parent for job in jobs}:
         parent.mkdir(parents=True, exist_ok=True)
