@@ -7,18 +7,18 @@ import json
 import os
 import platform
 import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import Any
 
-from tools.replicate import report
+from tools.replicate import quotes, report
 from tools.replicate.ablation import ablate_mesh
 from tools.replicate.denoising import denoise_mesh, pairs
 from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_meshes
 from tools.replicate.motion import measure_motion, sequences
 from tools.replicate.outside import SEEN, measure_outside
 from tools.replicate.paper import TABLES, Job, make_tables
+from tools.replicate.paper.models import complete
 from tools.replicate.rates import Row, measure_mesh, time_mesh
 from tools.replicate.stages import run_stage
 
@@ -27,8 +27,6 @@ ABLATED = {(500, 4000): 30, (8000, 12_000): 4}
 TIMED, QUICK_SIZE = 24, 4000
 NOISED, NOISY = 12, (2000, 6000)
 """Meshes that are denoised, and of how many vertices."""
-DRAWN = ("head", "cow", "homer")
-"""Meshes of the paper's figures."""
 
 
 def note(text: str) -> None:
@@ -55,7 +53,8 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
     os.environ["OMP_NUM_THREADS"] = "1"
     begin = time.monotonic()
     own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") else None
-    sources = fetch_meshes(folder / "meshes", note)
+    own_enough = set(minutes) == {"paper"} and complete(own)
+    sources = [] if own_enough else fetch_meshes(folder / "meshes", note)
     if own and not quick:
         sources = sorted([*sources, *own_meshes(own)], key=lambda source: (source.vertices, source.name))
     workers = max(1, len(os.sched_getaffinity(0)))
@@ -79,9 +78,8 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
         chosen = [*shuffled(spread_over(unseen(sources, NOISY), NOISED)), *shared]
         run_stage(denoise_mesh, chosen, folder / "denoising", minutes["denoising"], note, workers=workers)
     if "paper" in minutes:
-        jobs = [Job(name, None if quick else own, sources, quick) for name in TABLES]
+        jobs = [Job(name, own, sources, quick, folder) for name in TABLES]
         run_stage(make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers)
-        curves(sources, folder, minutes["paper"], quick)
     results = read(folder)
     path = folder / "results.json"
     facts = json.loads(path.read_text(encoding="utf-8")).get("runs", {}) if path.exists() else {}
@@ -90,17 +88,9 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
     report.write(results, folder, note)
     if docs:
         report.write_page(results, facts)
-
-
-def curves(sources: list[Source], folder: Path, minutes: float, quick: bool) -> None:
-    """The paper's figures by `bsm curve`."""
-    drawn = [str(source.path) for source in sources if source.name in DRAWN[: 1 if quick else None]]
-    words = [sys.executable, "-m", "bsm", "curve", *drawn, "--codecs", "paper", "-o", str(folder / "curves"), "--pdf"]
-    try:
-        done = subprocess.run(words, capture_output=True, text=True, timeout=60 * minutes, check=True)
-        (folder / "paper-curves.md").write_text(done.stdout, encoding="utf-8")
-    except subprocess.SubprocessError as error:
-        note(f"paper: {error}")
+        if "paper" in minutes:
+            quotes.keep(read_paper(folder), facts["paper"])
+            quotes.rewrite()
 
 
 def read(folder: Path) -> dict[str, list[Row]]:
@@ -110,8 +100,13 @@ def read(folder: Path) -> dict[str, list[Row]]:
         stage: [json.loads(path.read_text(encoding="utf-8")) for path in sorted((folder / stage).glob("*.json"))]
         for stage in stages
     }
-    paths = [folder / "paper" / f"{name}.json" for name in TABLES]
-    return found | {"paper": [row for path in paths if path.exists() for row in json.loads(path.read_text())]}
+    return found | {"paper": [row for rows in read_paper(folder).values() for row in rows]}
+
+
+def read_paper(folder: Path) -> dict[str, list[Row]]:
+    """The tables of the paper, by their jobs."""
+    paths = {name: folder / "paper" / f"{name}.json" for name in TABLES}
+    return {name: json.loads(path.read_text(encoding="utf-8")) for name, path in paths.items() if path.exists()}
 
 
 def describe(seconds: float) -> dict[str, Any]:

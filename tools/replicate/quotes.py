@@ -1,0 +1,54 @@
+"""What the documents quote of the paper's experiments: passages made of paper.json, which is kept beside this."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from textwrap import fill
+from typing import Any
+
+from tools.replicate.rates import Row
+
+KEPT = Path(__file__).with_name("paper.json")
+TEXTS = Path(__file__).with_name("passages")
+ROOT = Path(__file__).parents[2]
+WIDTH = 120
+PASSAGES = {
+    "claims": "codec/PAPER.md",
+    "speed": "codec/PAPER.md",
+    "warm": "docs/how-it-works.md",
+    "results": "docs/guides/research.md",
+}
+"""The document of each; its text, with the numbers of jobs, is a file in passages/. Marks in the document name it."""
+
+
+def keep(tables: dict[str, list[Row]], run: dict[str, Any]) -> None:
+    """Write the numbers that are quoted."""
+    numbers = {name: {k: v for row in rows for k, v in row["numbers"].items()} for name, rows in tables.items()}
+    text = json.dumps({"run": run, "numbers": {name: own for name, own in numbers.items() if own}}, indent=1)
+    KEPT.write_text(text + "\n", encoding="utf-8")
+
+
+def passage(name: str) -> str:
+    """The text of a passage, as it stands in the document."""
+    numbers = json.loads(KEPT.read_text(encoding="utf-8"))["numbers"]
+    text = (TEXTS / f"{name}.txt").read_text(encoding="utf-8").strip()
+    parts = text.format_map(numbers).split("\n\n")
+    return "\n\n".join(part if part.startswith("|") else fill(part.replace("\n", " "), WIDTH) for part in parts)
+
+
+def with_passages(document: str, text: str) -> str:
+    """The text of a document with its passages as they should be."""
+    for name, place in PASSAGES.items():
+        if place == document:
+            begin, end = f"<!-- measured: {name} -->\n", f"<!-- end: {name} -->"
+            before, _, rest = text.partition(begin)
+            text = f"{before}{begin}{passage(name)}\n{end}{rest.partition(end)[2]}"
+    return text
+
+
+def rewrite() -> None:
+    """Put all passages into their documents."""
+    for document in set(PASSAGES.values()):
+        path = ROOT / document
+        path.write_text(with_passages(document, path.read_text(encoding="utf-8")), encoding="utf-8")
