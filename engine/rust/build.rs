@@ -1,4 +1,4 @@
-//! Compiles bsmdec.c: the one in the crate, or in a checkout the one that `tools.amalgamate` makes.
+//! Compiles bsm.c: the one in the crate, or in a checkout the one that `tools.amalgamate` makes.
 //!
 //! The compiler is `CC_<target>`, `TARGET_CC` (`HOST_CC` if the target is this machine) or `CC`; `CFLAGS` and `AR` are
 //! looked up in the same way, as by the crate `cc`. Without them it is `cc`, or the usual cross-compiler of the target.
@@ -56,12 +56,12 @@ fn main() {
     let here = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap());
     let out = PathBuf::from(env::var("OUT_DIR").unwrap());
     let target = env::var("TARGET").unwrap();
-    let mut source = here.join("bsmdec.c");
+    let mut source = here.join("bsm.c");
     if !source.is_file() {
         let checkout: &Path = &here.join("../..");
         let python = env::var("PYTHON").unwrap_or_else(|_| "python3".into());
         run(Command::new(python).args(["-m", "tools.amalgamate"]).arg(&out).current_dir(checkout));
-        source = out.join("bsmdec.c");
+        source = out.join("bsm.c");
         for folder in ["engine", "codec", "bitstream", "tools/amalgamate.py", "spec/priors.bin"] {
             println!("cargo:rerun-if-changed={}", checkout.join(folder).display());
         }

@@ -2,6 +2,7 @@
 
 import ctypes
 import re
+import shutil
 import subprocess
 from dataclasses import replace
 
@@ -75,6 +76,32 @@ def test_cells_fit_those_of_python(encoder):
     mesh = torus(20, 12)
     found = encode(encoder, mesh, positions=CELLS, cell=0.01, origin=(5.0, 0.003, -1.0), quick=1)
     assert found.data == bsm.encode(mesh, grid_cell=0.01, grid_origin=(5.0, 0.003, -1.0), quick=True)
+
+
+PAGE = """
+import { readFileSync, writeFileSync } from "node:fs";
+const { encodeHere } = await import(process.argv[2]);
+const [positions, faces] = ["positions", "faces"].map((name) => Uint8Array.from(readFileSync(name)).buffer);
+const mesh = { positions: new Float64Array(positions), faces: new Uint32Array(faces) };
+const cells = { cell: 0.01, origin: [1, 2, 3] };
+const options = [{}, { lossless: true }, { bits: 11, keepOrder: true }, { quick: true }, cells];
+for (const [i, each] of options.entries()) writeFileSync(`${i}.bsm`, await encodeHere(mesh, each));
+"""
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node here")
+def test_webassembly_writes_the_same_bytes(encoder, tmp_path):
+    module = ROOT / "web/built/encode.js"
+    if not module.with_suffix(".wasm").exists() or not module.exists():
+        pytest.skip("npm run kernels and npm run build have not built the encoder")
+    mesh = torus(60, 40)
+    (tmp_path / "faces").write_bytes(mesh.faces.astype(np.uint32).tobytes())
+    (tmp_path / "positions").write_bytes(mesh.positions.tobytes())
+    (tmp_path / "page.mjs").write_text(PAGE)
+    subprocess.run(["node", "page.mjs", module], cwd=tmp_path, check=True)
+    cells = {"positions": CELLS, "cell": 0.01, "origin": (1.0, 2.0, 3.0)}
+    for i, options in enumerate(({}, {"positions": LOSSLESS}, {"bits": 11, "keep_order": 1}, {"quick": 1}, cells)):
+        assert (tmp_path / f"{i}.bsm").read_bytes() == encode(encoder, mesh, **options).data
 
 
 @pytest.mark.real

@@ -113,6 +113,8 @@ async function products() {
         "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
         "gltf-transform.js": await open("transform.ts", beside("errors", "index", "pool")),
         "babylon.js": await open("babylon.ts", beside("errors", "index", "pool")),
+        "encode.js": await open("encode.ts", beside("errors")),
+        "encode-worker.js": thread("encode.js"),
         "player.js": await open("player.ts", beside("three")),
         "react.js": await open("react.ts", beside("three")),
     };

@@ -25,9 +25,12 @@ const PAGE = [
 /** Functions for a page that decodes light grids alone (engine/wasm/light.c). */
 const LIGHT = ["page_take", "page_give", ...["open", "close", "charge", "error", "begin", "faces", "positions"].map((name) => `light_${name}`)];
 
+/** Functions for a page that encodes (engine/wasm/encode.c). */
+const ENCODE = ["page_take", "page_give", ...["begin", "attribute", "metadata", "run", "message", "bytes", "size", "end"].map((name) => `encode_${name}`)];
+
 const TARGET = "--target=wasm32";
 const FLAGS = [
-    TARGET, "-DBSM_DECODER", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
+    TARGET, "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
     "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-mbulk-memory", "-isystem", "engine/wasm/include",
 ];
 
@@ -130,12 +133,13 @@ function optionsOf(source, fast, light) {
     return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
 }
 
-/** Every build: whether with vector instructions, what of the decoder it is without, which headers ask for that, and which sources are compiled for speed; `light`: for light grids alone. */
+/** Every build: whether with vector instructions, what of the decoder it is without, which headers ask for that, and which sources are compiled for speed; `light`: for light grids alone; `writes`: the encoder. */
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": { vectors: true },
     "built/kernels-scalar.wasm": { vectors: false },
     "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
     "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
+    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec|engine\/(sequence|gop|parts|frames|layer|chain|dictionaries|assembly|zstd|split|whole|changes)\.c|engine\/wasm\/(page|light)\.c/, lacks: "!header->on_grid" },
     "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec/, fast: /conquest/, light: true },
 };
 
@@ -143,7 +147,7 @@ export const KERNEL_BUILDS = {
 const compiled = new Map();
 
 /** One of them. */
-export function compileKernels({ vectors, exported = PAGE, without, lacks, fast = FAST, light = false }) {
+export function compileKernels({ vectors, exported = PAGE, without, lacks, fast = FAST, light = false, writes = false }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -153,7 +157,7 @@ export function compileKernels({ vectors, exported = PAGE, without, lacks, fast 
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            const options = [...FLAGS, ...optionsOf(source, fast, light), ...(without && source.startsWith("engine") ? ["-DBSMDEC_TERSE", ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : [])] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
+            const options = [...FLAGS, writes ? "-DBSMDEC_WRITES" : "-DBSM_DECODER", ...optionsOf(source, fast, light), ...(without && source.startsWith("engine") ? [...(writes ? [] : ["-DBSMDEC_TERSE"]), ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : [])] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
             const key = options.join(" ");
             if (source === data || !compiled.has(key)) {
                 clang(...options, "-o", object);

@@ -1,4 +1,5 @@
-//! Decodes BSM streams of triangle meshes and mesh sequences: a safe interface to bsmdec, a library in C.
+//! Decodes BSM streams of triangle meshes and mesh sequences, and encodes meshes: a safe interface to bsmdec and bsmenc,
+//! libraries in C.
 //!
 //! ```no_run
 //! let stream = std::fs::read("bunny.bsm")?;
@@ -7,15 +8,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`decode`] reads a whole mesh. A [`Decoder`] takes bytes as they arrive, reports events, and plays sequences.
+//! [`decode`] reads a whole mesh, and [`encode`] writes one. A [`Decoder`] takes bytes as they arrive, reports events, and plays sequences.
 #![warn(missing_docs)]
 
+mod encode;
 pub mod raw;
 
 use std::ffi::{c_char, c_int, CStr, CString};
 use std::mem::{size_of, size_of_val, MaybeUninit};
 use std::{error, fmt, ptr, slice};
 
+pub use encode::{encode, EncodeOptions, Positions, Quality};
 pub use raw::Limits;
 
 /// The class of an error.
@@ -36,6 +39,10 @@ pub enum Status {
     Numeric,
     /// There is no memory.
     NoMemory,
+    /// The encoder cannot keep a mesh as the options ask.
+    Unreachable,
+    /// A fault of the encoder: the decoded stream differs from the mesh.
+    Fault,
     /// The stream ends too early.
     Truncated,
 }
@@ -49,6 +56,8 @@ impl Status {
             6 => Status::Limit,
             7 => Status::Numeric,
             8 => Status::NoMemory,
+            10 => Status::Unreachable,
+            11 => Status::Fault,
             12 => Status::Truncated,
             _ => Status::Misused,
         }
@@ -211,6 +220,13 @@ pub struct Attribute {
     pub indices: Vec<u32>,
     /// Whether the values change from frame to frame.
     pub moves: bool,
+}
+
+impl Attribute {
+    /// An attribute of vertices or faces, or of corners in the order of the faces.
+    pub fn new(name: &str, domain: Domain, semantic: Semantic, components: usize, values: Values) -> Attribute {
+        Attribute { name: name.into(), domain, semantic, components, values, indices: Vec::new(), moves: false }
+    }
 }
 
 /// The value of an entry of metadata. `bsmdec.h` lists the names that are known.
@@ -609,6 +625,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// A mesh without attributes and metadata, which may be added.
+    pub fn new(positions: Vec<[f64; 3]>, faces: Vec<[u32; 3]>) -> Mesh {
+        Mesh { positions, faces, attributes: Vec::new(), metadata: Vec::new() }
+    }
+
     /// The positions in single precision.
     pub fn positions_f32(&self) -> Vec<[f32; 3]> {
         self.positions.iter().map(|place| place.map(|coordinate| coordinate as f32)).collect()

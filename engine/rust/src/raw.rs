@@ -189,3 +189,64 @@ extern "C" {
     pub fn bsmdec_last_loss(decoder: *const bsmdec) -> *const bsmdec_error;
     pub fn bsmdec_last_misuse(decoder: *const bsmdec) -> *const c_char;
 }
+
+#[repr(C)]
+pub struct bsmenc_attribute {
+    pub name: *const c_char,
+    pub domain: c_int,
+    pub semantic: c_int,
+    pub kind: c_int,
+    pub components: c_int,
+    pub rows: i64,
+    pub values: *const c_void,
+    pub indices: *const u32,
+    pub quality: c_int,
+    pub amount: f64,
+}
+
+#[repr(C)]
+pub struct bsmenc_mesh {
+    pub size: usize,
+    pub vertices: i64,
+    pub faces: i64,
+    pub positions: *const f64,
+    pub positions_single: *const f32,
+    pub corners: *const u32,
+    pub attributes: *const bsmenc_attribute,
+    pub attribute_count: usize,
+    pub metadata: *const bsmdec_metadata,
+    pub metadata_count: usize,
+}
+
+#[repr(C)]
+pub struct bsmenc_options {
+    pub size: usize,
+    pub positions: c_int,
+    pub bits: c_int,
+    pub cell: f64,
+    pub origin: [f64; 3],
+    pub keep_order: c_int,
+    pub quick: c_int,
+    pub limits: *const bsmdec_limits,
+    pub allocator: *const c_void,
+    pub progress: Option<unsafe extern "C" fn(host: *mut c_void, part: f64) -> c_int>,
+    pub host: *mut c_void,
+}
+
+/// As far as it is read here: the C structure goes on.
+#[repr(C)]
+pub struct bsmenc_stream {
+    pub status: c_int,
+    pub message: *const c_char,
+    pub bytes: *const u8,
+    pub size: usize,
+}
+
+extern "C" {
+    pub fn bsmenc_encode(
+        mesh: *const bsmenc_mesh,
+        options: *const bsmenc_options,
+        stream: *mut *mut bsmenc_stream,
+    ) -> c_int;
+    pub fn bsmenc_release(stream: *mut bsmenc_stream);
+}
