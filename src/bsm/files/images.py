@@ -10,6 +10,8 @@ from bsm.bitstream.errors import OptionError, imported
 from bsm.codec.geometry.mesh import Metadata
 from bsm.files.formats.metadata import images_in
 
+_MOST_PIXELS = 1 << 26  # of an image that is written anew
+
 
 @dataclass(frozen=True)
 class ImageRule:
@@ -32,7 +34,10 @@ def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     """An image by a rule; None if that would not be smaller, or Pillow cannot read it."""
     pillow = imported("PIL.Image", "images are written with Pillow", "formats")
     try:  # what Pillow does not know is an OSError
-        found = _written(pillow.open(io.BytesIO(data)), rule, pillow.Resampling.LANCZOS)
+        image = pillow.open(io.BytesIO(data))
+        if image.width * image.height > _MOST_PIXELS:
+            return None
+        found = _written(image, rule, pillow.Resampling.LANCZOS)
     except (OSError, ValueError, SyntaxError, pillow.DecompressionBombError):
         return None
     return found if found and len(found) < len(data) else None

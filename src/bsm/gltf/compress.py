@@ -91,7 +91,9 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
     primitives = [same[0] for same in bundle]
     if primitives[0].get("mode", TRIANGLES) not in TRIANGULAR:
         return "points or lines"
-    indexes = [*{index for primitive in primitives for index in arrays_of(primitive).values()}]
+    # Each combination of accessors is made once.
+    combined = {str(sorted(arrays_of(primitive).items())): arrays_of(primitive) for primitive in primitives}
+    indexes = [index for arrays in combined.values() for index in arrays.values()]
     indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
     # Accessors may share bytes.
     DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
@@ -495,6 +497,8 @@ def _one_grid(
     placed = [matrices.get(meshes[id(bundle[0][0])], np.eye(4)) for bundle in bundles]
     keys = [np.round(matrix[:3, :3], 9).tobytes() for matrix in placed]
     cells: dict[bytes, float] = {}
+    corners = [same[0]["attributes"]["POSITION"] for bundle in bundles for same in bundle]
+    document.limits.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, corners)), 0, document.received)
     for bundle, key in zip(bundles, keys, strict=True):
         tables = [document.numbers(same[0]["attributes"]["POSITION"]) for same in bundle]
         extent = max(float(np.ptp(table, axis=0).max(initial=0.0)) for table in tables)

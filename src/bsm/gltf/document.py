@@ -6,7 +6,7 @@ import io
 import json
 import shutil
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import IO, Any
@@ -18,9 +18,11 @@ import numpy.typing as npt
 from bsm.bitstream.errors import FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import decode
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
 from bsm.files.pipes import Input, file_beside, is_url
+from bsm.files.room import require_count
 from bsm.gltf import coding
 from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, STRIP, TRIANGLES, Array, Tree
 
@@ -53,7 +55,8 @@ class Document:
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
         self._sides: dict[object, int] = {}
-        self._unpacked: dict[object, Any] = {}  # what compressed bufferViews, streams and primitives of Draco hold
+        self._unpacked: dict[object, Any] = {}  # contents of compressed bufferViews, streams and primitives of Draco
+        self._taken = self._vertices = 0  # bytes of these, and vertices of streams and primitives
 
     @property
     def received(self) -> int:
@@ -114,9 +117,7 @@ class Document:
                 f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read here"
             )
         if any(name in view.get("extensions", {}) for name in (EXTENSION, *MESHOPT)):
-            if index not in self._unpacked:
-                self._unpacked[index] = self._unpack(view["extensions"])
-            return memoryview(self._unpacked[index])
+            return memoryview(self._unpack(view["extensions"]))
         return self._plain(view, index)
 
     def unread_in(self, entry: Tree) -> set[str]:
@@ -128,14 +129,38 @@ class Document:
         if EXTENSION in extensions:
             how = extensions[EXTENSION]
             source = self.item("bufferViews", how["stream"])
-            key = ("stream", how["stream"])
-            if key not in self._unpacked:
-                mesh = decode(bytes(self._plain(source, how["stream"])), limits=self.limits)
-                self._unpacked[key] = mesh, coding.drawn(mesh)
-            return coding.array_of(self._unpacked[key], str(how["attribute"]), how.get("componentType")).tobytes()
+            stream = self._kept(_place(source), lambda: self._streamed(bytes(self._plain(source, how["stream"]))))
+            name, component = str(how["attribute"]), how.get("componentType")
+            key = (*_place(source), name, component)
+            return bytes(self._kept(key, lambda: self._counted(coding.array_of(stream, name, component).tobytes())))
         how = next(extensions[name] for name in MESHOPT if name in extensions)
-        self.limits.check_memory(3 * _count(how, "count") * _count(how, "byteStride"), 0, self.received)
-        return coding.unpack_meshopt(bytes(self._plain(how, "of meshopt")), how)
+        data = self._plain(how, "of meshopt")
+        return bytes(self._kept(str(sorted(how.items())), lambda: self._unpack_meshopt(bytes(data), how)))
+
+    def _kept(self, key: object, make: Callable[[], Any]) -> Any:
+        """Unpack bytes once, however many bufferViews name them."""
+        if key not in self._unpacked:
+            self._unpacked[key] = make()
+        return self._unpacked[key]
+
+    def _streamed(self, data: bytes) -> tuple[TriangleMesh, coding.Drawn]:
+        mesh = decode(data, limits=self.limits)
+        self._charge(0, len(mesh.positions))
+        return mesh, coding.drawn(mesh)
+
+    def _counted(self, data: bytes) -> bytes:
+        self._charge(len(data))
+        return data
+
+    def _unpack_meshopt(self, data: bytes, how: Tree) -> bytes:
+        self._charge(3 * _count(how, "count") * _count(how, "byteStride"))
+        return coding.unpack_meshopt(data, how)
+
+    def _charge(self, size: int, vertices: int = 0) -> None:
+        """Raise `LimitError` if everything unpacked so far and this takes too much."""
+        self._taken, self._vertices = self._taken + size, self._vertices + vertices
+        require_count("vertices", self._vertices, self.limits)
+        self.limits.check_memory(self._taken, self._vertices, self.received)
 
     @cached_property
     def of_draco(self) -> dict[int, tuple[Tree, int]]:
@@ -152,7 +177,8 @@ class Document:
         how, number = self.of_draco[index]
         key = (DRACO, how["bufferView"])
         if key not in self._unpacked:
-            self._unpacked[key] = coding.unpack_draco(self.view(how["bufferView"]))
+            self._unpacked[key] = unpacked = coding.unpack_draco(self.view(how["bufferView"]))
+            self._charge(sum(table.nbytes for table in unpacked.values()), max(map(len, unpacked.values())))
         found: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
         if found.shape != (count, width) and not (number < 0 and found.shape[1] == width):
             raise FormatError(f"Draco holds {found.shape} numbers for accessor {index} of {count} values")
@@ -359,6 +385,11 @@ def mime_of(data: bytes) -> str | None:
 
 def bounds_of(values: Array) -> Tree:
     return {"min": values.min(axis=0).astype(float).tolist(), "max": values.max(axis=0).astype(float).tolist()}
+
+
+def _place(view: Tree) -> tuple[object, ...]:
+    """A key that is equal for bufferViews of the same bytes."""
+    return view.get("buffer"), view.get("byteOffset", 0), view.get("byteLength")
 
 
 def _count(where: Tree, name: str) -> int:

@@ -36,14 +36,21 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 
 
+class _Builder(ElementTree.TreeBuilder):
+    """Builds the tree of a file without a DOCTYPE, which could multiply its text, in whatever encoding."""
+
+    def doctype(self, *_: object) -> None:
+        raise FormatError("a VTP file has no DOCTYPE")
+
+
 class _Document:
     """The XML of a file: its arrays with the elements that they are in, and other elements of use."""
 
     def __init__(self, text: bytes) -> None:
-        if b"<!DOCTYPE" in text:
-            raise FormatError("a VTP file has no DOCTYPE")
         try:
-            elements = list(ElementTree.fromstring(text).iter())
+            parser = ElementTree.XMLParser(target=_Builder())
+            parser.feed(text)
+            elements = list(parser.close().iter())
         except (ElementTree.ParseError, LookupError, ValueError) as error:  # the last two of strange encodings
             raise FormatError(f"this is not a VTP file: its XML is broken: {error}") from error
         self.arrays = [(around.tag, element) for around in elements for element in around if element.tag in _ARRAYS]

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, BinaryIO, TypeAlias
+from typing import IO, Any, BinaryIO, TypeAlias
 
 import numpy as np
 
@@ -418,17 +418,29 @@ def _meant(name: str, kind: str, values: shapes.Array) -> tuple[str, shapes.Arra
 
 
 def _require_room(path: str, limits: Limits) -> None:
-    """Look at a stage of text before usd-core does, whose stack deep nesting overflows."""
-    with open(path, "rb") as file:
-        if not file.read(5).startswith(b"#usda"):
-            return
-        received, commas, depth, deepest = os.fstat(file.fileno()).st_size, 0, 0, 0
-        while piece := file.read(_PIECE):
-            codes = np.frombuffer(piece, np.uint8)
-            commas += int((codes == ord(",")).sum())
-            opened = np.isin(codes, _OPENING).astype(np.int64) - np.isin(codes, _CLOSING)
-            depths = depth + np.cumsum(opened)
-            depth, deepest = int(depths[-1]), max(deepest, int(depths.max()))
+    """Look at stages of text before usd-core does, whose stack deep nesting overflows."""
+    if not zipfile.is_zipfile(path):
+        with open(path, "rb") as file:
+            _require_shallow(file, os.path.getsize(path), limits)
+        return
+    with as_format_error("package"), zipfile.ZipFile(path) as package:
+        for entry in package.infolist():
+            if entry.compress_type != zipfile.ZIP_STORED:
+                raise FormatError(f"{entry.filename} in this package is compressed, which usdz does not allow")
+            with package.open(entry) as packed:
+                _require_shallow(packed, os.path.getsize(path), limits)
+
+
+def _require_shallow(file: IO[bytes], received: int, limits: Limits) -> None:
+    if not file.read(5).startswith(b"#usda"):
+        return
+    commas = depth = deepest = 0
+    while piece := file.read(_PIECE):
+        codes = np.frombuffer(piece, np.uint8)
+        commas += int((codes == ord(",")).sum())
+        opened = np.isin(codes, _OPENING).astype(np.int64) - np.isin(codes, _CLOSING)
+        depths = depth + np.cumsum(opened)
+        depth, deepest = int(depths[-1]), max(deepest, int(depths.max()))
     limits.check_memory(PER_COMMA * commas, 0, received)
     if deepest > MOST_NESTED:
         raise LimitError(f"the stage is nested {deepest} deep; the limit is {MOST_NESTED}")
