@@ -162,6 +162,11 @@ class LookMetric:
         bare = self.bare(positions).distance
         return bare if self._own is None else max(bare, self._dressed(positions).distance / (1.0 - ROOM))
 
+    def glance(self, positions: Positions) -> float:
+        """About the distance of positions, shape (n, 3), as two sides show it."""
+        placed, sides = self._placed(positions), self._sides[:: len(self._sides) // 2]
+        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed), sides).distance
+
     def bare(self, positions: Positions) -> Look:
         """How positions, shape (n, 3), look with normals that follow from them."""
 
@@ -279,11 +284,13 @@ class LookMetric:
         drawn = Gallery(self._cameras, placed, faces, normals)
         return self._each(drawn.picture, self._sides)
 
-    def _seen(self, pictures: Gallery, placed: Positions, faces: Faces, normals: Normals) -> Look:
+    def _seen(
+        self, pictures: Gallery, placed: Positions, faces: Faces, normals: Normals, sides: Sequence[int] | None = None
+    ) -> Look:
         def sums(canvas: Canvas, side: int) -> Matrix:
             return difference(pictures.picture(canvas, side), canvas.draw(placed, faces, normals, self._cameras[side]))
 
-        return summed(np.array(self._each(sums, self._sides)))
+        return summed(np.array(self._each(sums, self._sides if sides is None else sides)))
 
 
 class AttributeLook:

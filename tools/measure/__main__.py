@@ -2,7 +2,7 @@
 
 attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
-speed       what decoding by bsmdec takes, over Draco's
+speed       what encoding and decoding take, over Draco's and a file of figures; of MESHes, decoding by bsmdec
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
 targets     what a target beside the look takes, over the larger of what both take alone; series of promises
 same        whether another checkout writes the same bytes

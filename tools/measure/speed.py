@@ -1,17 +1,27 @@
-"""What decoding by bsmdec takes, over Draco's: `python -m tools.measure speed MESH [--repeat 20]`.
+"""What encoding and decoding take, over Draco's (level 10, 11 bits): `python -m tools.measure speed`.
 
-Least times in C over Draco's (level 10, 11 bits), by turns, on one thread, and of two threads over one where the
+Without files: twelve meshes, half of them those whose names have the least hashes in the list of `tools.replicate`, and
+four sequences, in CPU time of one thread; least of five turns, in each of which both codecs encode and decode. The exit
+code is 1 if a ratio is above 1.3 of that in speed.json, also when it is measured once more. `--write` makes that file.
+
+With files: least times of bsmdec in C over Draco's, by turns, on one thread, and of two threads over one where the
 process may use two cores: measure under load with `chrt -r 1`, not with `taskset`.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
+import json
 import math
+import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from statistics import median
+from typing import Any, TypeAlias
 
+import bsm
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
@@ -20,6 +30,89 @@ from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.files.mesh import read_mesh
 from tools.command import run_command
+from tools.replicate.fetch import fetch_meshes
+from tools.replicate.motion import sequences
+
+BITS, LEVEL, TURNS, MOST = 11, 10, 5, 1.3
+NAMED = ("pipe", "pig", "knot", "fandisk", "lion", "bunny00")
+MOVING = ("cow, bent", "mushroom, bent", "pig, bent", "made cloth")
+FIGURES = Path(__file__).with_suffix(".json")
+Works: TypeAlias = tuple[Callable[[], Any], Callable[[], Any], Callable[[], Any], Callable[[], Any]]
+"""Encoding by us and by Draco, and decoding."""
+
+
+def chosen(names: list[str]) -> list[str]:
+    """The named meshes, and as many others, by a hash of their names."""
+    others = sorted(set(names) - {*NAMED}, key=lambda name: hashlib.sha256(name.encode()).hexdigest())
+    return [*NAMED, *others[: len(NAMED)]]
+
+
+def cases(folder: Path, note: Callable[[str], None]) -> Iterator[tuple[str, Works]]:
+    """What is measured, as far as it can be fetched."""
+    sources = fetch_meshes(folder, note)
+    wanted = chosen([source.name for source in sources])
+    for source in sources:
+        if source.name in wanted:
+            yield source.name, works_of_mesh(source.mesh())
+    for moving in sequences(sources, None, quick=False):
+        if moving.name in MOVING:
+            frames, faces = moving.frames()
+            yield moving.name, works_of_sequence(frames, faces)
+
+
+def works_of_mesh(mesh: TriangleMesh) -> Works:
+    ours, theirs = bsm.encode(mesh, threads=1), encode_draco(mesh, BITS, LEVEL)
+    return (
+        lambda: bsm.encode(mesh, threads=1),
+        lambda: encode_draco(mesh, BITS, LEVEL),
+        lambda: bsm.decode(ours, threads=1),
+        lambda: decode_draco(theirs),
+    )
+
+
+def works_of_sequence(frames: Any, faces: Any) -> Works:
+    meshes = [TriangleMesh(frame, faces) for frame in frames]
+    ours, theirs = bsm.encode_sequence(frames, faces, threads=1), [encode_draco(mesh, BITS, LEVEL) for mesh in meshes]
+    return (
+        lambda: bsm.encode_sequence(frames, faces, threads=1),
+        lambda: [encode_draco(mesh, BITS, LEVEL) for mesh in meshes],
+        lambda: bsm.decode_sequence(ours, threads=1),
+        lambda: [decode_draco(data) for data in theirs],
+    )
+
+
+def ratios(works: Works) -> tuple[float, float]:
+    """Least times of encoding and of decoding over Draco's."""
+    least = [math.inf] * len(works)
+    for _ in range(TURNS):
+        for at, work in enumerate(works):
+            begin = time.thread_time()
+            work()
+            least[at] = min(least[at], time.thread_time() - begin)
+    return least[0] / least[1], least[2] / least[3]
+
+
+def guard(args: argparse.Namespace) -> None:
+    """Compare all ratios with those of the file."""
+    known = json.loads(FIGURES.read_text()) if FIGURES.exists() else {}
+    found, slower = dict[str, tuple[float, float]](), list[str]()
+    for name, works in cases(args.folder, lambda text: print(text, file=sys.stderr)):
+        now, before = ratios(works), known.get(name, (math.inf, math.inf))
+        if any(new > MOST * old for new, old in zip(now, before, strict=True)):
+            again = ratios(works)  # something else may have run beside it
+            now = min(now[0], again[0]), min(now[1], again[1])
+        worse = max(new / old for new, old in zip(now, before, strict=True))
+        slower += [name] if worse > MOST and not args.write else []
+        found[name] = round(now[0], 2), round(now[1], 2)
+        print(f"{name:28} encoding {now[0]:7.1f}, decoding {now[1]:6.1f}; over the file {worse:.2f}", flush=True)
+    for what, at in (("encoding", 0), ("decoding", 1)) if found else ():
+        values = [ratio[at] for ratio in found.values()]
+        print(f"{what}: median {median(values):.1f}, worst {max(values):.1f} times Draco")
+    if args.write:
+        FIGURES.write_text(json.dumps(found, indent=1) + "\n")
+    if slower or len(found) < len(known) / 2:
+        print(f"slower by more than {MOST}: {', '.join(slower)}" if slower else "too few meshes were fetched")
+        sys.exit(1)
 
 
 def decoders(mesh: TriangleMesh, repeats: int) -> str:
@@ -44,7 +137,9 @@ def decoders(mesh: TriangleMesh, repeats: int) -> str:
 
 
 def work(args: argparse.Namespace, _: Console) -> None:
-    """Print times of decoders."""
+    """Compare with the file, or print times of decoders."""
+    if not args.meshes:
+        guard(args)
     for path in args.meshes:
         mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
         print(f"{Path(path).stem}: {decoders(mesh, args.repeat)}", flush=True)
@@ -53,6 +148,8 @@ def work(args: argparse.Namespace, _: Console) -> None:
 def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("meshes", metavar="MESH", nargs="+", help="mesh file")
-    parser.add_argument("--repeat", type=int, default=20, metavar="N", help="runs, the fastest counts (20)")
+    parser.add_argument("meshes", metavar="MESH", nargs="*", help="mesh file, for times of bsmdec")
+    parser.add_argument("--repeat", type=int, default=20, metavar="N", help="runs of bsmdec, the fastest counts (20)")
+    parser.add_argument("--folder", type=Path, default=Path("replicate/meshes"), help="where fetched packages are kept")
+    parser.add_argument("--write", action="store_true", help="write speed.json, which later runs are compared with")
     run_command(parser, work)

@@ -155,8 +155,10 @@ class Bounds:
             return self.even_step
         # From one step for all looks, so that a stricter one begins with a finer step.
         step, positions = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.positions
+        glance, light = self.metric.glance, self.measures.prepared.light
         for _ in range(2):
-            wider = 1.0 / max(self._look(np.rint(positions / step) * step), LEAST)
+            placed = np.rint(positions / step) * step
+            wider = 1.0 / max(glance(self._decoded(placed)) if light else self._look(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break

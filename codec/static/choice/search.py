@@ -134,8 +134,8 @@ class Search:
         prepared, options = self._prepared, self._options
         few = prepared.graph.size < FEW_VERTICES and self._measures.normals is None
         grids: list[Way] = [grid] if few else [Gridded(prepared, bounds, 1.0), grid]
-        if not prepared.has_low_frequencies or options.quick:
-            return grids
+        if options.quick or not prepared.has_low_frequencies:
+            return grids[:1] if options.quick else grids
         blocks: list[Way] = [Refined(prepared, options, bounds)]
         if bounds.contract.angle < ANY_ANGLE:
             blocks.append(Refined(prepared, options, bounds, settled=False))
@@ -168,7 +168,10 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
 
     with suppress(LimitError):  # blocks that decoders would refuse
         layered = isinstance(way, Refined) and bounds.contract.look < math.inf
-        slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered or tries < TRIES else SLACK
-        secant(at, way.first, way.least, way.most, tries, slack=slack)
+        if tries < TRIES:  # a first step that will do in most cases
+            secant(at, way.first * math.exp(-4.0 * SLACK), way.least, way.most, tries, slack=8.0 * SLACK)
+        else:
+            slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered else SLACK
+            secant(at, way.first, way.least, way.most, tries, slack=slack)
     smallest = min(kept, key=lambda found: (found[0], found[1].size), default=(False, None))[1]
     return None if smallest is None or smallest.size >= most_bytes else smallest

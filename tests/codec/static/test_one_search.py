@@ -1,14 +1,26 @@
 """The default is the smallest file of its promise, as far as the rule of bytes and decoding time goes."""
 
 from pathlib import Path
+from typing import Any
+from unittest.mock import patch
 
+import numpy as np
 import pytest
 
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.pictures import Canvas
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Contract
 from bsm.files.mesh import read_mesh
 from tests.shapes import torus
+
+
+def bumpy() -> TriangleMesh:
+    """A torus whose vertices are moved at random."""
+    mesh = torus()
+    noise = np.random.default_rng(5).normal(0.0, 0.01, mesh.positions.shape)
+    return TriangleMesh(mesh.positions + noise, mesh.faces)
 
 
 def test_smooth_meshes_have_larger_blocks() -> None:
@@ -24,6 +36,22 @@ def test_the_encoder_says_what_binds(bound: float, binding: str) -> None:
     encoder = Encoder(torus(), EncodeOptions(contract=Contract(bound, look=1.0), threads=1))
     encoder.encode()
     assert encoder.binding == binding
+
+
+def test_quick_draws_few_pictures() -> None:
+    drawn = {"quick": 0, "normal": 0}
+    draw = Canvas.draw
+    for effort in drawn:
+
+        def counted(*given: Any, effort: str = effort) -> Any:
+            drawn[effort] += 1
+            return draw(*given)
+
+        with patch.object(Canvas, "draw", counted):
+            encoder = Encoder(bumpy(), EncodeOptions(threads=1, effort=effort))
+            encoder.encode()
+        assert encoder.look is not None and encoder.look <= 1.0
+    assert drawn["quick"] <= 22 < drawn["normal"], drawn
 
 
 @pytest.mark.real

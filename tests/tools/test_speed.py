@@ -1,0 +1,34 @@
+"""The guard of speed: the meshes that it chooses, and when it fails."""
+
+import json
+from argparse import Namespace
+from pathlib import Path
+
+import pytest
+
+from tools.measure import speed
+
+
+def test_half_of_the_meshes_are_chosen_by_a_hash() -> None:
+    names = [*speed.NAMED, *(f"mesh {k}" for k in range(20))]
+    found = speed.chosen(names)
+    assert len(found) == 2 * len(speed.NAMED) and {*speed.NAMED} < {*found}
+    assert speed.chosen(names[::-1]) == found
+
+
+@pytest.mark.parametrize(("known", "code"), [([1e6, 1e6], None), ([1e-6, 1e6], 1)])
+def test_a_ratio_above_the_file_fails(
+    known: list[float], code: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "speed.json"
+    file.write_text(json.dumps({"work": known}))
+    works = (lambda: sum(range(9000)), lambda: sum(range(900))) * 2
+    monkeypatch.setattr(speed, "FIGURES", file)
+    monkeypatch.setattr(speed, "cases", lambda *_: iter([("work", works)]))
+    given = Namespace(folder=tmp_path, write=False)
+    if code is None:
+        speed.guard(given)
+    else:
+        with pytest.raises(SystemExit) as stopped:
+            speed.guard(given)
+        assert stopped.value.code == code
