@@ -9,12 +9,15 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from pathlib import Path
 
 import pytest
 
 from bsm import encode
+from bsm.cli import main
 from bsm.files.mesh import write_mesh
 from bsm.files.output import open_output
+from bsm.jobs import plan as plan_module
 from bsm.jobs.plan import plan
 from bsm.jobs.run import task_of
 from bsm.jobs.task import Task
@@ -254,3 +257,32 @@ def test_no_result_is_lost_for_a_note(closed, words, tmp_path):
     assert ended.returncode == 0
     assert not words.startswith("encode") or (tmp_path / "b.bsm").read_bytes() == (tmp_path / "a.bsm").read_bytes()
     assert bool(ended.stdout) == ("json" in words or "info" in words)
+
+
+@pytest.mark.parametrize("command", ["encode", "decode", "denoise"])
+@pytest.mark.parametrize("there", [True, False])
+def test_links_that_appear_after_planning_are_not_followed(command, there, tmp_path, monkeypatch):
+    """Of two inputs to a folder, the second output becomes a link while the first one is written."""
+    victim, out = tmp_path / "victim", tmp_path / "out"
+    given = [tmp_path / f"{name}.{'bsm' if command == 'decode' else 'ply'}" for name in "ab"]
+    for name in given:
+        write_mesh(tmp_path / "mesh.ply", torus(12, 8))
+        name.write_bytes(encode(tmp_path / "mesh.ply") if command == "decode" else (tmp_path / "mesh.ply").read_bytes())
+    suffix = ".bsm" if command == "encode" else ".ply"
+    planned = plan_module.refuse_collisions
+
+    def swapped(inputs, outputs):
+        outputs = list(outputs)
+        planned(inputs, outputs)
+        out.mkdir()
+        Path(outputs[-1]).symlink_to(victim)
+
+    if there:
+        victim.write_bytes(b"precious")
+    monkeypatch.setattr(plan_module, "refuse_collisions", swapped)
+    out.mkdir()
+    out.rmdir()
+    words = [command, *map(str, given), "-o", f"{out}/", "-q", "-f", "-j", "1"]
+    main([*words, *(["--format", "ply"] if command == "decode" else [])])
+    assert victim.exists() == there and (not there or victim.read_bytes() == b"precious")
+    assert len(list(out.glob(f"*{suffix}"))) == 2

@@ -73,7 +73,14 @@ def open_frames(names: Sequence[str], file_format: str | None = None, *, runs: b
 
 @contextmanager
 def sequence_writer(
-    path: str, kind: str, faces: Faces, count: int, *, overwrite: bool, shared: Shared | None = None
+    path: str,
+    kind: str,
+    faces: Faces,
+    count: int,
+    *,
+    overwrite: bool,
+    follow: bool = True,
+    shared: Shared | None = None,
 ) -> Iterator[FrameWriter]:
     """Open a sequence for writing; yields what takes frame after frame."""
     shared = shared or Shared()
@@ -93,10 +100,10 @@ def sequence_writer(
             yield take
         return
     if kind in CACHES:
-        with _cache_writer(path, kind, faces, count, overwrite, shared) as write_run:
+        with _cache_writer(path, kind, faces, count, overwrite, follow, shared) as write_run:
             yield write_run
         return
-    with open_output(path, overwrite=overwrite) as file:
+    with open_output(path, overwrite=overwrite, follow=follow) as file:
         if kind == "npz":
             with open_npz_sequence(file, faces, count, shared.attributes, shared.metadata) as write:
                 yield _of_one_mesh(write, kind)
@@ -130,7 +137,7 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
 
 @contextmanager
 def _cache_writer(
-    path: str, kind: str, first: Faces, count: int, overwrite: bool, shared: Shared
+    path: str, kind: str, first: Faces, count: int, overwrite: bool, follow: bool, shared: Shared
 ) -> Iterator[FrameWriter]:
     """A cache, and beside it the mesh of its first frame; where faces change, both for each run, by its first frame."""
     refuse_to_overwrite(path, overwrite)
@@ -145,7 +152,7 @@ def _cache_writer(
             refuse_to_overwrite(beside, overwrite or fits)
             spool.seek(0)
             with (
-                open_output(name, overwrite=overwrite, follow=name == path) as file,
+                open_output(name, overwrite=overwrite, follow=follow and name == path) as file,
                 write_cache(file, kind, list(map(shared.code, range(begun, taken))), shared.frame_rate) as write,
             ):
                 for _ in range(taken - begun):

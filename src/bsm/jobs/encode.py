@@ -95,7 +95,10 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     if job.simplify and job.permutation:
         raise OptionError("--permutation orders all vertices, and --simplify leaves some out")
     overwrite, found = job.may_replace(job.output), None
-    with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
+    with (
+        open_output(job.output, overwrite=overwrite, follow=job.named) as file,
+        console.progress("encoding") as progress,
+    ):
         if job.simplify:
             found = encode_simplified(mesh, chosen, progress)
         encoder = found.encoder if found else Encoder(mesh, chosen)
@@ -177,7 +180,10 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
     numbers, size = count(), 0
     overwrite = job.may_replace(job.output)
-    with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
+    with (
+        open_output(job.output, overwrite=overwrite, follow=job.named) as file,
+        console.progress("encoding") as progress,
+    ):
         frames = source.frames if source.meshes is None else source.meshes
         given = _staged(zip(frames, numbers), source.count, chosen, progress)
         for chunk in encoder.chunks(given, progress):

@@ -33,7 +33,7 @@ def plan(
     elif folder and not (sole_folder and len(names) == 1):
         jobs = [Job(name, output_inside(output, name, suffix(name))) for name in names]
     else:
-        jobs = [Job(name, output) for name in names]
+        jobs = [Job(name, output, named=True) for name in names]
     jobs = apart(jobs, suffix)
     refuse_collisions(names, [job.output for job in jobs])
     if output and folder and not pipes.is_url(output):

@@ -159,6 +159,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
         asked,
         input=job.input,
         output=job.output,
+        named=job.named,
         before=before,
         replaceable=mine,
         doubtful=frozenset() if asked.force else frozenset(named - mine),

@@ -19,6 +19,7 @@ class Job:
     input: str
     output: str = ""
     after: tuple[int, ...] = ()  # numbers of the jobs before it whose outputs it needs
+    named: bool = False  # whether the user gave the name of the output, whose links are followed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +28,7 @@ class Task:
 
     input: str = ""
     output: str = ""
+    named: bool = True  # whether the user gave the name of the output, whose links are followed
     force: bool = False
     quiet: bool = False
     before: Facts | None = None  # what an earlier report says of it
