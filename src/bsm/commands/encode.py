@@ -91,6 +91,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
     if args.images:
         ImageRule.parse(args.images)
+        if args.untrusted:
+            raise OptionError("--images lets Pillow read images; leave it out with --untrusted")
     more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more)
     return run_jobs(many, job, console, encode_one, jobs)

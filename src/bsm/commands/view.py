@@ -13,7 +13,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_limits_flag, adder, limits_of, within
 from bsm.console import Console, Progress
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames
 from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks, size_of
@@ -87,14 +87,18 @@ def _opened(
                 with about(args.original):
                     frames = open_sequence(args.original)
                     original = frames or read_mesh(args.original).mesh
-                return compared(name, data, original, size=size_of(args.original), limits=limits_of(args.limits))
+                size = _size(args.original, original)
+                return compared(name, data, original, size=size, limits=limits_of(args.limits))
             if path == "-":
                 raise FormatError(_NO_STREAM)
             source = read_mesh(path).mesh
-        content = made(name, size_of(path), source, args.preset, progress.stage)
-    size = content.layers[content.main].size
-    console.note(f"{path}: {size} bytes as a stream with preset {args.preset}")
+        content = made(name, _size(path, source), source, args.preset, progress.stage)
+    console.note(f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}")
     return content
+
+
+def _size(path: str, source: TriangleMesh | Frames) -> int | None:
+    return size_with_parts(path, source.metadata) if isinstance(source, TriangleMesh) else size_of(path)
 
 
 def _growing(name: str, path: str) -> Growing:
