@@ -22,7 +22,7 @@ FLOORS = {
         ("codec",),
         ("console", "lengths", "pictures"),
         ("files",),
-        ("comparison", "evaluation", "exits", "keywords", "options", "simplification"),
+        ("comparison", "evaluation", "exits", "keywords", "options", "simplification", "synonyms"),
         ("libraries",),
         ("jobs",),
         ("api",),

@@ -15,6 +15,7 @@ from bsm.codec.choices import suggestion
 from bsm.console import Console
 from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, report_error
 from bsm.files.output import Terminated, refuse_collisions
+from bsm.synonyms import OPTIONS, advice_on_command, refuse_misplaced
 
 COMMANDS = {
     "encode": "compress meshes",
@@ -53,6 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser = command_parser(words[0])
         args = parser.parse_command(words[1:])
         as_json = getattr(args, "json", False)
+        if isinstance(given := getattr(args, "inputs", None), list) and hasattr(args, "output"):
+            refuse_misplaced(words[0], given, recursive=getattr(args, "recursive", False))
         refuse_collisions(*named_files(words[0], parser, args))
         code: int | None = args.run(args, Console(quiet=args.quiet, json=as_json))
         if sys.stdout is not None:  # closed by the shell
@@ -99,8 +102,9 @@ def program_parser(*, complete: bool = False) -> Parser:
 def _no_command(words: list[str]) -> int:
     """Print help, the version, or an error that suggests a command."""
     parser = program_parser()
-    if words and not words[0].startswith("-"):
-        parser.error(f"unknown command {words[0]}{suggestion(words[0], COMMANDS)}")
+    advice = advice_on_command(words) if words else ""
+    if words and (advice or not words[0].startswith("-")):
+        parser.error(f"unknown command {words[0]}{advice or suggestion(words[0], COMMANDS)}")
     if parser.parse_args(words).version:
         print(f"bsm {__version__}")
         return 0
@@ -159,6 +163,9 @@ class Parser(argparse.ArgumentParser):
         return " COMMAND ..." if commands else f"{names} [options]"
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
+        for word in words:
+            if word in OPTIONS and word not in self._option_string_actions:
+                self.error(f"unknown option {word}; instead: {OPTIONS[word]}")
         # argparse forgets a "--" between the two passes that mixed words take it.
         parse = self.parse_known_args if "--" in words else self.parse_known_intermixed_args
         args, unknown = parse(words)
@@ -178,6 +185,8 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the error and one line of usage; exit with code 2."""
+        if message.endswith("required: -o/--output"):
+            message += ". The output is named with -o"
         self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{self._inputs()}; see {self.prog} --help\n")
 
     def file_arguments(self) -> Iterator[argparse.Action]:

@@ -24,9 +24,9 @@ from bsm.files.motion.folder import is_numbered
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
-from bsm.files.pipes import read_chunks, size_of
+from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
-from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Task, anywhere, came_to
@@ -70,6 +70,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     suffix = f".{args.format or 'ply'}"
+    for name in () if args.recursive else args.inputs:
+        with about(name):
+            if not is_scene(name):
+                refuse_mesh(name)
     if args.recursive:
         jobs = plan_trees(args.inputs, args.output, suffix, STREAM_SUFFIXES)
     else:

@@ -11,7 +11,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import IMAGES, add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.images import ImageRule
-from bsm.files.mesh import GLTF, MESH_FORMATS, WRITTEN_FORMATS
+from bsm.files.mesh import GLTF, MESH_FORMATS, WRITTEN_FORMATS, format_of_name
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
@@ -55,6 +55,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_other_formats(args.inputs, args.output)
+    if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
+        raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {args.inputs[0]} -o OUT.glb")
     members: tuple[str, ...] = ()
     one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
     if args.piped_frames and args.format not in (None, "npy"):

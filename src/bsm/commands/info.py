@@ -12,7 +12,7 @@ from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import by_name
 from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import is_scene
+from bsm.files.stream import is_scene, refuse_mesh
 from bsm.jobs.plan import input_names
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task
@@ -42,6 +42,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
         streams = {n: summarize(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
         return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
+    refuse_mesh(args.input)
     return {"input": args.input, **summarize(inspect_stream(read_chunks(args.input), limits))}
 
 

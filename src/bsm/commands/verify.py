@@ -11,7 +11,7 @@ from bsm.exits import worded
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import by_name
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import decode_through, decode_whole, is_scene
+from bsm.files.stream import decode_through, decode_whole, is_scene, refuse_mesh
 from bsm.jobs.plan import STREAM_SUFFIXES, input_names, plan_trees
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task
@@ -47,6 +47,7 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
         raise OptionError(f"{args.input} is a folder, and not one of tiles; bsm verify -r checks the streams in it")
     if is_scene(args.input):
         return _verify_scene(args, console)
+    refuse_mesh(args.input)
     chunks = list(read_chunks(args.input))
     with console.progress("decoding"):
         info = _checked(chunks, args)

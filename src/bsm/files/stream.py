@@ -8,13 +8,13 @@ import numpy as np
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import BsmError, MeshError, TruncatedError
+from bsm.bitstream.errors import BsmError, FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import Progress
-from bsm.files.mesh import GLTF
+from bsm.files.mesh import GLTF, MESH_FORMATS, format_of_bytes, format_of_name
 from bsm.files.pipes import Source, as_input, is_pipe
 
 
@@ -26,6 +26,15 @@ def is_stream(source: Source) -> bool:
 def is_scene(path: str) -> bool:
     """Whether a path is that of a glTF scene; a stream may have any name."""
     return Path(path).suffix[1:].lower() in GLTF and not is_stream(path)
+
+
+def refuse_mesh(path: str) -> None:
+    """Raise an error that names the right command if a file is a mesh, and not a stream."""
+    if Path(path).is_file() and not is_stream(path):
+        with open(path, "rb") as file:
+            kind = format_of_bytes(file.read(1 << 12))
+        if kind is not None or format_of_name(path) in MESH_FORMATS:
+            raise FormatError(f"this is a mesh file, and not a stream; to make one, run: bsm encode {path}")
 
 
 def decode_whole(

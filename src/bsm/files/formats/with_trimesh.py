@@ -17,7 +17,7 @@ from bsm.files.formats.metadata import Material, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
 from bsm.files.room import Doubles
 
-_WAY = "in Python, give bsm.encode what meshio.read or pyvista.read returns, or its surface"
+_WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
