@@ -408,6 +408,7 @@ def header_of(numbers: list[float]) -> Header:
         sequence=tuple(whole[11:13]) if n[39] else (),
         run=(run, mesh_of) if mesh_of >= 0 else (run,) if run else (),
         paper=() if n[21] or mesh_of >= 0 else paper_of(tuple(n[31:39]), law).entry(law),
+        onorm=whole[40],
     )
 
 

@@ -8,11 +8,11 @@
 CHOOSE(bool, are_vectors_exact, (void), ())
 CHOOSE_VOID(cosines, (Doubles table, Doubles2 columns), (table, columns))
 CHOOSE_VOID(resize_columns, (ConstSingles2 previous, Doubles table, Singles2 columns), (previous, table, columns))
-CHOOSE(int64_t, iteration_space, (int64_t n, int64_t c), (n, c))
+CHOOSE(int64_t, iteration_space, (int64_t n, int64_t c, int64_t apart), (n, c, apart))
 CHOOSE(int64_t, iterate,
-       (Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions, int64_t care,
-        Singles scratch, Singles2 subspace),
-       (fronts, values, inverse, start, solutions, care, scratch, subspace))
+       (Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t power, int64_t iterations,
+        int64_t apart, int64_t care, Singles scratch, Singles2 subspace),
+       (fronts, values, inverse, start, power, iterations, apart, care, scratch, subspace))
 CHOOSE(int64_t, completion_space, (int64_t h), (h))
 CHOOSE(int64_t, complete_columns, (ConstSingles2 first, Singles scratch, Singles2 whole), (first, scratch, whole))
 CHOOSE_VOID(factorize_fronts,

@@ -87,9 +87,9 @@ NB_MODULE(_kernels, m) {
         Unlocked());
     m.def("cosines", &cosines, "table"_a, "columns"_a, Unlocked());
     m.def("resize_columns", &resize_columns, "previous"_a, "table"_a, "columns"_a, Unlocked());
-    m.def("iteration_space", &iteration_space, "n"_a, "c"_a);
-    m.def("iterate", checked<&iterate>, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "solutions"_a, "care"_a,
-          "scratch"_a, "subspace"_a, Unlocked());
+    m.def("iteration_space", &iteration_space, "n"_a, "c"_a, "apart"_a);
+    m.def("iterate", checked<&iterate>, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "power"_a, "iterations"_a,
+          "apart"_a, "care"_a, "scratch"_a, "subspace"_a, Unlocked());
     m.def("completion_space", &completion_space, "h"_a);
     m.def("complete_columns", checked<&complete_columns>, "first"_a, "scratch"_a, "whole"_a, Unlocked());
     m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());

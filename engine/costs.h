@@ -50,9 +50,10 @@ INLINE double onorm_work(double rows, int64_t columns) {
     double c = whole_columns(columns);
     return rows * (3 + 0.4 * c + c * c / 80) + 3000;
 }
-INLINE double dictionary_work(const Fronts *fronts, int64_t columns, double solutions, double care) {
+static const double IN_DOUBLES = 2; /* Onorm, over that in single precision */
+INLINE double dictionary_work(const Fronts *fronts, int64_t columns, double solutions, double onorms, double care) {
     double rows = (double)fronts->rows.size;
-    double rounds = solutions * solve_work(fronts, columns) + (solutions + 1) * onorm_work(rows, columns);
+    double rounds = solutions * solve_work(fronts, columns) + onorms * onorm_work(rows, columns);
     return 5 * rows * whole_columns(columns) + rounds + 6 * rows * (double)columns * care;
 }
 INLINE double completion_work(double rows, double first, double columns) {

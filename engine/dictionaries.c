@@ -7,9 +7,10 @@ static const double EXACT_SHIFT = 0x1p-5;
 static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
 enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
 
-/* How a dictionary is iterated: z, t, and at most how many columns that gives (M 8.4, M 8.7). */
+/* How a dictionary is iterated: z, t, at most how many columns that gives, and solutions before each Onorm in doubles (M 8.4,
+ * M 8.7, M 8.9). */
 typedef struct {
-    int64_t power, iterations, most;
+    int64_t power, iterations, most, apart;
 } Schedule;
 
 /* Columns that follow from L, by the rows of a block (M 8.7). */
@@ -64,12 +65,15 @@ static bool iterate_columns(Context *context, const Patch *patch, const Factor *
     int64_t rows = subspace.rows, columns = subspace.columns, solutions = plan.power * plan.iterations,
             found = NEEDS_CARE;
     Singles room;
-    if (!take_singles(scratch, iteration_space(rows, columns), &room)) return false;
+    if (!take_singles(scratch, iteration_space(rows, columns, plan.apart), &room)) return false;
     for (int64_t care = 0; found == NEEDS_CARE; care = care > 0 ? 4 * care : FIRST_CARE) {
-        if (!charge(context, dictionary_work(&patch->fronts, columns, (double)solutions, (double)care), 0))
+        double onorms = plan.apart > 0
+            ? IN_DOUBLES * (double)plan.iterations * (double)((plan.power + plan.apart - 1) / plan.apart)
+            : (double)solutions + 1;
+        if (!charge(context, dictionary_work(&patch->fronts, columns, (double)solutions, onorms, (double)care), 0))
             return false;
-        found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start), solutions,
-            care, room, subspace);
+        found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start),
+            plan.power, plan.iterations, plan.apart, care, room, subspace);
     }
     return found != LOST || FAIL(context, NUMERIC, "the columns of a dictionary cannot be made orthonormal");
 }
@@ -93,13 +97,14 @@ static bool iterate_and_complete(Context *context, const Patch *patch, const Fac
 bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs,
     const Factor *held, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     const Paper *paper = &header->paper;
-    Schedule plan = {paper->power, paper->key_iterations, iterated_columns(header, patch->size)};
+    Schedule plan = {paper->power, paper->key_iterations, iterated_columns(header, patch->size), header->onorm};
     Factor own;
     Singles2 start;
     bool noisy = true;
     if (paper->exact) {
         plan.power = EXACT_POWER;
         plan.iterations = EXACT_ITERATIONS;
+        plan.apart = 0;
     }
     if (paper->exact || held == NULL) {
         if (!factorize_patch(patch, springs, paper->exact ? EXACT_SHIFT : paper->shift, scratch, &own)) return false;
@@ -113,7 +118,8 @@ bool key_dictionary(Context *context, const Header *header, const Patch *patch, 
 
 bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor,
     Singles2 previous, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
-    Schedule plan = {header->paper.power, header->paper.iterations, iterated_columns(header, patch->size)};
+    Schedule plan = {header->paper.power, header->paper.iterations, iterated_columns(header, patch->size),
+        header->onorm};
     int64_t first = least(width, plan.most);
     Singles2 start = previous;
     bool noisy;

@@ -3,7 +3,7 @@
 
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
-    ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER,
+    ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
 };
 
 static const Field FIELDS[] = {
@@ -26,6 +26,7 @@ static const Field FIELDS[] = {
     {.key = SEQUENCE, .type = INTS_FIELD, .high = INT32_MAX, .most = 2},
     {.key = RUN, .type = INTS_FIELD, .high = INT32_MAX, .most = 2},
     {.key = PAPER, .type = FLOATS_FIELD, .high = 0x1p30, .most = 8},
+    {.key = ONORM, .type = INT_FIELD, .high = 64},
 };
 
 #define BIT(key) (1u << (key))
@@ -49,7 +50,7 @@ static void set_header(const Record *record, Header *header) {
         .step = number[STEP][0], .scale = number[SCALE][0], .smoothing = number[SMOOTHING][0],
         .refined = count[REFINEMENT] > 0, .on_grid = count[GRID] > 0, .is_sequence = count[SEQUENCE] > 0,
         .refinement = {number[REFINEMENT][0], number[REFINEMENT][1]},
-        .light = (int)number[LIGHT_KEY][0], .counted = count[CORNER] > 0,
+        .onorm = (int)number[ONORM][0], .light = (int)number[LIGHT_KEY][0], .counted = count[CORNER] > 0,
         .frames = (int64_t)number[SEQUENCE][0], .gop_frames = (int64_t)number[SEQUENCE][1],
         .run = (int64_t)number[RUN][0], .mesh_of = count[RUN] > 1 ? (int64_t)number[RUN][1] : -1,
         .paper = {.power = 3, .iterations = count[SEQUENCE] > 0 ? 2 : 1, .key_iterations = 2, .springs = 1,
@@ -70,6 +71,8 @@ static void set_header(const Record *record, Header *header) {
 static bool set_paper(Context *context, const Record *record, Paper *paper) {
     static const double LOW[] = {0, 0, 0, 1, 1, 1, 0x1p-30, 0}, HIGH[] = {32, 30, 1, 64, 1024, 1024, 0x1p30, 1};
     const double *number = record->number[PAPER];
+    if (!agrees(context, record->number[ONORM][0] == 0 || number[0] > 0, "onorm without packed coefficients"))
+        return false;
     if (record->count[PAPER] == 0) return true;
     if (!agrees(context, record->count[PAPER] == 8, "a paper that is not eight numbers")) return false;
     for (int k = 0; k < 8; k++) {
@@ -160,7 +163,7 @@ void list_header(const Header *h, double *numbers) {
         (double)h->gop_frames, (double)h->run, (double)h->mesh_of, h->center[0], h->center[1], h->center[2], h->refined,
         h->refinement[0], h->refinement[1], h->on_grid, h->grid[0], h->grid[1], h->grid[2], (double)h->cells,
         (double)h->points, h->counted, (double)h->corner[0], (double)h->corner[1], (double)h->corner[2], p->bits,
-        p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence,
+        p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence, h->onorm,
     };
     memcpy(numbers, all, sizeof all);
 }

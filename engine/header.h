@@ -21,7 +21,7 @@ typedef struct {
     int32_t grid[3];
     int64_t cells, points, corner[3]; /* of a lattice, 0 without */
     bool counted;                     /* there is a corner */
-    int light;
+    int light, onorm;                 /* solutions before each Onorm in doubles, or 0 */
     int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;
 } Header;
@@ -38,7 +38,7 @@ INLINE int method_of(const Header *header) {
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 
 /* All numbers of a header in a row, for other languages. */
-enum { HEADER_NUMBERS = 40 };
+enum { HEADER_NUMBERS = 41 };
 void list_header(const Header *header, double *numbers);
 
 /* Blocks of a chain (M 10.1). */

@@ -158,7 +158,8 @@ FIELDS = {
     "lattice": (14, int, 1, COUNT, [], 0, 2),
     "corner": (15, int, -(2**31), COUNT, [], 0, 3),
 }
-EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence", 19: "extension paper"}
+EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
+EXTENSIONS |= {19: "extension paper", 21: "extension paper"}
 
 
 def parse_header(payload):

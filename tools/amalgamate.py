@@ -19,6 +19,7 @@ FILES = ("codec/geometry/graph.c", "codec/geometry/units.c")
 SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
 CHOICES = ("bitstream/isa.c", "codec/isa.c")
 INTERFACES, VECTORS = ("engine/bsmdec.h", "engine/bsmenc.h"), "codec/basis/vectors.h"
+ONORM = "codec/basis/onorm.h"
 OF_LEVELS = ("bitstream/fields/wide.h", VECTORS)  # headers that depend on the level of the processor
 LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
 _HEAD = """#pragma GCC diagnostic ignored "-Wunused-function"
@@ -92,9 +93,10 @@ def priors() -> str:
 
 
 def _read(path: str) -> str:
-    """A file, and with it the vectors of doubles that it works on: others have vectors of floats."""
+    """A file, with the vectors of doubles and the Onorm that it has: others have vectors of floats."""
     vectors = (ROOT / VECTORS).read_text()
-    return (ROOT / path).read_text().replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}")
+    text = (ROOT / path).read_text().replace(f'#include "{ONORM}"\n', (ROOT / ONORM).read_text())
+    return text.replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}")
 
 
 def _bare(text: str) -> str:

@@ -139,6 +139,8 @@ class Header:
     """Number of the run of a sequence that begins here, and the run whose mesh it has, if it brings none of its own."""
     paper: tuple[float, ...] = wire(19, tuple, 0.0, 2.0**30, lengths=(0, 8), default=())
     """The numbers of `Paper`; empty: those of the law."""
+    onorm: int = wire(21, int, 0, 64, default=0)
+    """Onorm follows each of so many solutions of an iteration, with packed coefficients; 0: each solution."""
 
     def __post_init__(self) -> None:
         normalize_fields(self, "header")

@@ -25,10 +25,10 @@ void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles 
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse);
 void ISA(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,
                           Doubles2 solution);
-int64_t ISA(iteration_space)(int64_t n, int64_t c);
+int64_t ISA(iteration_space)(int64_t n, int64_t c, int64_t apart);
 enum { DONE, NEEDS_CARE, LOST }; /* columns must be made orthonormal one by one; they cannot be */
-int64_t ISA(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
-                       int64_t care, Singles scratch, Singles2 subspace);
+int64_t ISA(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t power,
+                       int64_t iterations, int64_t apart, int64_t care, Singles scratch, Singles2 subspace);
 int64_t ISA(completion_space)(int64_t h);
 int64_t ISA(complete_columns)(ConstSingles2 first, Singles scratch, Singles2 whole);
 void ISA(cosines)(Doubles table, Doubles2 columns);

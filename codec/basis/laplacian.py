@@ -133,6 +133,7 @@ def dense_laplacian(block: Block) -> Matrix:
 
 
 ONCE = 5.0  # of each number of a dictionary, however often it is iterated
+IN_DOUBLES = 2.0  # Onorm, over that in single precision
 
 
 def factor_cost(fronts: Fronts) -> float:
@@ -150,10 +151,11 @@ def onorm_cost(rows: int, columns: int) -> float:
     return rows * (3.0 + 0.4 * whole + whole * whole / 80.0) + 3000.0
 
 
-def dictionary_cost(fronts: Fronts, columns: int, solutions: int) -> float:
-    """Work of making a dictionary."""
-    rows = len(fronts.rows)
-    rounds = solutions * solve_cost(fronts, columns) + (solutions + 1) * onorm_cost(rows, columns)
+def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int, apart: int = 0) -> float:
+    """Work of making a dictionary, with Onorm after each solution, or in doubles after each `apart` of an iteration."""
+    rows, solutions = len(fronts.rows), power * iterations
+    onorms = IN_DOUBLES * iterations * -(-power // apart) if apart else solutions + 1.0
+    rounds = solutions * solve_cost(fronts, columns) + onorms * onorm_cost(rows, columns)
     return ONCE * rows * _whole(columns) + rounds
 
 

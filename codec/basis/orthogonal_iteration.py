@@ -1,7 +1,8 @@
 """Tracking the low-frequency subspace of each block by orthogonal iterations (paper, section 4, Algorithm 1).
 
 U is the dictionary of a block, n_d rows and c orthonormal columns in single precision; R = (L + delta I)^-1. Onorm, the
-Q of a QR factorisation with a positive diagonal, follows every solution; no column depends on a later one.
+Q of a QR factorisation with a positive diagonal, follows every solution, or in the paper's mode the z of an iteration;
+no column depends on a later one.
 
 In dynamic orthogonal iterations the subspace's size follows the error of each block (section 5, Algorithm 2, whose two
 branches are printed the wrong way round; this follows the text). Where the paper appends the residual, which a decoder
@@ -40,16 +41,19 @@ def cosine_columns(rows: int, columns: int) -> Matrix:
 
 
 def orthogonal_iteration(
-    factor: Factor, start: Basis, *, power: int, iterations: int, width: int | None = None
+    factor: Factor, start: Basis, *, power: int, iterations: int, width: int | None = None, apart: int = 0
 ) -> Basis:
-    """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1), from `start`, shape (n, c) or wider."""
+    """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1), from `start`, shape (n, c) or wider.
+
+    Onorm follows each solution, or each `apart` of them and the last of an iteration, in double precision.
+    """
     rows, width = len(start), start.shape[1] if width is None else min(width, start.shape[1])
     check_rows(factor, rows)
     subspace = np.empty((rows, width), np.float32)
-    scratch = np.empty(_kernels.iteration_space(rows, width), np.float32)
+    scratch = np.empty(_kernels.iteration_space(rows, width, apart), np.float32)
     arrays = factor.fronts, factor.values, factor.inverse, np.ascontiguousarray(start)
     care = 0
-    while (found := _kernels.iterate(*arrays, power * iterations, care, scratch, subspace)) == _NEEDS_CARE:
+    while (found := _kernels.iterate(*arrays, power, iterations, apart, care, scratch, subspace)) == _NEEDS_CARE:
         care = 4 * care or FIRST_CARE
     if found != _DONE:
         raise NumericError("the columns of a dictionary cannot be made orthonormal")

@@ -143,6 +143,8 @@ class ChainRules:
     key_iterations: int
     shift: float
     stiffness: float
+    apart: int = 0
+    """Onorm follows each of so many solutions, in doubles; 0: each solution."""
     whole: int = 0
     overrides: Overrides = AS_SPECIFIED
 
@@ -180,7 +182,9 @@ def key_dictionary(rules: ChainRules, around: Suspended, width: int) -> Basis:
     start = first_columns(block.size, min(width, rules.iterated(block.size)), rules.exact or in_pieces(block))
     if rules.exact:
         return completed(exact_basis(around.laplacian, start, around.springs), width)
-    first = orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.key_iterations)
+    first = orthogonal_iteration(
+        around.factor, start, power=rules.power, iterations=rules.key_iterations, apart=rules.apart
+    )
     return completed(first, width)
 
 
@@ -216,11 +220,12 @@ class Chain:
         rules = self._rules
         if rules.overrides.dictionary is not None:
             return 0.0
-        solutions = rules.power * rules.iterations
-        if not self._follows(around.laplacian.block):
-            exact = EXACT_POWER * EXACT_ITERATIONS
-            solutions = exact if rules.exact else rules.power * rules.key_iterations
-        return dictionary_cost(around.laplacian.fronts, width, solutions)
+        fronts = around.laplacian.fronts
+        if self._follows(around.laplacian.block):
+            return dictionary_cost(fronts, width, rules.power, rules.iterations, rules.apart)
+        if rules.exact:
+            return dictionary_cost(fronts, width, EXACT_POWER, EXACT_ITERATIONS)
+        return dictionary_cost(fronts, width, rules.power, rules.key_iterations, rules.apart)
 
     def continuation(self, around: Surroundings) -> Matrix:
         """Return the prediction of a block, shape (n_i, 3)."""
@@ -237,7 +242,7 @@ class Chain:
         first = min(width, rules.iterated(block.size))
         start = follow_columns(previous, first, in_pieces(block))
         subspace = orthogonal_iteration(
-            around.factor, start, power=rules.power, iterations=rules.iterations, width=first
+            around.factor, start, power=rules.power, iterations=rules.iterations, width=first, apart=rules.apart
         )
         return completed(subspace, width)
 

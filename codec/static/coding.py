@@ -118,6 +118,7 @@ class Scheme:
             "step": coding.step,
             "key_interval": rules.key_interval,
             "paper": paper.entry(LAW_OF_SEQUENCES if rules.whole else LAW),
+            "onorm": rules.apart,
         }
 
 

@@ -23,7 +23,7 @@ from bsm.codec.static.ways.grid import levels_field
 from tools.attack.streams import entangled, one_block
 from tools.gridded import gridded
 from tools.surgery import frames_of, header_frame, stream_of, with_header, write_stream
-from tools.vectors.good import BASE, Good
+from tools.vectors.good import BASE, PAPER, Good
 from tools.vectors.good_fields import base
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
@@ -283,6 +283,26 @@ BOUNDS_BAD: dict[str, Bad] = {
     ),
     "bad-limit-entangled": Bad(
         "a block whose factorization costs too much (M 14.4)", "limit", lambda: entangled(700, 900)
+    ),
+    "bad-onorm-adaptive": Bad(
+        "Onorm after several solutions, without packed coefficients (F 10.2)",
+        "corrupt",
+        lambda: with_header(encode(torus(12, 10), BASE), onorm=2),
+    ),
+    "bad-onorm-more": Bad(
+        "65 solutions before Onorm",
+        "corrupt",
+        lambda: with_header(encode(torus(12, 10), changed(BASE, **PAPER, power=2)), onorm=65),
+    ),
+    "bad-onorm-zero": Bad(
+        "an Onorm that is stored although it is the default",
+        "corrupt",
+        lambda: with_header(encode(torus(12, 10), changed(BASE, **PAPER, power=2)), onorm=0),
+    ),
+    "bad-onorm-method": Bad(
+        "an Onorm that is not a whole number",
+        "corrupt",
+        lambda: with_header(encode(torus(12, 10), changed(BASE, **PAPER, power=2)), onorm=2.0),
     ),
     "bad-order-twice": Bad("ORDER, and ORDER again", "corrupt", _ordered_twice),
     "unsupported-version-alone": Bad("a later version, in five bytes", "unsupported", lambda: MAGIC + b"\x20"),

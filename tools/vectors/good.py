@@ -18,6 +18,10 @@ from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, tog
 BASE = EncodeOptions(block_size=30, keep=0.3, step=1 / 256, smoothing=0.0, threads=1)
 
 
+PAPER: dict[str, object] = {"bits": 12, "key_interval": 0}
+"""The coding of the paper."""
+
+
 @dataclass(frozen=True)
 class Good:
     """A stream to be decoded; `make` is called only when vectors are written."""
@@ -40,6 +44,10 @@ def _uneven() -> TriangleMesh:
     x = mesh.positions[:, 0]
     bumps = 0.1 * np.sin(40 * mesh.positions[:, 1] + 9 * np.arange(len(x))) * (x > 0.7)
     return TriangleMesh(mesh.positions * (1 + bumps[:, None]), mesh.faces)
+
+
+def _onorm(**options: object) -> bytes:
+    return encode(_small(), changed(BASE, **PAPER, **options))
 
 
 def _coarser() -> bytes:
@@ -123,6 +131,27 @@ STATIC: dict[str, Good] = {
     "good-labels": _static("PARTITION: labels of the parts are stored", _small, partition="metis"),
     "good-packed": _static("packed coefficients of 12 bits", _small, bits=12),
     "good-packed-7": _static("packed coefficients of 7 bits, which do not end at a byte", _small, bits=7),
+    "good-onorm": _static("Onorm in doubles after two solutions, in one chain", _small, **PAPER, power=2),
+    "good-onorm-three": _static("two iterations of three solutions", _small, **PAPER, power=3, iterations=2),
+    "good-onorm-panels": _static(
+        "Onorm in doubles of columns in several panels, of a key block as well",
+        lambda: torus(18, 14),
+        **(PAPER | {"key_seed": "cosines", "block_size": 120, "keep": 0.6}),
+        power=2,
+    ),
+    "good-onorm-rest": Good(
+        "five solutions, two by two and the last alone", lambda: with_header(_onorm(power=5), onorm=2)
+    ),
+    "good-onorm-dependent": Good(
+        "columns of which eight solutions leave nothing: they are made one by one in doubles",
+        lambda: with_header(_onorm(power=8, shift=2.0**-16), onorm=8),
+    ),
+    "good-onorm-pieces": _static(
+        "Onorm in doubles where blocks hold several components",
+        lambda: together(torus(7, 6), patch(6, 5), tetrahedron()),
+        **PAPER,
+        power=2,
+    ),
     "good-packed-coarser": Good("packed coefficients whose first row is coarser", _coarser),
     "good-packed-zstd": Good("packed coefficients that zstd shortens", _compressed),
     "good-smoothing": _static("smoothing over the whole mesh, boundary included", lambda: patch(12, 11), smoothing=2.0),

@@ -28,6 +28,8 @@ from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
+MOST_APART = 3
+"""Solutions before an Onorm in the paper's mode: more leave little of late columns in single precision."""
 SMOOTHING_STEPS = tuple(2.0**k if k > -4 else 0.0 for k in range(-4, 7))
 """Amounts to try, from the middle up and down while they help; a factor of sqrt 2 between them is worth 0.1 %."""
 WIDEST = 0.14
@@ -171,6 +173,7 @@ class Spectral:
             key_iterations=paper.key_iterations,
             shift=single(paper.shift),
             stiffness=STIFFNESS if paper.predict and paper.bits is None else 0.0,
+            apart=min(paper.power, MOST_APART) if paper.bits is not None and paper.power > 1 else 0,
             overrides=self._overrides,
         )
 

@@ -49,7 +49,7 @@ def test_where_everything_is_beside_everything_a_block_costs_more():
         decode(stream, limits=Limits(work=0.99 * tangled, **NOTHING_ELSE))
     assert len(decode(stream, limits=Limits(work=1.01 * tangled, **NOTHING_ELSE)).positions) == size
     fronts, plain = (laplacian_of(block_of(each)).fronts for each in (mesh, torus(10, 25)))
-    assert dictionary_cost(fronts, 4, 12) > 2 * dictionary_cost(plain, 4, 12)
+    assert dictionary_cost(fronts, 4, 3, 4) > 2 * dictionary_cost(plain, 4, 3, 4)
 
 
 @pytest.mark.parametrize("preset", sorted({*PRESETS} - {"none", "paper"}))
