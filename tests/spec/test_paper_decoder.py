@@ -1,0 +1,41 @@
+"""Streams of the preset "paper", against a decoder that knows the paper and the law, and nothing of the product."""
+
+import importlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.files.inspection import inspect_stream
+from tests.shapes import torus
+from tools.surgery import frames_of
+
+
+@pytest.fixture
+def numpy_decoder(monkeypatch):
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "spec"))
+    monkeypatch.syspath_prepend(str(Path(__file__).parent))
+    return importlib.import_module("paper_decoder").decode
+
+
+def off(decoder, stream):
+    """How far the farthest vertex is from that of the product, over the diagonal; the faces are equal."""
+    ours = bsm.decode(stream)
+    theirs, faces = decoder(inspect_stream(iter([stream])).header, frames_of(stream))
+    assert np.array_equal(faces, ours.faces)
+    return np.linalg.norm(theirs - ours.positions, axis=1).max() / ours.diagonal
+
+
+@pytest.mark.parametrize("options", [{}, {"keep": 0.1, "power": 1, "iterations": 2}, {"keep": 0.2, "power": 3}])
+def test_a_decoder_from_the_paper_agrees(options, numpy_decoder):
+    stream = bsm.encode(torus(30, 24, bumps=0.1), preset="paper", block_size=120, **options)
+    assert off(numpy_decoder, stream) < 1e-3
+
+
+@pytest.mark.real
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["fandisk_6475", "bunny_34834"])
+@pytest.mark.parametrize("options", [{"keep": 0.1}, {}], ids=["fixed c", "DOI"])
+def test_a_decoder_from_the_paper_agrees_on_real_meshes(name, options, numpy_decoder, meshes):
+    assert off(numpy_decoder, bsm.encode(meshes / "static" / f"{name}.ply", preset="paper", **options)) < 1e-3
