@@ -163,7 +163,8 @@ void list_header(const Header *h, double *numbers) {
         (double)h->gop_frames, (double)h->run, (double)h->mesh_of, h->center[0], h->center[1], h->center[2], h->refined,
         h->refinement[0], h->refinement[1], h->on_grid, h->grid[0], h->grid[1], h->grid[2], (double)h->cells,
         (double)h->points, h->counted, (double)h->corner[0], (double)h->corner[1], (double)h->corner[2], p->bits,
-        p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence, h->onorm,
+        p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence,
+        h->onorm,
     };
     memcpy(numbers, all, sizeof all);
 }
