@@ -7,8 +7,8 @@ static const double EXACT_SHIFT = 0x1p-5;
 static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
 enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
 
-/* How a dictionary is iterated: z, t, at most how many columns that gives, and solutions before each Onorm in doubles (M 8.4,
- * M 8.7, M 8.9). */
+/* How a dictionary is iterated: z, t, at most how many columns that gives, and solutions before each Onorm in doubles
+ * (M 8.4, M 8.7, M 8.9). */
 typedef struct {
     int64_t power, iterations, most, apart;
 } Schedule;

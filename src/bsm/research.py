@@ -17,6 +17,7 @@ codec, `blocks` returns the arrays that the codec works on. Names in this module
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from types import SimpleNamespace
 from typing import Any, NamedTuple, TypeAlias
 
@@ -24,11 +25,13 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.codec.basis.laplacian import Factor, dense_laplacian, factorize, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import orthogonal_iteration
 from bsm.codec.blocks.overlap import Partition, partition_of_labels
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import Columns, Overrides, Surroundings
-from bsm.codec.static.choice.blocks import Spectral
+from bsm.codec.static.choice.blocks import MOST_APART, Spectral
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
 from bsm.libraries import as_mesh
@@ -38,7 +41,10 @@ Integers: TypeAlias = npt.NDArray[np.int32]
 
 MARK = b"BSM research\n"
 """Before streams that hold the dictionary or predictor of an idea, so that no decoder takes them for ordinary ones."""
-__all__ = ["BlockArrays", "Encoded", "Idea", "Site", "blocks", "curves", "encode"]
+__all__ = [
+    *("BlockArrays", "Encoded", "Idea", "Site", "Sized", "algorithm_2", "blocks", "curves", "dynamic", "encode"),
+    *("frobenius", "mean_residual"),
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,6 +179,91 @@ def curves(
         rate = compare_curves(found["ours"], found[name])["bd_rate_percent"]["theta_deg"]
         found[name]["bytes_of_ours"] = None if rate is None else 1.0 + rate / 100.0
     return found
+
+
+Iterate: TypeAlias = Callable[[Floats], Floats]
+
+
+def mean_residual(residual: Floats) -> float:
+    """The norm of equation 6: that of the sum over x, y and z of a residual, shape (n, 3)."""
+    return float(np.linalg.norm(residual.sum(axis=1)))
+
+
+def frobenius(residual: Floats) -> float:
+    """The norm over all numbers of a residual, shape (n, 3), by which the codec sizes blocks."""
+    return float(np.linalg.norm(residual))
+
+
+class Sized(NamedTuple):
+    """A block by Algorithm 2: U, shape (n, c), the residual that it leaves, shape (n, 3), and its iterations."""
+
+    basis: Floats
+    residual: Floats
+    iterations: int
+
+
+def algorithm_2(
+    basis: Floats,
+    positions: Floats,
+    iterate: Iterate,
+    eps: tuple[float, float],
+    *,
+    norm: Callable[[Floats], float] = mean_residual,
+    most: int = 400,
+) -> Sized:
+    """The dynamic orthogonal iterations of the paper on one block, as its text describes them (section 5).
+
+    From the `basis` of the block before, shape (n, c), each of at most `most` iterations is `iterate`, Onorm(R^z U).
+    While the `norm` of the residual is above eps_h, the residual becomes one more column (equation 7); while it is
+    below eps_l, the last column leaves. A decoder does not know the residual: with such a basis no stream can be
+    decoded. The codec grows by a cosine instead, and finds c in one iteration.
+    """
+    lowest, highest = eps
+    for count in range(1, most + 1):
+        basis = iterate(basis)
+        residual = positions - basis @ (basis.T @ positions)
+        error = norm(residual)
+        if error > highest and basis.shape[1] < len(basis) and count < most:
+            column = residual.sum(axis=1, keepdims=True)
+            basis = np.hstack([basis, column / (np.linalg.norm(column) or 1.0)])
+        elif error < lowest and basis.shape[1] > 1 and count < most:
+            basis = basis[:, :-1]
+        else:
+            break
+    return Sized(basis, residual, count)
+
+
+def dynamic(
+    mesh: Any,
+    eps: tuple[float, float],
+    /,
+    *,
+    first: int = 50,
+    norm: Callable[[Floats], float] = mean_residual,
+    most: int = 400,
+    **keywords: Any,
+) -> list[Sized]:
+    """All blocks of a mesh by `algorithm_2`, in the order of the chain, the first from its `first` lowest eigenvectors.
+
+    Errors are in units of the box's diagonal; `keywords` change the options of the preset "paper".
+    """
+    options = EncodeOptions(preset="paper", **keywords)
+    prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, Idea(), options)
+    how, found, basis = options.paper, list[Sized](), np.empty((0, 0))
+    for block in (prepared.blocks.block(index) for index in range(prepared.blocks.count)):
+        factor = factorize(laplacian_of(block), how.shift)
+        if len(basis) != block.size:
+            basis = np.linalg.eigh(dense_laplacian(block))[1][:, :first]
+        iterate = partial(_iterated, factor, how.power)
+        found.append(algorithm_2(basis, prepared.positions[block.vertices], iterate, eps, norm=norm, most=most))
+        basis = found[-1].basis
+    return found
+
+
+def _iterated(factor: Factor, power: int, start: Floats) -> Floats:
+    apart = min(power, MOST_APART) if power > 1 else 0
+    columns = np.ascontiguousarray(start, np.float32)
+    return orthogonal_iteration(factor, columns, power=power, iterations=1, apart=apart).astype(np.float64)
 
 
 def _tried(idea: Idea, options: EncodeOptions) -> Any:

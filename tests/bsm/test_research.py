@@ -105,3 +105,22 @@ def test_curves_are_measured_beside_ours():
     assert [len(result["points"]) for result in found.values()] == [3, 3]
     with pytest.raises(bsm.OptionError, match="choose another one"):
         research.curves(MESH, {"ours": research.Idea()})
+
+
+@pytest.mark.parametrize("norm", [research.frobenius, research.mean_residual])
+def test_algorithm_2_brings_each_block_between_its_thresholds_by_one_column_an_iteration(norm):
+    mesh, (lowest, highest) = knot(2000), (0.02, 0.05)
+    found = research.dynamic(mesh, (lowest, highest), first=10, norm=norm, block_size=200, threads=1)
+    assert len(found) == 10
+    size = 10
+    for basis, residual, iterations in found:
+        assert lowest <= norm(residual) <= highest
+        assert abs(basis.shape[1] - size) <= iterations - 1
+        assert np.allclose(basis.T @ basis, np.eye(basis.shape[1]), atol=1e-4)
+        size = basis.shape[1]
+    assert found[0].iterations > 1
+
+
+def test_algorithm_2_ends_where_a_band_is_too_narrow():
+    found = research.dynamic(knot(500), (0.04999, 0.05), first=5, most=30, block_size=200, threads=1)
+    assert max(block.iterations for block in found) == 30

@@ -17,6 +17,7 @@ from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_itera
 from bsm.codec.blocks.overlap import Blend, Block, degree_weights
 from bsm.codec.denoise.coarse import Weights
 from bsm.codec.geometry.metrics import decibel
+from bsm.codec.static.choice.blocks import MOST_APART
 from bsm.codec.static.options import Paper
 from tools.replicate.paper.models import Model
 
@@ -45,7 +46,8 @@ def iterated(block: Block, start: Floats | Basis, power: int, iterations: int = 
     """U after orthogonal iterations from `start`, by the kernel of the codec."""
     factor = factorize(laplacian_of(block), shift)
     begin = np.ascontiguousarray(start, np.float32)
-    return orthogonal_iteration(factor, begin, power=power, iterations=iterations).astype(np.float64)
+    apart = min(power, MOST_APART) if power > 1 else 0
+    return orthogonal_iteration(factor, begin, power=power, iterations=iterations, apart=apart).astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bsm import research
 from bsm.codec.basis.orthogonal_iteration import DynamicSize, follow_columns
 from tools.replicate.paper.dictionaries import Cut, Floats, iterated
 from tools.replicate.paper.figures import save_segments
@@ -19,16 +20,6 @@ from tools.replicate.rates import Row
 POWER, MOST = 2, 150
 """z, and how many iterations a block may take: as printed, Algorithm 2 can swing for ever."""
 Norm = Callable[[Floats], float]
-
-
-def frobenius(residual: Floats) -> float:
-    """The norm over x, y and z, by which the codec's rule goes."""
-    return float(np.linalg.norm(residual))
-
-
-def of_the_sum(residual: Floats) -> float:
-    """Equation 6: the norm of the sum over x, y and z."""
-    return float(np.linalg.norm(residual.sum(axis=1)))
 
 
 class Track(NamedTuple):
@@ -63,20 +54,9 @@ def algorithm_2(cut: Cut, values: Floats, norm: Norm, band: float, high: float) 
     """One iteration for each change of c by one; the residual of the sum is the new column."""
     basis, found, begin = cut.exact[0], [], time.thread_time()
     for block, exact in zip(cut.blocks, cut.exact, strict=True):
-        positions = values[block.vertices]
-        if len(basis) != block.size:
-            basis = exact
-        for count in range(1, MOST + 1):
-            basis = iterated(block, basis, POWER)
-            rest = positions - basis @ (basis.T @ positions)
-            error = norm(rest)
-            if error > high and basis.shape[1] < block.size and count < MOST:
-                column = rest.sum(axis=1, keepdims=True)
-                basis = np.hstack([basis, column / (np.linalg.norm(column) or 1.0)])
-            elif error < band * high and basis.shape[1] > 1 and count < MOST:
-                basis = basis[:, :-1]
-            else:
-                break
+        start = basis if len(basis) == block.size else exact
+        iterate, eps = partial(iterated, block, power=POWER), (band * high, high)
+        basis, rest, count = research.algorithm_2(start, values[block.vertices], iterate, eps, norm=norm, most=MOST)
         found.append((basis.shape[1], np.square(rest).sum(), count))
     sizes, errors, counts = np.array(found, float).T
     return Track(sizes, errors, counts, time.thread_time() - begin)
@@ -139,8 +119,8 @@ def dynamic(study: Study) -> Iterator[Row]:
     for band in bands:
         runs: dict[str, Callable[[float], Track]] = {
             "the codec's rule": partial(codec_rule, cut, values, band),
-            "Algorithm 2": partial(algorithm_2, cut, values, frobenius, band),
-            "Algorithm 2, equation 6": partial(algorithm_2, cut, values, of_the_sum, band),
+            "Algorithm 2": partial(algorithm_2, cut, values, research.frobenius, band),
+            "Algorithm 2, equation 6": partial(algorithm_2, cut, values, research.mean_residual, band),
         }
         for name, run in runs.items():
             first = wanted * (0.6 if run is runs["Algorithm 2, equation 6"] else 1.0)
