@@ -89,7 +89,7 @@ class Encoder:
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
         if not (self.options.target or self.options.promise or self.options.is_grid or self.options.sets_coding):
-            raise OptionError("preset none needs a target or a bound")
+            raise OptionError("preset none needs a target or a bound, such as size or max_error")
         packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Input(mesh, self.options)

@@ -79,7 +79,8 @@ def in_own_unit(
         asked = f"is it {long:.3g} {other} or {long:.3g} {unit} long?" if long else "which is it?"
         raise UnitError(
             f"max_error is in {unit}, but the mesh has no unit: {asked} Give it, --meta unit={other} or --meta "
-            f"unit={unit}, or give max_error in percent of the diagonal, such as 0.1%"
+            f"unit={unit} (in Python, metadata={{'unit': '{unit}'}}), or give max_error in percent of the diagonal, "
+            "such as 0.1%"
         )
     size, asked_for = metres(own), metres(unit)
     if size is None or asked_for is None or asked_for == size:

@@ -353,7 +353,7 @@ def test_the_same_unit_or_an_unknown_one(unit):
 def test_a_length_with_a_unit_needs_a_mesh_that_has_one(metadata):
     for plain in ("0.5%", 0.01, "0.01"):
         assert in_own_unit({"max_error": plain}, metadata) == {}
-    with pytest.raises(bsm.OptionError, match=r"has no unit: .* --meta unit=mm, .* such as 0\.1%"):
+    with pytest.raises(bsm.OptionError, match=r"has no unit: .* --meta unit=mm .* such as 0\.1%"):
         in_own_unit({"max_error": "0.5mm"}, metadata)
 
 
