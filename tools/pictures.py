@@ -112,7 +112,7 @@ def tables(folder: Path, work: Path) -> None:
 
 def _saved(mesh: Path, work: Path) -> tuple[Path, Content]:
     """Save the page of a mesh; return it with what it shows."""
-    content = made(mesh.name, mesh.stat().st_size, bsm.load(mesh), "balanced", lambda stage, share: None)
+    content = made(mesh.name, mesh.stat().st_size, bsm.read_mesh(mesh), "balanced", lambda stage, share: None)
     page = work / f"{mesh.stem}.html"
     page.write_text(page_with([content]), encoding="utf-8")
     return page, content

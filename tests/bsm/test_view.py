@@ -28,7 +28,7 @@ import bsm
 from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.viewer.contents import DRACO_LEVEL, Content, Layer, compared, uploaded
+from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Layer, compared, uploaded
 from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Tiled, written_to
 from tests.bitstream.streams import frame_ends
 from tests.motion import bending
@@ -317,7 +317,8 @@ def test_draco_beside_it_has_as_many_bytes_and_needs_more_for_the_look():
     assert [layer.title for layer in content.layers] == ["Original", "BSM", "Draco"]
     draco = content.layers[2]
     bits = int(draco.detail.split()[0])
-    assert draco.size == len(encode_draco(mesh, bits, DRACO_LEVEL)) <= len(data)
+    assert draco.size == len(encode_draco(mesh, bits, DRACO_LEVEL))
+    assert draco.size <= len(data) or bits == DRACO_BITS[0]
     assert len(encode_draco(mesh, bits + 1, DRACO_LEVEL)) > len(data)
     carried = bsm.decode(draco.stream)
     assert draco.off is not None and len(draco.off) == len(carried.positions)
@@ -335,6 +336,15 @@ def test_what_draco_does_not_take_is_shown_without_it():
     with pytest.raises(bsm.MeshError, match="Draco does not take"):
         encode_draco(line, 11, DRACO_LEVEL)
     assert len(compared("line", bsm.encode(line), line).layers) == 2
+
+
+def test_an_upload_says_what_was_left_out_and_saves_nothing_by_it():
+    triangles = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"
+    *_, whole = uploaded("whole.obj", triangles, "small")
+    *_, lined = uploaded("lined.obj", triangles + b"l 1 2\n", "small")
+    assert isinstance(whole, Content) and isinstance(lined, Content)
+    assert whole.facts["notes"] == [] and not whole.facts["less"]
+    assert any("lines" in note for note in lined.facts["notes"]) and lined.facts["less"]
 
 
 def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):

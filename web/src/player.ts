@@ -1,36 +1,47 @@
 /** `<bsm-player src="horse.bsm">`: a mesh, a scene or a sequence on a page of plain HTML, drawn by three.js. */
-import { Box3, DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture, WebGLRenderer } from "three";
+import { Box3, DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
 import { BSMLoader, BSMSequence, sceneOf } from "./three";
+import { turnBy } from "./turning";
 
 /** Pages may style the element as they like; the text lies in front of the picture. */
 const STYLE = `
 :host { display: block; position: relative; background: radial-gradient(circle at 50% 40%, #eef0f3, #aeb6c2); }
-canvas { display: block; width: 100%; height: 100%; }
+canvas { display: block; width: 100%; height: 100%; touch-action: none; }
+img { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; pointer-events: none; }
+img:not([src]) { display: none; }
 p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-align: center; font: 14px system-ui, sans-serif; color: #222; }`;
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
+/** How far outside of the window a player is drawn already. */
+const NEAR = "20%";
 /** Where there are no pages the class can be named, too. */
 const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
 
 /**
- * Attributes `src`, `autoplay`, `loop` and `rate` (times as fast). Events: `loadeddata` once something is drawn, `load` once all is
- * there, an `ErrorEvent`, and `play`, `pause`, `frame`, `loop`, `ended`, `waiting` of a sequence.
+ * Attributes `src`, `autoplay`, `loop`, `rate` (times as fast), and `poster`, a picture until something is drawn. Events: `loadeddata`
+ * once something is drawn, `load` once all is there, an `ErrorEvent`, and `play`, `pause`, `frame`, `loop`, `ended`, `waiting` of a
+ * sequence. Arrow keys turn it, plus and minus zoom, the space bar plays and pauses. All players of a page draw with one context.
  */
 export class BSMPlayer extends Base {
-    static readonly observedAttributes = ["src", "loop", "rate"];
+    static readonly observedAttributes = ["src", "loop", "rate", "poster"];
     readonly loader = new BSMLoader();
     readonly scene = new Scene();
     readonly camera = new PerspectiveCamera(35);
+    readonly canvas = globalThis.document?.createElement("canvas");
+    /** Whether it can be seen, or nearly. */
+    inView = true;
     /** What is played, once its first frame is there. */
     sequence?: BSMSequence;
     private content?: Group;
-    private renderer?: WebGLRenderer;
     private controls?: OrbitControls;
-    private watch?: ResizeObserver;
+    private resizes?: ResizeObserver;
+    private scrolls?: IntersectionObserver;
     /** What is loading, or wrong. */
     private readonly note = globalThis.document?.createElement("p");
+    private readonly poster = globalThis.document?.createElement("img");
     /** Stops the load; what has been stopped is not shown. */
     private loading = new AbortController();
 
@@ -86,52 +97,88 @@ export class BSMPlayer extends Base {
     }
 
     connectedCallback(): void {
-        const renderer = (this.renderer = new WebGLRenderer({ antialias: true, alpha: true }));
-        const canvas = renderer.domElement;
+        const { camera, canvas, note, poster, scene } = this;
         const style = Object.assign(document.createElement("style"), { textContent: STYLE });
-        (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(style, canvas, this.note);
-        this.controls = new OrbitControls(this.camera, canvas);
+        poster.alt = "";
+        canvas.tabIndex = 0;
+        canvas.setAttribute("role", "img");
+        canvas.setAttribute("aria-label", this.getAttribute("aria-label") ?? "A mesh in three dimensions. Arrow keys turn it, plus and minus zoom.");
+        (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(style, canvas, poster, note);
+        this.controls = new OrbitControls(camera, canvas);
+        this.controls.addEventListener("change", () => this.redraw());
+        canvas.onkeydown = (event) => this.act(event);
         const sun = new DirectionalLight(0xffffff, 2);
         sun.position.set(1, 1, 1);
-        this.camera.clear().add(sun);
-        this.scene.clear().add(new HemisphereLight(0xffffff, 0x888888, 1.5), this.camera);
-        this.watch = new ResizeObserver(() => this.fit());
-        this.watch.observe(this);
+        camera.clear().add(sun);
+        scene.clear().add(new HemisphereLight(0xffffff, 0x888888, 1.5), camera);
+        this.resizes = new ResizeObserver(() => this.fit());
+        this.resizes.observe(this);
+        this.scrolls = new IntersectionObserver((seen) => (this.inView = seen.at(-1)!.isIntersecting), { rootMargin: NEAR });
+        this.scrolls.observe(this);
+        try {
+            hang(this);
+        } catch (error) {
+            return this.fail(new Error(`WebGL is not available. ${error instanceof Error ? error.message : error}`));
+        }
         this.fit();
-        let before = performance.now();
-        renderer.setAnimationLoop((now) => {
-            this.sequence?.update(Math.max(0, now - before) / 1000);
-            before = now;
-            this.controls?.update();
-            renderer.render(this.scene, this.camera);
-        });
         this.open();
     }
 
     disconnectedCallback(): void {
+        takeDown(this);
         this.empty();
-        this.watch?.disconnect();
+        this.resizes?.disconnect();
+        this.scrolls?.disconnect();
         this.controls?.dispose();
-        this.renderer?.setAnimationLoop(null);
-        this.renderer?.dispose();
-        this.renderer?.forceContextLoss(); // a page may have few contexts, and forgets none by itself
-        this.renderer = undefined;
+        this.controls = undefined;
     }
 
     attributeChangedCallback(name: string): void {
         if (name === "src") this.open();
+        if (name === "poster") this.hold();
         if (this.sequence) [this.sequence.loop, this.sequence.speed] = [this.loop, this.rate];
     }
 
+    /** Draw again, after a change of `scene` or `camera`. */
+    redraw(): void {
+        redraw(this);
+    }
+
+    /** Move on by some seconds; returns whether the picture is another one then. */
+    step(seconds: number): boolean {
+        const frame = this.sequence?.frame;
+        this.sequence?.update(seconds);
+        return this.sequence?.frame !== frame;
+    }
+
+    private act(event: KeyboardEvent): void {
+        if (event.key === " " && this.sequence) this.paused ? this.play() : this.pause();
+        else if (!this.controls || !turnBy(event.key, this.camera, this.controls.target)) return;
+        event.preventDefault();
+        this.controls?.update();
+        this.redraw();
+    }
+
+    /** Show the poster as long as there is nothing else. */
+    private hold(): void {
+        const poster = this.content ? null : this.getAttribute("poster");
+        if (poster) this.poster.src = poster;
+        else this.poster.removeAttribute("src");
+    }
+
+    private fail(error: unknown): void {
+        this.note.textContent = error instanceof Error ? error.message : `${error}`;
+        this.dispatchEvent(new ErrorEvent("error", { error, message: `${error}` }));
+    }
+
     private open(): void {
-        if (!this.renderer || !this.src) return;
+        if (!this.controls || !this.src) return;
         this.empty();
+        this.hold();
         const { signal } = (this.loading = new AbortController());
         const mine = (): boolean => !signal.aborted;
         const failed = (error: unknown): void => {
-            if (!mine()) return;
-            this.note.textContent = error instanceof Error ? error.message : `${error}`;
-            this.dispatchEvent(new ErrorEvent("error", { error, message: `${error}` }));
+            if (mine()) this.fail(error);
         };
         this.note.setAttribute("role", "status");
         this.note.textContent = "Loading";
@@ -161,6 +208,7 @@ export class BSMPlayer extends Base {
         content.traverse((mesh) => (mesh.frustumCulled = !sequence)); // bounds are those of the first frame
         this.scene.add((this.content = content));
         this.look(content);
+        this.hold();
         this.note.textContent = "";
         this.say("loadeddata");
         if (!sequence) return;
@@ -182,10 +230,11 @@ export class BSMPlayer extends Base {
 
     private fit(): void {
         const [width, height] = [this.clientWidth || 300, this.clientHeight || 150];
-        this.renderer?.setPixelRatio(devicePixelRatio);
-        this.renderer?.setSize(width, height, false);
+        this.canvas.width = Math.max(1, Math.round(width * devicePixelRatio));
+        this.canvas.height = Math.max(1, Math.round(height * devicePixelRatio));
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
+        this.redraw();
     }
 
     private empty(): void {
@@ -201,6 +250,7 @@ export class BSMPlayer extends Base {
             }
         });
         [this.content, this.sequence] = [undefined, undefined];
+        this.redraw();
     }
 
     private say(type: string, detail?: unknown): void {

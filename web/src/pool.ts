@@ -34,6 +34,7 @@ export interface StreamDecoding {
 }
 
 const LIMIT = 4;
+const MOST_FAILED = 1; // threads that may fail to start before the page does without
 
 /** A thread, and the streams that it works on, as their decoder or as a helper. */
 interface Hand {
@@ -53,6 +54,8 @@ export class Pool {
     private readonly streams = new Set<PooledStream>();
     private readonly waiting: PooledStream[] = [];
     private task = 0;
+    /** Threads that never began, one after the other: a server may fail once. */
+    private failed = 0;
     private alone = false;
 
     constructor(private readonly source: Source = here, private limit = LIMIT) {}
@@ -140,7 +143,7 @@ export class Pool {
         if (!worker) return void this.settle();
         const hand: Hand = { build, worker, ready: false, streams: new Set() };
         worker.onmessage = ({ data }: MessageEvent<Answer>) => {
-            if ("ready" in data) hand.ready = true;
+            if ("ready" in data) [hand.ready, this.failed] = [true, 0];
             else for (const stream of hand.streams) if (stream.task === data.task) stream.hear(data);
         };
         worker.onerror = (event) => {
@@ -163,9 +166,9 @@ export class Pool {
         hand.streams.clear();
         if (this.hands.includes(hand)) this.hands.splice(this.hands.indexOf(hand), 1);
         for (const other of this.hands) for (const stream of streams) other.streams.delete(stream);
-        if (!hand.ready) this.settle();
+        if (!hand.ready && ++this.failed > MOST_FAILED) this.settle();
         for (const stream of streams) if (hand.ready || stream.begun) stream.fail(error);
-        if (!hand.ready) for (const stream of [...streams, ...this.waiting.splice(0)]) void this.stay(stream);
+        if (!hand.ready) for (const stream of [...streams, ...this.waiting.splice(0)]) if (!stream.closed) this.place(stream);
     }
 
     private async stay(stream: PooledStream): Promise<void> {

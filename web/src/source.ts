@@ -33,6 +33,15 @@ function buildOf(build: Build): Build {
     return hasVectors() ? build : "whole";
 }
 
+/** An address beside this file, of which bundles of CommonJS know nothing. */
+function beside(address: () => URL): URL {
+    try {
+        return address();
+    } catch {
+        throw new Error("this bundle does not know where the decoder's files are: copy those of bsm-decoder/built, and name their folder with setDecoderPath");
+    }
+}
+
 function started(start: () => Worker): Worker | undefined {
     if (typeof Worker === "undefined") return undefined;
     try {
@@ -78,7 +87,7 @@ const local: Source["local"] = (build) => (build === "quick" && hasVectors() ? i
 /** The files beside this one. */
 export const here: Source = {
     worker: (build) => started(WORKERS[buildOf(build)]),
-    kernels: once((build) => compiled(hasVectors() ? KERNELS[build]() : KERNELS.scalar())),
+    kernels: once(async (build) => compiled(beside(KERNELS[hasVectors() ? build : "scalar"]))),
     local,
 };
 

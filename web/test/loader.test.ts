@@ -414,6 +414,47 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.ok(Number(seen.frames) > 1 && seen.sequences === 1);
     });
 
+    test("starts a thread again that failed once", async () => {
+        const seen = await found(`
+            const asked = [];
+            globalThis.Worker = class extends Worker {
+                constructor(url, options) {
+                    asked.push(url);
+                    super(asked.length === 1 ? "/no-such-worker.js" : url, options);
+                }
+            };
+            const geometry = await new BSMLoader().loadAsync("/stream/${STREAM}.bsm");
+            return { asked: asked.length, vertices: geometry.getAttribute("position").count };`, {});
+        assert.ok(seen.asked === 2 && Number(seen.vertices) > 0, JSON.stringify(seen));
+    });
+
+    test("is an element of which a page may have a hundred", async () => {
+        const seen = await found(`
+            await import("/bsm/player.js");
+            const players = Array.from({ length: 100 }, () => Object.assign(document.createElement("bsm-player"), { src: "/stream/${STREAM}.bsm" }));
+            for (const player of players) player.style.cssText = "width: 60px; height: 60px; display: inline-block";
+            const wrong = [];
+            for (const player of players) player.addEventListener("error", ({ message }) => wrong.push(message));
+            const loads = players.map((player) => new Promise((keep) => player.addEventListener("load", keep, { once: true })));
+            document.body.append(...players);
+            await Promise.all(loads);
+            const drawn = ({ canvas }) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((value, i) => i % 4 === 3 && value > 0);
+            for (const player of players) player.scrollIntoView();
+            while (!players.every(drawn)) await new Promise((keep) => {
+                for (const player of players) if (!drawn(player)) { player.scrollIntoView(); break; }
+                requestAnimationFrame(keep);
+            });
+            players[7].canvas.focus();
+            const before = players[7].camera.position.toArray().join();
+            players[7].canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
+            const turned = players[7].camera.position.toArray().join() !== before;
+            const begin = performance.now();
+            for (const player of players) player.remove();
+            return { wrong, turned, removed: performance.now() - begin };`, {});
+        assert.deepEqual([seen.wrong, seen.turned], [[], true]);
+        if (process.env.BSM_TIMES) console.log(`100 players removed in ${seen.removed} ms`);
+    });
+
     test("is an element that plays", async () => {
         const seen = await found(`
             await import("/bsm/player.js");

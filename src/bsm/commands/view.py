@@ -12,6 +12,7 @@ from bsm.bitstream.errors import FormatError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_limits_flag, adder, limits_of, within
 from bsm.console import Console, Progress
+from bsm.files.formats.polygons import MeshFile
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames
@@ -76,7 +77,7 @@ def _opened(
     if args.follow or (path == "-" and not args.save and not args.original):
         return _growing(name, path)
     with about(path):
-        source: TriangleMesh | Frames | None = open_sequence(path)
+        source: MeshFile | Frames | None = open_sequence(path)
         if source is None:
             data = b"".join(read_chunks(path))
             if data.startswith(MAGIC[: len(data)]):
@@ -91,8 +92,9 @@ def _opened(
                 return compared(name, data, original, size=size, limits=limits_of(args.limits))
             if path == "-":
                 raise FormatError(_NO_STREAM)
-            source = read_mesh(path).mesh
-        content = made(name, _size(path, source), source, args.preset, progress.stage)
+            source = read_mesh(path)
+        shown = source.mesh if isinstance(source, MeshFile) else source
+        content = made(name, _size(path, shown), source, args.preset, progress.stage)
     console.note(f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}")
     return content
 

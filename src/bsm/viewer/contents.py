@@ -4,6 +4,7 @@ import math
 import multiprocessing
 import signal
 import time
+import warnings
 from bisect import bisect_left
 from collections.abc import Callable, Generator, Mapping
 from contextlib import suppress
@@ -17,12 +18,13 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.api import encode, encode_sequence
-from bsm.bitstream.errors import BsmError, DependencyError, MeshError
+from bsm.bitstream.errors import BsmError, BsmWarning, DependencyError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import compare
 from bsm.comparison import in_order_of, pair, paired_frames
 from bsm.exits import worded
+from bsm.files.formats.polygons import MeshFile
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import Input
@@ -140,13 +142,18 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
 
 
 def made(
-    name: str, size: int | None, source: TriangleMesh | Frames, preset: str, report: Callable[[str, float], None]
+    name: str, size: int | None, given: MeshFile | Frames, preset: str, report: Callable[[str, float], None]
 ) -> Content:
     """Encode a file and compare it; call `report` with each stage and the fraction done."""
     report("encoding", 0.0)
     begin = time.perf_counter()
+    source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
+    notes, less = list(given.notes), isinstance(given, MeshFile) and bool(given.dropped)
     if isinstance(source, TriangleMesh):
-        stream = encode(source, preset=preset)
+        with warnings.catch_warnings(record=True) as lost:
+            warnings.simplefilter("always", BsmWarning)
+            stream = encode(source, preset=preset)
+        notes += [str(warning.message) for warning in lost]
     else:
         frames = np.array(list(source.frames))
         source = replace(source, frames=iter(frames))
@@ -156,10 +163,10 @@ def made(
     seconds = time.perf_counter() - begin
     report("comparing", _ENCODING)
     content = compared(name, stream, source, size=size, preset=preset)
-    return replace(content, facts={**content.facts, "seconds": seconds})
+    return replace(content, facts={**content.facts, "seconds": seconds, "notes": notes, "less": less})
 
 
-def _work(pipe: Connection, name: str, size: int, mesh: TriangleMesh, preset: str) -> None:
+def _work(pipe: Connection, name: str, size: int, mesh: MeshFile, preset: str) -> None:
     """Encode an upload in a process; send reports, then the result or an error message."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -176,7 +183,7 @@ def uploaded(name: str, data: bytes, preset: str) -> Generator[dict[str, Any] | 
     """Encode a file dropped on the page, in a process that ends with this generator; yield its reports."""
     yield {"stage": "reading", "share": 0.0}
     try:
-        mesh = read_mesh(data, limits=Limits.service()).mesh
+        mesh = read_mesh(data, limits=Limits.service())
     except (BsmError, MemoryError) as error:
         yield {"error": worded(error)}
         return

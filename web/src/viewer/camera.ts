@@ -1,13 +1,12 @@
 /** The camera: it shows the front of a mesh first, as large as the picture, and follows mouse, touch and keys. */
 import { type BufferAttribute, MathUtils, Matrix4, PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { turnBy } from "../turning";
+import type { Area } from "./room";
 
-const TURN = Math.PI / 24;
-const ZOOM = 1.1;
 const FIELD = (30 / 180) * Math.PI; // of view, along the shorter side
 const AROUND = 1.06 / Math.sin(FIELD / 2); // distance that shows a whole ball of radius 1
 const FILLED = 0.94; // of the picture
-const DOCK = 70; // pixels of the controls at the bottom
 const VIEW = new Spherical(1, 72 * MathUtils.DEG2RAD, 35 * MathUtils.DEG2RAD); // the first view
 const OPEN = 0.15; // length of the mean normal of a surface that has a front
 
@@ -26,6 +25,10 @@ export class Camera extends PerspectiveCamera {
     touched = false;
     /** Pixels of the picture. */
     size = [1, 1];
+    /** Where the middle of the mesh is, in pixels from the left. */
+    middle = 0.5;
+    /** Pixels of one mesh, which are half of them where there are two side by side. */
+    private part = [1, 1];
     readonly controls: OrbitControls;
 
     constructor(canvas: HTMLCanvasElement, private readonly redraw: () => void) {
@@ -47,7 +50,9 @@ export class Camera extends PerspectiveCamera {
 
     fit(width: number, height: number, beside: number): void {
         this.size = [width, height];
-        this.aspect = width / beside / Math.max(height, 1);
+        this.part = [width / beside, Math.max(height, 1)];
+        if (!this.view) this.middle = this.part[0] / 2;
+        this.aspect = this.part[0] / this.part[1];
         this.fov = 2 * MathUtils.RAD2DEG * Math.atan(Math.tan(FIELD / 2) / Math.min(this.aspect, 1));
         this.updateProjectionMatrix();
     }
@@ -57,47 +62,37 @@ export class Camera extends PerspectiveCamera {
         return (this.size[1] * devicePixelRatio) / (2 * Math.tan(this.fov / 2 / MathUtils.RAD2DEG));
     }
 
-    /** Show points, which a matrix puts around the origin, from the side of their front, if they have one. */
-    aim(points: Points, matrix: Matrix4, front: Vector3): void {
+    /** Show points, which a matrix puts around the origin, from the side of their front, if they have one, in that area where they are largest. */
+    aim(points: Points, matrix: Matrix4, front: Vector3, areas: Area[]): void {
         const begin = VIEW.clone();
         if (Math.hypot(front.x, front.z) > OPEN) begin.theta += Math.atan2(front.x, front.z);
+        this.controls.target.set(0, 0, 0);
         this.position.setFromSpherical(begin);
         this.controls.update();
-        const [width, height] = this.size;
+        const [width, height] = this.part;
         const towards = matrix.clone().premultiply(new Matrix4().makeRotationFromQuaternion(this.quaternion.clone().invert()));
-        const seen = FILLED * Math.tan(this.fov / 2 / MathUtils.RAD2DEG);
-        const [wide, tall] = [seen * (width / height), Math.max(seen * (1 - (2 * DOCK) / height), seen / 2)];
-        let far = 0.1;
+        const pixel = (FILLED * Math.tan(this.fov / 2 / MathUtils.RAD2DEG)) / height;
+        const distances = areas.map(() => 0.1);
         points((point) => {
             const { x, y, z } = point.applyMatrix4(towards);
-            far = Math.max(far, z + Math.abs(x) / wide, z + Math.abs(y) / tall);
+            areas.forEach(({ left, right, top, bottom }, i) => {
+                const far = z + Math.max(Math.abs(x) / (right - left), Math.abs(y) / (bottom - top)) / pixel;
+                if (far > distances[i]) distances[i] = far;
+            });
         });
-        this.position.setLength(far);
-        this.redraw();
-    }
-
-    /** Its position around the target. */
-    get place(): Spherical {
-        return new Spherical().setFromVector3(this.position.clone().sub(this.controls.target));
-    }
-
-    set place(place: Spherical) {
-        this.position.setFromSpherical(place.makeSafe()).add(this.controls.target);
-        this.controls.update();
+        const best = distances.indexOf(Math.min(...distances));
+        const { left, right, top, bottom } = areas[best];
+        this.middle = (left + right) / 2;
+        this.setViewOffset(width, height, (width - left - right) / 2, (height - top - bottom) / 2, width, height);
+        this.position.setLength(distances[best]);
         this.redraw();
     }
 
     private turn(event: KeyboardEvent): void {
-        const { place } = this;
-        if (event.key === "ArrowLeft") place.theta -= TURN;
-        else if (event.key === "ArrowRight") place.theta += TURN;
-        else if (event.key === "ArrowUp") place.phi -= TURN;
-        else if (event.key === "ArrowDown") place.phi += TURN;
-        else if (event.key === "+") place.radius /= ZOOM;
-        else if (event.key === "-") place.radius *= ZOOM;
-        else return;
+        if (!turnBy(event.key, this, this.controls.target)) return;
         event.preventDefault();
         this.touched = true;
-        this.place = place;
+        this.controls.update();
+        this.redraw();
     }
 }

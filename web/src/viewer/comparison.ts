@@ -88,7 +88,11 @@ export class Comparison {
             await this.dress(i);
             this.recolor(); // before it is first drawn
             form.root.querySelector<HTMLInputElement>(`[name=layer][value="${i}"]`)!.disabled = false;
-            if (i === 0) form.pick("mode", "wipe");
+            if (i > 0) continue;
+            const wipe = form.control("wipe");
+            stage.halve();
+            wipe.value = String(Math.round(stage.wipe * Number(wipe.max)));
+            form.pick("mode", "wipe");
         }
         form.root.dataset.layers = String(layers.length);
     }

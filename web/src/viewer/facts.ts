@@ -3,6 +3,7 @@ import type { Header } from "../index";
 import type { Place } from "./inlined";
 
 const SECOND = 1000;
+const CLOSE = 2; // look distance up to which two meshes are close
 
 /** A mesh: its stream, the size of the file, and the error of each vertex, if it is known. */
 export interface Layer extends Place {
@@ -28,6 +29,9 @@ export interface Content {
         seconds?: number;
         diagonal?: number;
         draco?: { bytes: number; bits: number } | null;
+        /** What reader and encoder say, and whether they left something of the file out. */
+        notes?: string[];
+        less?: boolean;
     };
     /** Whether it is still being written, so that what was before one came is not missed. */
     live?: boolean;
@@ -64,17 +68,21 @@ export function element(tag: string, text: string, ...inside: Node[]): HTMLEleme
     return made;
 }
 
-/** Sizes of the original and the stream, what is claimed of them, and the rows below. */
-export function factsOf({ layers, main, facts }: Content, length: number, frames: number, header?: Header, took?: number): { plain: number; size: number; claim: string; rows: Row[] } {
+/** What a look distance means, in words. */
+function verdictOf(look: number): string {
+    return look <= 1 ? "Looks the same" : look <= CLOSE ? "Close: differences show side by side" : "A preview";
+}
+
+/** Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all of the file is in the stream. */
+export function factsOf({ layers, main, facts }: Content, length: number, frames: number, header?: Header, took?: number): { plain?: number; size: number; claim: string; rows: Row[] } {
     const size = layers[main].size || length;
     const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
-    const plain = main > 0 ? layers[0].size : 12 * (vertices * Math.max(frames, 1) + faces);
-    const ratio = plain / Math.max(size, 1);
-    const than = main > 0 ? "" : frames > 1 ? " than its frames as float32" : " than plain arrays";
-    const { look, farthest, angle, seconds, promised = {}, draco } = facts;
-    const looks = look === undefined ? "" : promised.look ? `look ${look.toFixed(2)} of ${promised.look}` : `look ${look.toFixed(2)}`;
-    const rows: Row[] = [];
-    if (look !== undefined) rows.push(["Look distance", looks.slice(5), `${promised.look ? "promised; " : ""}at 1, both look the same`]);
+    const plain = main > 0 && !facts.less ? layers[0].size : undefined;
+    const ratio = (plain ?? 0) / Math.max(size, 1);
+    const { look, farthest, angle, seconds, promised = {}, draco, notes = [] } = facts;
+    const looks = look === undefined ? "" : promised.look ? `${look.toFixed(2)} of ${promised.look}` : look.toFixed(2);
+    const rows: Row[] = notes.map((note) => ["Note", note]);
+    if (look !== undefined) rows.push(["Look distance", looks, `${promised.look ? "promised; " : ""}at 1, both look the same`]);
     if (farthest !== undefined) rows.push(["Largest vertex error", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
     if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
     if (draco) rows.push(["Draco at the same look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
@@ -82,5 +90,6 @@ export function factsOf({ layers, main, facts }: Content, length: number, frames
     if (took !== undefined) rows.push(["Decoded in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
-    return { plain, size, claim: [size > 0 && ratio > 1 ? `${times(ratio)} times smaller${than}` : "", looks].filter(Boolean).join(", "), rows };
+    const words = look === undefined ? "" : `${verdictOf(look)} (${looks})`;
+    return { plain, size, claim: [words, size > 0 && ratio > 1 ? `${times(ratio)} times smaller` : ""].filter(Boolean).join(", "), rows };
 }

@@ -11,7 +11,9 @@ export function listenToKeys(form: Form, stage: Stage, meshes: Comparison): void
     const acts: Record<string, () => void> = {
         w: () => mode("wipe"),
         s: () => mode("split"),
-        f: () => form.pick("shading", SHADINGS[(SHADINGS.indexOf(form.picked("shading")) + 1) % SHADINGS.length]),
+        f: () => stage.home(),
+        m: () => form.control("full").click(),
+        d: () => form.pick("shading", SHADINGS[(SHADINGS.indexOf(form.picked("shading")) + 1) % SHADINGS.length]),
         e: () => meshes.toggleErrors(),
         t: () => form.control("spin").click(),
         l: () => {
@@ -20,12 +22,16 @@ export function listenToKeys(form: Form, stage: Stage, meshes: Comparison): void
             stage.light = Number(light.value);
         },
         h: () => form.root.toggleAttribute("data-bare"),
+        ",": () => form.control("earlier").click(),
+        ".": () => form.control("later").click(),
+        " ": () => form.control("play").click(),
         "?": () => form.unfold("keys"),
         escape: () => form.unfold(""),
     };
     DIGITS.forEach((digit, i) => (acts[digit] = () => form.pick("layer", String(i))));
     form.root.addEventListener("keydown", ({ key, target, ctrlKey, metaKey, altKey }) => {
         if (ctrlKey || metaKey || altKey || (target as HTMLElement).matches("select, [type=number]")) return;
+        if (key === " " && !(target as HTMLElement).matches("canvas, body")) return; // it presses what has the focus
         acts[key.toLowerCase()]?.();
     });
 }

@@ -15,6 +15,7 @@ export class SequenceBar {
         this.frame = form.control("frame");
         form.on("play", "click", () => this.sequence && (this.sequence.playing ? this.sequence.pause() : this.sequence.play()));
         form.on("frame", "input", ({ value }) => this.sequence?.seek(Number(value)));
+        for (const [name, step] of [["earlier", -1], ["later", 1]] as const) form.on(name, "click", () => this.go(step));
         form.on("loop", "change", ({ checked }) => this.sequence && (this.sequence.loop = checked));
     }
 
@@ -45,6 +46,15 @@ export class SequenceBar {
         const isAnother = sequence.frame !== this.shown;
         this.shown = sequence.frame;
         return isAnother;
+    }
+
+    /** Hold still, some frames on. */
+    private go(step: number): void {
+        const { sequence } = this;
+        if (!sequence) return;
+        const length = sequence.geometry.frames.length;
+        sequence.pause();
+        sequence.seek((sequence.frame + step + length) % length);
     }
 
     private report({ frame: shown, geometry, playing, rate }: BSMSequence, missed: number): void {

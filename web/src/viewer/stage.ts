@@ -5,11 +5,13 @@ import {
 } from "three";
 import { Camera, frontOf, type Points } from "./camera";
 import { GROUND, shadowOf, studio } from "./light";
+import { freeAreas } from "./room";
 
 const CLAY = 0xcdc6ba;
 const WHITE = 0xffffff;
 const THUMB = 44; // pixels of the handle of the wipe
 const [QUIET, SMOOTH] = [400, 2]; // milliseconds, and by how much pixels are finer then
+const AIMED = 50_000; // points that the camera makes room for
 
 export type Mode = "one" | "wipe" | "split";
 export type Shading = "smooth" | "flat" | "wire";
@@ -72,6 +74,11 @@ export class Stage {
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private readonly drawn = [new Drawn(), new Drawn(), new Drawn()];
+    /** Where meshes were placed: what is in the middle, and how far down the ground is from there. */
+    private middle = new Vector3();
+    private depth = Infinity;
+    /** Has the camera show everything again. */
+    private aim: () => void = () => {};
     private shading: Shading = "smooth";
     private stale = true;
     private moved = 0;
@@ -83,9 +90,15 @@ export class Stage {
         this.renderer.toneMapping = NeutralToneMapping;
         this.camera = new Camera(canvas, () => this.redraw());
         const { texture, probe } = studio();
-        // A program that draws would need seconds for reflections.
-        if (this.fast) this.scene.environment = new PMREMGenerator(this.renderer).fromEquirectangular(texture).texture;
+        // A program that draws would need seconds for reflections. What was drawn for them is lost with the context.
+        const reflect = (): void => void (this.scene.environment = new PMREMGenerator(this.renderer).fromEquirectangular(texture).texture);
+        if (this.fast) reflect();
         else this.scene.add(probe);
+        canvas.addEventListener("webglcontextrestored", () => {
+            if (this.fast) reflect();
+            this.redraw();
+        });
+        canvas.addEventListener("dblclick", () => this.home());
         this.light = 0;
         this.ground.rotation.x = -Math.PI / 2;
         this.ground.visible = false;
@@ -105,30 +118,51 @@ export class Stage {
         const { turned } = this;
         turned.rotation.set(...turn);
         turned.scale.setScalar(1 / diagonal);
-        turned.position.set(-center[0] / diagonal, -center[1] / diagonal, -center[2] / diagonal).applyEuler(turned.rotation);
+        this.middle.fromArray(center);
+        this.follow(this.middle);
+    }
+
+    /** Have another point of the meshes in the middle, on the same ground. */
+    follow(middle: Vector3): void {
+        const { ground, turned } = this;
+        turned.position.copy(middle).negate().multiplyScalar(turned.scale.x).applyEuler(turned.rotation);
         turned.updateWorldMatrix(true, false);
+        const rise = this.middle.clone().sub(middle).multiplyScalar(turned.scale.x).applyEuler(turned.rotation);
+        ground.position.y = this.depth + rise.y;
         this.redraw();
     }
 
-    /** Have points of meshes in the middle, and fill the picture with them, unless the reader chose another place. */
-    fill(samples: ArrayLike<number>[], turn?: [number, number, number], normals?: BufferAttribute): void {
-        const { camera, ground, turned } = this;
+    /** Have points of meshes in the middle, and fill the picture with them, unless the reader chose another place; moving ones around the middle of each. */
+    fill(samples: ArrayLike<number>[], turn?: [number, number, number], normals?: BufferAttribute, middles: Vector3[] = []): void {
+        const { camera, turned } = this;
         const [low, high, point] = [Infinity, -Infinity, 0].map((far) => new Vector3(far, far, far));
-        const points: Points = (act) => {
-            for (const array of samples) for (let i = 0; i < array.length; i += 3) if (array[i] === array[i]) act(point.fromArray(array, i));
+        const [base, total] = [middles[0] ?? new Vector3(), samples.reduce((sum, { length }) => sum + length / 3, 0)];
+        const over = (act: (point: Vector3) => void, step = 3): void => {
+            samples.forEach((array, k) => {
+                for (let i = 0; i < array.length; i += step) if (array[i] === array[i]) act(middles[k] ? point.fromArray(array, i).sub(middles[k]).add(base) : point.fromArray(array, i));
+            });
         };
-        points(() => (low.min(point), high.max(point)));
+        over(() => (low.min(point), high.max(point)));
         if (!(low.x <= high.x)) return;
         if (!camera.touched) this.place(low.clone().add(high).divideScalar(2).toArray(), low.distanceTo(high) || 1, turn);
-        ground.position.y = Infinity;
-        points(() => (ground.position.y = Math.min(ground.position.y, point.applyMatrix4(turned.matrixWorld).y)));
-        if (camera.touched) return;
-        camera.aim(points, turned.matrixWorld, frontOf(normals).applyEuler(turned.rotation));
+        let depth = Infinity;
+        over(() => (depth = Math.min(depth, point.applyMatrix4(turned.matrixWorld).y)));
+        [this.depth, this.ground.position.y] = [depth, depth];
+        const some: Points = (act) => over(act, 3 * Math.ceil(total / AIMED));
+        const [matrix, front] = [turned.matrixWorld.clone(), frontOf(normals).applyEuler(turned.rotation)];
+        this.aim = () => camera.aim(some, matrix, front, freeAreas(this.canvas.closest<HTMLElement>(".bsm")!, this.mode === "split" ? 2 : 1));
+        if (!camera.touched) this.aim();
+    }
+
+    /** Show everything again, from where it was first seen. */
+    home(): void {
+        this.camera.touched = false;
+        this.aim();
     }
 
     shadow(...geometries: BufferGeometry[]): void {
         const { ground, turned } = this;
-        if (ground.position.y === Infinity) return;
+        if (this.depth === Infinity) return;
         ground.material.alphaMap = shadowOf(geometries, turned.matrixWorld, ground.position.y, (ground.material.alphaMap as DataTexture | null) ?? undefined);
         ground.material.needsUpdate ||= !ground.visible;
         ground.visible = true;
@@ -138,7 +172,8 @@ export class Stage {
     clear(): void {
         for (const shown of this.drawn) shown.put([]);
         this.ground.visible = false;
-        this.ground.position.y = Infinity;
+        this.depth = Infinity;
+        this.aim = () => {};
         this.camera.reset();
         this.redraw();
     }
@@ -147,6 +182,12 @@ export class Stage {
     get eye(): Vector3 {
         this.turned.updateWorldMatrix(true, false);
         return this.turned.worldToLocal(this.camera.position.clone());
+    }
+
+    /** The length of a pixel in the middle, in the unit of the meshes. */
+    get pixel(): number {
+        const { camera, turned } = this;
+        return (camera.position.distanceTo(camera.controls.target) * devicePixelRatio) / camera.pixels / turned.scale.x;
     }
 
     dress(index: number, clothes: MeshStandardMaterial[]): void {
@@ -184,6 +225,11 @@ export class Stage {
         this.scene.environmentRotation.y = turn;
         this.key.position.set(-1.2, 1.9, 1.5).applyAxisAngle(this.scene.up, turn);
         this.redraw();
+    }
+
+    /** Wipe in the middle of the mesh. */
+    halve(): void {
+        this.wipe = Math.min(1, Math.max(0, (this.camera.middle - THUMB / 2) / (this.camera.size[0] - THUMB)));
     }
 
     get seam(): number {
@@ -258,6 +304,7 @@ export class Stage {
         const { camera, renderer } = this;
         if (clientWidth !== camera.size[0] || clientHeight !== camera.size[1]) renderer.setSize(clientWidth, clientHeight, false);
         camera.fit(clientWidth, clientHeight, this.mode === "split" ? 2 : 1);
+        if (!camera.touched) this.aim();
         this.draw();
     }
 }

@@ -13,10 +13,13 @@ import { listenToKeys } from "./keys";
 import { SequenceBar } from "./sequence";
 import { Stage } from "./stage";
 import { TileSet, wholeOf } from "./tiles";
+import { Track } from "./track";
 import { Upload, type Encode } from "./upload";
 import template from "./view.html";
 
 const SAMPLED = 12; // frames that the camera makes room for
+const RULER = 120; // pixels of the longest bar
+const NARROW = 480; // pixels of a page that has no room for it
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
 function extentOf(header?: Header): [center: number[], diagonal: number] {
@@ -49,6 +52,9 @@ export class View {
     private looked?: string;
     private choose: (index: number) => void = () => this.restart();
     private turns = 0;
+    /** Frames that the camera has made room for. */
+    private fitted = 1;
+    private track?: Track;
     private readonly watch = new ResizeObserver(() => this.meshes.place());
 
     constructor(
@@ -78,7 +84,7 @@ export class View {
         };
         this.upload = new Upload(this.form, show, encode);
         this.listen();
-        this.watch.observe(root);
+        for (const part of [root, ...root.querySelectorAll(".bsm-card, .bsm-dock")]) this.watch.observe(part);
         const go = (now: number): void => {
             if (this.closed) return;
             this.step(now);
@@ -164,10 +170,11 @@ export class View {
             root.dataset.theme = isDark ? "light" : "dark";
         });
         for (const part of ["panel", "keys"]) form.on(part, "click", () => form.unfold(part));
+        form.on("full", "click", () => void (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen()));
         form.on("picture", "click", () => pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob)));
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
         listenToKeys(form, stage, meshes);
-        if (matchMedia("(min-width: 45rem)").matches) form.part("more").setAttribute("open", "");
+        if (matchMedia("(min-width: 45rem) and (min-height: 30rem)").matches) form.part("more").setAttribute("open", "");
     }
 
     private save(blob: Blob): void {
@@ -224,6 +231,8 @@ export class View {
         this.arrival.restart();
         this.losses = [];
         this.missed = 0;
+        this.track = undefined;
+        this.fitted = 1;
         this.over = false;
         this.form.say("problem", "");
         root.dataset.state = "loading";
@@ -248,9 +257,12 @@ export class View {
         const { arrival, geometry, meshes, over, stage } = this;
         stage.step();
         if (this.sequence.step(now, over, this.missed)) {
+            if (!over && geometry.frames.length >= 2 * this.fitted) this.fill();
+            if (this.track) stage.follow(this.track.at(geometry.shown));
             if (over) stage.shadow(geometry);
             meshes.stale = true;
         }
+        this.measure();
         if (meshes.stale) meshes.recolor();
         if (this.tiles) return this.walk(this.tiles);
         if (arrival.isCut) this.restart();
@@ -287,16 +299,38 @@ export class View {
         const { arrival, geometry, meshes, stage } = this;
         this.over = meshes.stale = true;
         arrival.complete = arrival.passed;
-        const { frames } = geometry;
-        const every = Math.ceil(frames.length / SAMPLED);
-        const some = frames.filter((_, i) => i % every === 0).map(({ positions }) => positions);
-        const samples = some.length > 0 ? some : [geometry.getAttribute("position")?.array ?? []];
-        stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
+        this.fill();
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
         const told = (error: unknown): void => this.form.say("problem", `The original cannot be shown. ${error instanceof Error ? error.message : error}`);
         void (meshes.accompanied ? meshes.dress() : this.accompany()).catch(told);
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
+    }
+
+    /** Make room for the mesh: for some frames of a moving one, of those that are there. */
+    private fill(): void {
+        const { geometry, stage } = this;
+        const { frames } = geometry;
+        this.fitted = Math.max(frames.length, 1);
+        this.track = frames.length > 1 ? new Track(frames.map(({ positions }) => positions), geometry.frameRate) : undefined;
+        const every = Math.ceil(frames.length / SAMPLED);
+        const some = frames.map((_, i) => i).filter((i) => i % every === 0);
+        const samples = some.length > 0 ? some.map((i) => frames[i].positions) : [geometry.getAttribute("position")?.array ?? []];
+        stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute, this.track && some.map((i) => this.track!.at(i)));
+    }
+
+    /** Say how long a bar at the middle of the mesh is. */
+    private measure(): void {
+        const { form, geometry, meshes, root, stage } = this;
+        const ruler = form.part("ruler");
+        ruler.hidden = !meshes.shown || root.clientWidth < NARROW || root.clientHeight < NARROW;
+        if (ruler.hidden) return;
+        const wished = RULER * stage.pixel;
+        const power = 10 ** Math.floor(Math.log10(wished));
+        const length = power * [5, 2, 1].find((step) => step * power <= wished)!;
+        const unit = geometry.metadata.get("unit");
+        form.say("length", `${Number(length.toPrecision(1))} ${typeof unit === "string" ? unit : ""}`.trim());
+        ruler.style.width = `${Math.round(length / stage.pixel)}px`;
     }
 
     /** Fetch the meshes to compare with. */
@@ -320,7 +354,7 @@ export class View {
         const { alone, arrival, content, form, geometry } = this;
         if (content.tiles) return;
         const facts = factsOf(content, arrival.length, geometry.frames.length, geometry.header, alone ?? arrival.complete);
-        const before = geometry.header || content.main > 0 ? [element("s", `${sized(facts.plain)} → `)] : [];
+        const before = facts.plain === undefined ? [] : [element("s", `${sized(facts.plain)} → `)];
         form.part("figures").replaceChildren(...before, facts.size > 0 ? sized(facts.size) : "");
         form.say("claim", facts.claim);
         this.listRows(facts.rows);

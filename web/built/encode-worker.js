@@ -1,0 +1,1 @@
+import{serve as o}from"./encode.js";o();

@@ -1,0 +1,92 @@
+// Pictures of the page of `bsm view` in every state and size, dark and light: `npm run states -- FOLDER PAGE.html...` takes saved
+// pages. Says how much of each mesh cards and buttons cover, and whether anything is cut off; the exit code is 1 if so.
+import { mkdirSync } from "node:fs";
+import { basename, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { inflateSync } from "node:zlib";
+import { chromium } from "playwright-core";
+
+const SIZES = [[1280, 800], [390, 780], [844, 390], [780, 390], [320, 568]];
+const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const MOST = 0.05; // of the mesh that may be covered
+const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #0f0 !important }";
+const PATIENCE = 120_000;
+
+/** The pixels of a PNG of 8 bits without interlacing, as rows of colors. */
+function pixelsOf(png) {
+    let [at, width, height, channels] = [8, 0, 0, 0];
+    const parts = [];
+    while (at < png.length) {
+        const length = png.readUInt32BE(at);
+        const type = png.toString("latin1", at + 4, at + 8);
+        const data = png.subarray(at + 8, at + 8 + length);
+        if (type === "IHDR") [width, height, channels] = [data.readUInt32BE(0), data.readUInt32BE(4), data[9] === 6 ? 4 : 3];
+        if (type === "IDAT") parts.push(data);
+        at += 12 + length;
+    }
+    const raw = inflateSync(Buffer.concat(parts));
+    const rows = [];
+    let above = new Uint8Array(width * channels);
+    for (let y = 0; y < height; y++) {
+        const [filter, row] = [raw[y * (width * channels + 1)], Uint8Array.from(raw.subarray(y * (width * channels + 1) + 1, (y + 1) * (width * channels + 1)))];
+        for (let i = 0; i < row.length; i++) {
+            const [a, b, c] = [row[i - channels] ?? 0, above[i], above[i - channels] ?? 0];
+            const p = a + b - c;
+            const paeth = Math.abs(p - a) <= Math.abs(p - b) && Math.abs(p - a) <= Math.abs(p - c) ? a : Math.abs(p - b) <= Math.abs(p - c) ? b : c;
+            row[i] += [0, a, b, (a + b) >> 1, paeth][filter];
+        }
+        rows.push(row);
+        above = row;
+    }
+    return { width, height, at: (x, y) => rows[y].subarray(x * channels, x * channels + 3) };
+}
+
+const [folder, ...pages] = process.argv.slice(2).map((path) => resolve(process.env.INIT_CWD ?? ".", path));
+mkdirSync(folder, { recursive: true });
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: FLAGS });
+let [states, wrong] = [0, 0];
+for (const path of pages) {
+    for (const dark of [false, true]) {
+        for (const [width, height] of SIZES) {
+            const page = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
+            await page.goto(pathToFileURL(path).href);
+            await page.waitForSelector("body[data-state=complete]", { timeout: PATIENCE });
+            const layers = await page.locator("[name=layer]").count();
+            if (layers > 1) await page.waitForSelector(`body[data-layers="${layers}"]`, { timeout: PATIENCE });
+            await page.waitForTimeout(1200); // edges become smooth
+            const name = `${basename(path, ".html")}-${width}x${height}${dark ? "-dark" : ""}`;
+            await page.screenshot({ path: join(folder, `${name}.png`) });
+            const boxes = await page.evaluate(() =>
+                [...document.querySelectorAll(".bsm-card, .bsm-tools > *, .bsm-dock > *, .bsm-panel, .bsm-scale, .bsm-ruler, [role=alert]")]
+                    .map((element) => element.getBoundingClientRect()).filter((box) => box.width * box.height > 0)
+                    .map(({ left, top, right, bottom }) => ({ left, top, right, bottom })));
+            const outside = await page.evaluate(() =>
+                [...document.querySelectorAll(".bsm-ui button, .bsm-ui select, .bsm-ui label, .bsm-card")].filter((element) => {
+                    const box = element.getBoundingClientRect();
+                    return box.width * box.height > 0 && (box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1);
+                }).map((element) => element.getAttribute("aria-label") ?? element.textContent.trim()));
+            await page.addStyleTag({ content: BARE });
+            const picture = pixelsOf(await page.screenshot());
+            let [all, covered, edge] = [0, 0, 0];
+            for (let y = 0; y < picture.height; y++) {
+                for (let x = 0; x < picture.width; x++) {
+                    const [r, g, b] = picture.at(x, y);
+                    if (g > 1.4 * r && g > 1.4 * b) continue; // background, or the shadow on it
+                    all++;
+                    if (boxes.some((box) => x >= box.left && x < box.right && y >= box.top && y < box.bottom)) covered++;
+                    if (x === 0 || y === 0 || x === picture.width - 1 || y === picture.height - 1) edge++;
+                }
+            }
+            const share = covered / Math.max(all, 1);
+            const bad = all === 0 || share > MOST || edge > 0 || outside.length > 0;
+            states++;
+            wrong += bad;
+            const found = [`${(100 * share).toFixed(1)} % covered`, `mesh ${(100 * all / picture.width / picture.height).toFixed(1)} % of the page`, ...(edge > 0 ? ["cut off"] : []), ...outside.map((what) => `outside: ${what}`)];
+            console.log(`${bad ? "WRONG" : "right"} ${name}: ${found.join(", ")}`);
+            await page.close();
+        }
+    }
+}
+await browser.close();
+console.log(`${states - wrong} of ${states} states right`);
+process.exitCode = wrong > 0 ? 1 : 0;
