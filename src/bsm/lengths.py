@@ -33,6 +33,7 @@ def parse_length(name: str, value: Any) -> tuple[float, bool]:
     return (number / 100.0, False) if unit == "%" else (number, bool(unit))
 
 
+_MANY = re.compile(rf"(?:{NUMBER} *\*? *)?([a-zµ]+)")
 BYTES = re.compile(NUMBER + r" *(?:([kMG])(i?))?B?")
 """A number of bytes, with kB, MB, GB (thousands), or KiB, MiB, GiB (1,024)."""
 
@@ -106,8 +107,11 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
 
 
 def metres(unit: str) -> float | None:
-    name = unit.strip().lower()
-    return IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))
+    """Return the meters of a unit, such as mm, or of a number of units, such as 0.5 m; None: it is unknown."""
+    found = _MANY.fullmatch(unit.strip().lower())
+    name = found[2] if found else ""
+    size = IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))
+    return None if found is None or size is None else float(found[1] or 1.0) * size or None
 
 
 def unit_of(metadata: Mapping[str, Any]) -> str:

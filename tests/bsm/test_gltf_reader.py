@@ -8,6 +8,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.files import conventions
 from bsm.files.mesh import read_mesh
 from bsm.gltf.document import read_document
 from tests.bsm.files.test_doors import SHOWN, collada
@@ -146,7 +147,7 @@ def test_colors_of_different_kinds_are_shares_of_one_range():
     built.mesh(*({"attributes": given, "indices": built.array(CORNERS)} for given in (floats, plain)))
     built.nodes({"mesh": 0}, {"mesh": 1})
     colors = attribute(built.read().mesh, "color").values[[0, 4, 8], 0]
-    assert colors == pytest.approx([0.2, 0.3001, 1.0], abs=1e-6)
+    assert conventions.to_linear(colors) == pytest.approx([0.2, 0.3001, 1.0], abs=2e-5)
 
 
 def test_faces_of_mirrored_joints_are_turned_alone():
@@ -179,7 +180,7 @@ def test_texture_coordinates_need_no_material():
 
 @pytest.mark.parametrize("width", [3, 4])
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
-def test_colors_keep_their_type_there_and_back(dtype, width, tmp_path):
+def test_colors_are_linear_in_a_file_and_in_srgb_in_a_mesh(dtype, width, tmp_path):
     values = np.random.default_rng(2).random((4, width)).astype(np.float32)
     values = values if dtype == np.float32 else np.rint(values * np.iinfo(dtype).max).astype(dtype)
     built = Built()
@@ -189,8 +190,27 @@ def test_colors_keep_their_type_there_and_back(dtype, width, tmp_path):
     mesh = built.read().mesh
     bsm.save(mesh, tmp_path / "a.glb")
     for found in (mesh, read_mesh(tmp_path / "a.glb").mesh):
-        assert attribute(found, "color").values.dtype == dtype and attribute(found, "color").semantic == "color"
-        np.testing.assert_array_equal(attribute(found, "color").values, values)
+        colors = attribute(found, "color")
+        assert colors.semantic == "color"
+        linear = conventions.to_linear(conventions.shares_of(colors.values))
+        assert linear == pytest.approx(conventions.shares_of(values), abs=2e-5)
+    document = read_document(str(tmp_path / "a.glb"))
+    stored = document.array(next(document.primitives())["attributes"]["COLOR_0"])
+    if dtype == np.uint8:
+        np.testing.assert_array_equal(stored, values)
+    assert conventions.shares_of(stored) == pytest.approx(conventions.shares_of(values), abs=1e-6)
+
+
+@pytest.mark.parametrize("width", [3, 4])
+def test_each_byte_of_a_color_comes_back_from_a_glb(width, tmp_path):
+    bytes_ = np.repeat(np.arange(256, dtype=np.uint8)[:, None], width, axis=1)
+    mesh = bsm.TriangleMesh(np.eye(256, 3), [[0, 1, 2]], [bsm.Attribute("color", bytes_, semantic="color")])
+    bsm.save(mesh, tmp_path / "a.glb")
+    document = read_document(str(tmp_path / "a.glb"))
+    stored = document.numbers(next(document.primitives())["attributes"]["COLOR_0"])
+    assert stored[1, :3] == pytest.approx(1 / 255 / 12.92, abs=1e-5)
+    again = attribute(read_mesh(tmp_path / "a.glb").mesh, "color").values
+    assert again.dtype == np.uint8 and again.tolist() == bytes_[:3].tolist()
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files import pipes
 from bsm.files.formats.metadata import Beside, Written, fetched, images_in
-from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Source, as_input, file_beside, is_url
 from bsm.files.room import gunzipped, plain_text, require_archive, require_counts_of_head, require_room
@@ -87,12 +87,20 @@ def read_mesh(
     >>> read.mesh, read.notes, read.dropped
     (TriangleMesh(... vertices, ... faces), (), ())
     """
+    return read_cut(source, file_format, limits, None, isolated=isolated)
+
+
+def read_cut(
+    source: Source, file_format: str | None, limits: Limits, cut: Cut | None, *, isolated: bool | None = None
+) -> MeshFile:
+    """Read a mesh file as `read_mesh` does, with a function that cuts its polygons."""
     given, limits = as_input(source), as_limits(limits)
     apart = limits.most_memory < math.inf if isolated is None else isolated
     if apart and sys.platform == "linux":
         found: MeshFile = by_name("bsm.files.wall", "read_behind_wall")(given, file_format, limits)
         return found
     path, name = (given.name if given.is_file else None), given.name
+    folder = Path(path).parent if path else None
     head = plain_text(given.peek(_HEAD))
     require_counts_of_head(file_format or format_of_name(name) or format_of_bytes(head), head, limits)
     data = given.read_all()
@@ -110,7 +118,7 @@ def read_mesh(
         usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
         return usd
     if kind in GLTF:
-        document = by_name("bsm.gltf.document", "Document")(data, Path(path).parent if path else None, limits)
+        document = by_name("bsm.gltf.document", "Document")(data, folder, limits)
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
     polygons: Polygons
@@ -129,10 +137,10 @@ def read_mesh(
     else:
         require_room(kind, data, limits)
         polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
-        beside = Beside(Path(path).parent if path else None, limits.metadata_bytes)
+        beside = Beside(folder, limits)
         metadata, notes = fetched(polygons.metadata, beside.read)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
-    return polygons.checked(limits, len(data))
+    return polygons.checked(limits, len(data), cut)
 
 
 def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:

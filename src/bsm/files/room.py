@@ -152,7 +152,7 @@ def require_counts_of_head(kind: str | None, head: bytes, limits: Limits) -> Non
         found = _PLY_COUNTS.findall(head.partition(b"end_header")[0])
     elif kind == "off" and (match := _OFF_COUNTS.match(without_comments(head))):
         found = list(zip(_COUNTED, match.groups()))
-    elif kind == "stl" and len(head) >= 84 and head.lstrip()[:5].lower() != b"solid":
+    elif kind == "stl" and len(head) >= 84 and b"\0" in head[:1024]:
         claimed = int.from_bytes(head[80:84], "little")
         found = [(b"face", str(claimed).encode())] if claimed < (1 << 32) - 1 else []  # by who did not know it
     for name, count in found:
@@ -236,7 +236,7 @@ def require_room(kind: str, data: bytes, limits: Limits) -> None:
 
 def _is_text(kind: str, data: bytes) -> bool:
     if kind == "stl":
-        return len(data) != 84 + 50 * int.from_bytes(data[80:84], "little")
+        return len(data) != 84 + 50 * int.from_bytes(data[80:84], "little") and b"\0" not in data[:1024]
     return b"format ascii" in data[:1024]
 
 

@@ -214,6 +214,8 @@ def sequence_kind(path: str, file_format: str | None) -> str:
     if suffix in SEQUENCE_FORMATS and not Path(path).is_dir():
         if file_format not in (None, suffix):
             raise OptionError(f"{path}: the name does not go with --format {file_format}")
+        if is_numbered(path) and suffix not in WRITTEN_FORMATS:
+            raise OptionError(f"{path}: {suffix.upper()} holds all frames in one file; leave out the number")
         if is_numbered(path) or suffix in ONE_FILE:
             return suffix
         raise OptionError(

@@ -324,7 +324,7 @@ def _kinds() -> dict[str, type[BsmError]]:
 def _mesh_in(memory: int, limits: Limits) -> MeshFile:
     """The mesh or the error that a child has left, which a hostile file may have taken over."""
     try:
-        found = _message(memory, 2 * limits.metadata_bytes + _ROOM)
+        found = _message(memory, 2 * limits.metadata_bytes + 5 * limits.frame_bytes + _ROOM)
         if "system" in found:
             raise OSError(*found["system"])
         if "error" in found:

@@ -14,6 +14,7 @@ from bsm.bitstream.errors import FormatError, LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
+from bsm.files import conventions
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, START, Frames, Wanted, between, painted_like, rate_of_times
@@ -471,9 +472,8 @@ class Scene:
             if len(values) != count or values.shape[1] > 4:
                 raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
             later = number if number not in ("", "0") else ""
-            if kind == "COLOR" and not (values.dtype.kind == "f" and values.size and values.max() > 1):
-                column = shapes.color_column(values, "vertex")
-                found.append(replace(column, name=f"color{later}"))
+            if kind == "COLOR":
+                found.append(_color(values, f"color{later}", self.notes))
             elif kind == "TEXCOORD":
                 upright = values.astype(np.float64)
                 upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
@@ -483,6 +483,14 @@ class Scene:
                     shapes.Column(number, shapes.compact(values), "vertex", shapes.meaning_of(number, values.shape[1]))
                 )
         return tuple(found)
+
+
+def _color(values: Array, name: str, notes: list[str]) -> shapes.Column:
+    """Colors, which are linear in glTF, as sRGB; numbers above 1 stay as they are, as colors they mean nothing."""
+    if values.dtype.kind == "f" and values.size and not 0 <= values.min() <= values.max() <= 1:
+        notes.append(f"parts whose {name} has values above 1, kept as linear numbers and not as a color")
+        return shapes.Column(name, shapes.compact(values))
+    return shapes.Column(name, conventions.srgb_colors(values), semantic="color")
 
 
 def is_read(name: str) -> bool:
@@ -582,7 +590,7 @@ def _frames(document: Document, wanted: Wanted, limits: Limits) -> Frames:
 
 def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:
     """The mesh at a time, its colors, too."""
-    color = shapes.color_column(scene.colors(time), "vertex")
+    color = _color(scene.colors(time), "color", [])
     now = [
         replace(a, values=color.values) if a.name == "color" and a.domain == "vertex" else a for a in mesh.attributes
     ]
@@ -631,12 +639,14 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
     )
     counts = [(len(part.base), len(part.faces)) for part in parts]
     whole = shapes.joined_parts(made, counts, limits, document.received)
-    metadata: dict[str, Value] = {"up": "y", "unit": "meters", **_extras(document)}
-    if any(number >= 0 for number in used):
-        words, images = _materials(document, used)
-        metadata |= described(words) | images
+    metadata: dict[str, Value] = {**_extras(document), "up": "y", "unit": "meters"}
     colors = scene.colors(time)
-    columns = (*whole.columns, *([shapes.color_column(colors, "vertex")] if len(colors) else []))
+    columns = (*whole.columns, *([_color(colors, "color", [])] if len(colors) else []))
+    shades = (conventions.shares_of(c.values[:, 3:]) for c in columns if c.semantic == "color")
+    transparent = any(opacity.size and opacity.min() < 1 for opacity in shades)
+    if transparent or any(number >= 0 for number in used):
+        words, images = _materials(document, used, transparent)
+        metadata |= described(words) | images
     absent = {str(image.get("uri", "")): document.why_absent(image) for image in document.items("images")}
     lost = (f"the image {unquote(uri)[:80]} was left out: {why}" for uri, why in absent.items() if why)
     notes = (*whole.notes, *lost)
@@ -661,8 +671,11 @@ def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:
     yield from [("copyright", asset["copyright"])] if "copyright" in asset else []
 
 
-def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material], dict[str, Value]]:
-    """Materials by their places among those used, in the words of glTF, and their images as metadata."""
+def _materials(document: Document, used: list[int], transparent: bool) -> tuple[dict[int, Material], dict[str, Value]]:
+    """Materials by their places among those used, in the words of glTF, and their images as metadata.
+
+    What glTF draws opaque says so, for elsewhere an opacity of a vertex or a material acts by itself.
+    """
     words: dict[int, Material] = {}
     numbers: dict[str, int] = {}
     images: dict[str, Value] = {}
@@ -670,9 +683,10 @@ def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material]
     for place, index in enumerate(used):
         found: Material = {}
         words[place] = found
-        if index < 0:
-            continue
-        tree = document.item("materials", index)
+        tree = document.item("materials", index) if index >= 0 else {}
+        factor = tree.get("pbrMetallicRoughness", {}).get("baseColorFactor", [1.0] * 4)
+        if "alphaMode" not in tree and (transparent or factor[3] < 1):
+            found["alphaMode"] = "OPAQUE"
         for name, value in {**tree, **tree.get("pbrMetallicRoughness", {})}.items():
             if name.endswith("Texture"):
                 if (source := document.source_of(value["index"])) is None:

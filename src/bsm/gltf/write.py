@@ -1,8 +1,10 @@
 """Meshes and sequences as GLB: one mesh; frames as morph targets, which play wherever glTF does; a whole stream."""
 
 import io
+import re
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,19 +18,21 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_with_origin
+from bsm.files import conventions
 from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
-from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn, shares
+from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn
 from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
+TRANSFORM = "KHR_texture_transform"
 _SORTING = ("part", "material")  # attributes of faces that only sort these
 _HALF = 0.5**0.5
 _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
-"""What turns the axis that a mesh calls up to that of glTF."""
+"""The rotations from the axis that a mesh calls up to that of glTF."""
 
 
 class _Scene(Growing):
@@ -69,11 +73,15 @@ class _Scene(Growing):
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, held = _at_vertices(split)
-        names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {"part.names", "up"}
+        placed, expressed = placed_node(mesh.metadata)
+        names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
         images = formats.images_in(mesh.metadata)
         materials = {
             n: self._material(n, words, images, written) for n, words in formats.materials_in(mesh.metadata).items()
         }
+        opacity = next((a.values[:, 3:] for a in held if a.semantic == "color"), np.zeros((0, 1)))
+        if opacity.size and conventions.shares_of(opacity).min() < 1:
+            self._blend(kinds[:, 1].tolist(), materials)
         if "TEXCOORD_0" in arrays and any(materials.get(n) is None for n in kinds[:, 1].tolist()):
             bare = self.add("materials", {})  # readers pass over texture coordinates without any
             materials |= {n: bare for n in kinds[:, 1].tolist() if materials.get(n) is None}
@@ -84,19 +92,21 @@ class _Scene(Growing):
             called = next(n for n in (called, *(f"{called}_{i}" for i in range(1, len(kinds) + 1))) if n not in taken)
             taken.add(called)
             given = {
-                name: self.numbers(values[used], bounds=name == "POSITION", shares=name == "COLOR_0")
+                name: self.numbers(values[used], bounds=name == "POSITION", shares=name.startswith("COLOR_"))
                 for name, values in arrays.items()
             }
             primitive: Tree = {"attributes": given, "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32))}
             if (which := materials.get(its_material)) is not None:
                 primitive["material"] = which
-            self.place({"name": called, "primitives": [primitive]}, name=called, **_upright(mesh.metadata))
+            self.place({"name": called, "primitives": [primitive]}, name=called, **placed)
             self.primitives.append((primitive, origin[used]))
         written |= {f"part.{number}.name" for number in names}
         rest = {name: value for name, value in mesh.metadata.items() if name not in written}
         extras = {name: value for name, value in rest.items() if isinstance(value, str) or formats.as_numbers(value)}
         self.tree["scenes"][0] |= {"extras": extras} if extras else {}
-        self.left_out += formats.left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
+        # Extras come back, but no other program looks for a material there.
+        unseen = [name for name in rest if name not in extras or name.startswith("material.")]
+        self.left_out += formats.left_out(mesh, [*held, material, part], unseen)
 
     def _material(
         self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
@@ -106,31 +116,60 @@ class _Scene(Growing):
         surface: Tree = {}
         for name, value in formats.gltf_values(words).items():
             if name in formats.GLTF_TEXTURES:
-                if (texture := self._texture(images.get(value, ("", b""))[1])) is None:
+                if (texture := self._texture(*images.get(value, ("", b"")))) is None:
                     continue
-                written.add(f"image.{value}.data")
-                value = {"index": texture}
+                written |= {f"image.{value}.data", f"image.{value}.name"}
+                value = {"index": texture, **self._moved(words, name, f"material.{number}", written)}
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
-        written |= {f"material.{number}.{name}" for name in words if formats.gltf_values({name: words[name]})}
+        cut_out = {"map_d"} if formats.is_cut_out(words) else set()
+        said = (name for name in words if name in cut_out or formats.gltf_values({name: words[name]}))
+        written |= {f"material.{number}.{name}" for name in said}
         return self.add("materials", found) if found else None
 
-    def _texture(self, data: bytes) -> int | None:
+    def _moved(self, words: formats.Material, name: str, place: str, written: set[str]) -> Tree:
+        """Return the extension by which a texture is moved and scaled, as options of MTL do; they count from below."""
+        options = next(
+            (f"{key}.options" for key in words if formats.as_gltf({key: words[key]}).get(name) is not None), ""
+        )
+        found = formats.scale_and_offset(str(words.get(options, "")))
+        if found is None:
+            return {}
+        (across, up), (right, above) = found
+        written.add(f"{place}.{options}")
+        self.tree["extensionsUsed"] = [*dict.fromkeys([*self.tree.get("extensionsUsed", []), TRANSFORM])]
+        return {"extensions": {TRANSFORM: {"scale": [across, up], "offset": [right, 1 - up - above]}}}
+
+    def _blend(self, used: Iterable[int], materials: dict[int, int | None]) -> None:
+        """Let materials show the opacity of vertices, unless they have an alphaMode."""
+        for number in set(used):
+            if materials.get(number) is None:
+                materials[number] = self.add("materials", {})
+            material = self.tree["materials"][materials[number]]
+            material.setdefault("alphaMode", "BLEND")
+
+    def _texture(self, name: str, data: bytes) -> int | None:
         kind = mime_of(data)
         if kind not in ("image/png", "image/jpeg", "image/webp"):
             return None
         if data not in self._images:
-            self._images[data] = self.add("images", {"bufferView": self.view(data), "mimeType": kind})
+            self._images[data] = self.add(
+                "images", {"bufferView": self.view(data), "mimeType": kind, **({"name": name} if name else {})}
+            )
         texture: Tree = {"source": self._images[data]}
         if kind == "image/webp":
             texture = {"extensions": {WEBP: texture}}
-            self.tree |= {"extensionsUsed": [WEBP], "extensionsRequired": [WEBP]}
+            used = [*dict.fromkeys([*self.tree.get("extensionsUsed", []), WEBP])]
+            self.tree |= {"extensionsUsed": used, "extensionsRequired": [WEBP]}
         return self.add("textures", texture)
 
 
-def _upright(metadata: Metadata) -> Tree:
-    turn = _TURNS.get(str(metadata.get("up", "y")).lower())
-    return {"rotation": turn} if turn else {}
+def placed_node(metadata: Metadata) -> tuple[Tree, frozenset[str]]:
+    """Return the properties of a node that holds a mesh, and the metadata that they express."""
+    placed = conventions.placement(metadata, "glb")
+    turn = _TURNS.get(str(metadata.get("up")).lower())
+    node = {"rotation": turn} if turn else {}
+    return node | ({"scale": [placed.scale] * 3} if placed.scale != 1.0 else {}), placed.held
 
 
 def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
@@ -141,22 +180,37 @@ def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
 
 def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]:
     """What glTF has of each vertex, by its names, and the attributes that these are."""
-    normal, color, texcoord = shown = formats.shown_at_vertices(mesh)
     arrays: dict[str, Array] = {"POSITION": mesh.positions.astype(np.float32)}
-    if normal is not None:
-        arrays["NORMAL"] = _unit(normal.values.astype(np.float64)).astype(np.float32)
-    if texcoord is not None:
-        arrays["TEXCOORD_0"] = texcoord.values[:, :2].astype(np.float32)
-        arrays["TEXCOORD_0"][:, 1] = 1 - arrays["TEXCOORD_0"][:, 1]  # glTF counts from the top, we from the bottom
-    if color is not None:
-        arrays["COLOR_0"] = color.values.astype(np.float32) if color.values.dtype.kind == "f" else color.values
-    held = [attribute for attribute in shown if attribute is not None]
+    held: list[Attribute] = []
+    counts: Counter[str] = Counter()
     for attribute in mesh.attributes:
-        values = attribute.values.astype(np.float32)
-        if attribute.domain == "vertex" and attribute not in held and (values == attribute.values).all():
-            arrays[f"_{attribute.name}"] = values
-            held.append(attribute)
+        values, width = attribute.values, attribute.components
+        if attribute.domain != "vertex":
+            continue
+        name = _NAMES.get((attribute.semantic, width), "")
+        if name == "NORMAL":
+            values = _unit(values.astype(np.float64)).astype(np.float32)
+            name = name if name not in arrays else ""
+        elif name == "TEXCOORD":  # glTF counts from the top, we from the bottom
+            values = np.column_stack([values[:, 0], 1 - values[:, 1]]).astype(np.float32)
+        elif name == "COLOR":
+            values = conventions.linear_colors(values)
+        elif re.fullmatch(r"color\d?", attribute.name) and width in (3, 4) and values.dtype == np.float32:
+            name = "COLOR"  # above 1, as glTF had them
+        if name in ("TEXCOORD", "COLOR"):
+            counts[name] += 1
+            name = f"{name}_{counts[name] - 1}"
+        if not name:
+            name, values = f"_{attribute.name}", attribute.values.astype(np.float32)
+            if not (values == attribute.values).all():
+                continue
+        arrays[name] = values
+        held.append(attribute)
     return arrays, held
+
+
+_NAMES = {("normal", 3): "NORMAL", ("texcoord", 2): "TEXCOORD", ("texcoord", 3): "TEXCOORD"}
+_NAMES |= {("color", width): "COLOR" for width in (3, 4)}
 
 
 def _unit(vectors: Doubles) -> Doubles:
@@ -234,7 +288,7 @@ class _Moving(_Scene):
 
     def _painted(self, mesh: TriangleMesh) -> list[Array]:
         self.painted = formats.shown_at_vertices(mesh)[1]
-        return [] if self.painted is None else [shares(self.painted.values)]
+        return [] if self.painted is None else [conventions.to_linear(conventions.shares_of(self.painted.values))]
 
     def add_frame(self, mesh: TriangleMesh) -> None:
         run, frame = self._runs[-1], mesh.positions
@@ -283,7 +337,8 @@ class _Moving(_Scene):
             if len(self._runs) > 1:
                 times = np.array([0, run.begun, end][run.begun == 0 : 3 - (end == self.frames)])
                 seen = np.array([0, 1, 0][run.begun == 0 : 3 - (end == self.frames)])
-                move(run.nodes, "scale", times, self.numbers(np.tile(seen[:, None], 3).astype(np.float32)), "STEP")
+                sizes = np.tile(seen[:, None], 3) * np.array(self.tree["nodes"][run.nodes[0]].get("scale", [1.0] * 3))
+                move(run.nodes, "scale", times, self.numbers(sizes.astype(np.float32)), "STEP")
         if channels:
             self.add("animations", {"name": "frames", "samplers": samplers, "channels": channels})
 
@@ -327,6 +382,6 @@ def moving_scene(stream: bytes) -> bytes:
     node = {"name": str(metadata["name"])} if "name" in metadata else {}
     primitive = {"indices": places.pop("indices"), "attributes": places}
     mesh = {"primitives": [primitive], "extensions": {EXTENSION: {"stream": source}}}
-    scene.place(mesh, **node, **_upright(metadata))
+    scene.place(mesh, **node, **placed_node(metadata)[0])
     scene.tree |= {"extensionsUsed": [EXTENSION], "extensionsRequired": [EXTENSION]}
     return scene.whole()

@@ -3,9 +3,9 @@
 import json
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -137,6 +137,7 @@ class Plan(Root):
     faces: int
     kinds: Kinds
     leaves: dict[str, tuple[int, int]]
+    about: Mapping[str, str] = field(default_factory=dict)
 
     def codes(self, places: npt.NDArray[Any]) -> Ints:
         """The node of the deepest level that holds each place, in their order along the octree's curve."""
@@ -185,7 +186,7 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     depth = min(DEPTH + above, bits)
     kinds = {what: kind for what, kind in raw.kinds.items() if what not in ("positions", "faces")}
     kinds |= {"places": ("<i4", 3), "cut": ("<u4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
-    plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {})
+    plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {}, raw.about)
     with table_file(folder / "places") as file, table_file(folder / "codes") as coded:
         for piece in raw.pieces("positions"):
             places = lattice.places(piece)

@@ -14,6 +14,8 @@ import numpy.typing as npt
 from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
+from bsm.files.conventions import placement
+from bsm.files.formats.metadata import remarks
 from bsm.files.formats.ply import table_of
 from bsm.files.output import by_its_own_name, open_output, write_output
 from bsm.files.pipes import inside, is_url
@@ -24,7 +26,7 @@ from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Ints
 from bsm.tiles.making import keys_of
 from bsm.tiles.manifest import Tile
-from bsm.tiles.reading import CARRIED
+from bsm.tiles.reading import ABOUT, CARRIED
 from bsm.tiles.shards import Table, Tiles
 
 _COPIED = 1 << 24
@@ -84,7 +86,9 @@ def write_joined(
             points.write(rows.tobytes())
             of_faces, rows = table_of([("vertex_indices", given[_read(faces, triangles_of, 3)].astype(index))])
             corners.write(rows.tobytes())
-        lines = ["ply", "format binary_little_endian 1.0", f"element vertex {vertices}", *of_points]
+        about = {name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}
+        comments = [f"comment {line}" for line in remarks(about)[0]]
+        lines = ["ply", "format binary_little_endian 1.0", *comments, f"element vertex {vertices}", *of_points]
         lines += [f"element face {total}", *of_faces, "end_header"]
         with open_output(output, overwrite=overwrite) as file, console.progress("writing"):
             file.write("".join(f"{line}\n" for line in lines).encode())
@@ -119,6 +123,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
                 data = compress(Document(data), {"grid_cell": tiles.lattice.cell, "quick": True}).data
             write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             progress(number, len(known))
+    placed = placement({name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}, "tileset")
     diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
 
     def node(name: str, around: Ints) -> Facts:
@@ -132,8 +137,10 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
         return tile | ({"children": [node(child, low) for child in children]} if children else {})
 
     root = node("r", ends["r"][0])
-    root["transform"][12:15] = tiles.lattice.positions(ends["r"][0]).tolist()
-    tree = {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal, "root": root}
+    moved = np.eye(4)  # from the mesh to meters with z up
+    moved[:3, :3], moved[:3, 3] = placed.matrix, placed.matrix @ tiles.lattice.positions(ends["r"][0])
+    root["transform"] = moved.T.ravel().tolist()
+    tree = {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}
     write_output(inside(folder, TILESET), json.dumps(tree).encode() + b"\n", overwrite=overwrite, follow=False)
     return len(known)
 

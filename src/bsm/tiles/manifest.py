@@ -14,7 +14,7 @@ from bsm.console import printable
 from bsm.files.pipes import Input, inside, place_of
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Root
-from bsm.tiles.reading import CARRIED, Kinds
+from bsm.tiles.reading import ABOUT, CARRIED, Kinds
 
 MANIFEST = "manifest.json"
 FOOT = 16  # bytes behind the index of a shard
@@ -92,8 +92,8 @@ def _checked(given: Facts) -> tuple[Facts, Lattice, Root, Kinds]:
     kinds = {what: (str(kind), whole(size, 3, 4)) for what, (kind, size) in given.get("attributes", {}).items()}
     if any(what not in CARRIED or kind not in _KINDS for what, (kind, _) in kinds.items()):
         raise ValueError("attributes")
-    if not isinstance(given["source"], str):
-        raise ValueError("source")
+    if not all(isinstance(given[key], str) for key in ("source", *ABOUT) if key in given or key == "source"):
+        raise ValueError("source, unit or up")
     for key in ("vertices", "faces"):
         whole(given[key], 1)
     for number, level in enumerate(_listed(given["levels"])):

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.console import Console
+from bsm.files.formats.metadata import parse_remarks
 from bsm.files.formats.npz import NpzArray, opened_archive
 from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import IMAGE, MOST_HEADER, Element, parse_header
@@ -25,8 +26,8 @@ from bsm.files.pipes import Input, size_of
 
 Array: TypeAlias = npt.NDArray[Any]
 Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color" or "normal"
-LeftOut: TypeAlias = dict[str, None]  # names, in order
 Kinds: TypeAlias = Mapping[str, tuple[str, int]]  # of numbers in a table, and how many a row has
+ABOUT = ("unit", "up")
 CARRIED = {"color": ("red", "green", "blue", "alpha"), "normal": ("nx", "ny", "nz")}
 _KNOWN = ("x", "y", "z", "length", "corners")
 _TEXTURES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texcoord",), ("texnumber",))
@@ -36,6 +37,14 @@ _TEXT = 1 << 23
 _TEXT_END = 1 << 6  # bytes in which a line that goes on ends
 _MOST_INDEX = (1 << 32) - 1
 _POINT = np.dtype([("xyz", "<f8", 3)])
+
+
+class LeftOut(dict[str, None]):
+    """Names of contents that tiles do not have, in order; and the unit and the axis of the mesh, which they have."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.about: dict[str, str] = {}
 
 
 @dataclass(frozen=True)
@@ -48,6 +57,7 @@ class Raw:
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
     left_out: tuple[str, ...] = ()
+    about: Mapping[str, str] = field(default_factory=dict)  # the unit, and the axis that points up
 
     def pieces(self, what: str) -> Iterator[Array]:
         """A table from its beginning to its end."""
@@ -85,7 +95,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     raw = Raw(folder)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
-    left_out: LeftOut = {}
+    left_out = LeftOut()
     with closing(given), console.progress("reading", until=0.1), ExitStack() as opened:
         for what, piece in _READERS[kind](given, left_out):
             if not len(piece):
@@ -113,7 +123,8 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     for what in CARRIED:
         if raw.rows.get(what, vertices) != vertices:
             raise MeshError(f"{raw.rows[what]} of {vertices} vertices have a {what}: give all of them one, or none")
-    return Raw(folder, raw.kinds, raw.rows, tuple(map(float, low)), tuple(map(float, high)), tuple(left_out))
+    ends = tuple(map(float, low)), tuple(map(float, high))
+    return Raw(folder, raw.kinds, raw.rows, *ends, tuple(left_out), left_out.about)
 
 
 def _checked(what: str, piece: Array, before: int) -> Array:
@@ -160,7 +171,9 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
     names = {column.name for element in header.elements for column in element.properties}
     images = {IMAGE for _, line in header.comments if line.startswith(f"{IMAGE} ")}
     _refuse_textures(images | {properties[0] for properties in _TEXTURES if names.issuperset(properties)})
-    left_out |= dict.fromkeys(f"lines of {keyword}" for keyword, _ in header.comments)
+    left_out.about |= {name: str(header.metadata[name]) for name in ABOUT if name in header.metadata}
+    others = (keyword for keyword, line in header.comments if not parse_remarks([line]).keys() & {*ABOUT})
+    left_out |= dict.fromkeys(f"lines of {keyword}" for keyword in others)
     for element in header.elements:
         if not element.properties and element.name not in ("vertex", "face"):
             continue
@@ -262,7 +275,9 @@ def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
 
 def _of_obj(piece: Polygons, file: BinaryIO, left_out: LeftOut) -> Pieces:
     """The tables of some lines; `file` holds the points of all lines so far, for the polygons that are cut."""
-    names = {*(column.name for column in piece.columns), *(key.partition(".")[0] for key in piece.metadata)}
+    left_out.about |= {name: str(piece.metadata[name]) for name in ABOUT if name in piece.metadata}
+    named = (key.partition(".")[0] for key in piece.metadata if key not in ABOUT)
+    names = {*(column.name for column in piece.columns), *named}
     _refuse_textures(names & {"texcoord"})
     left_out |= dict.fromkeys((*sorted(names - {"color"}), *piece.dropped))
     if (piece.sizes < 3).any():

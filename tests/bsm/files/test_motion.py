@@ -23,6 +23,7 @@ from bsm import (
     TruncatedError,
 )
 from bsm.api import decode_frames
+from bsm.files import conventions
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted, painted_like
@@ -96,8 +97,8 @@ def test_there_and_back(tmp_path, kind):
     if kind == "stl":  # which has no vertices, but corners
         assert np.allclose(frames[:, source.faces], positions[:, faces], atol=1e-6)
         return
-    if kind == "glb":  # whose up is y
-        frames = np.stack([frames[..., 0], -frames[..., 2], frames[..., 1]], axis=-1)
+    if kind == "glb":  # whose up is y, and whose unit is a meter
+        frames = 100 * np.stack([frames[..., 0], -frames[..., 2], frames[..., 1]], axis=-1)
     same = cKDTree(positions[0]).query(frames[0])[1]
     assert len(set(same)) == len(same) == positions.shape[1]
     assert np.abs(frames - positions[:, same]).max() < 1e-6
@@ -778,7 +779,7 @@ def test_colors_that_change_come_in(tmp_path, kind, capsys):
     for number, frame in enumerate(found):
         same = cKDTree(positions[number]).query(frame.positions)[1]
         (color,) = frame.attributes
-        off = color.values[:, :3] - shades[number][same]
+        off = color.values[:, :3] - conventions.to_srgb(shades[number])[same]
         assert np.sqrt(np.square(off).mean()) < 0.02
 
 

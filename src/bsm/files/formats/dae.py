@@ -42,7 +42,7 @@ _LEFT_OUT = {
 
 def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     collada = imported("collada", "DAE is read with pycollada", "formats")
-    beside = Beside(Path(path).resolve().parent if path else None, limits.metadata_bytes)
+    beside = Beside(Path(path).resolve().parent if path else None, limits)
     try:
         with np.errstate(all="ignore"):  # a later check refuses infinite values
             document = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])

@@ -17,10 +17,12 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import FormatError
+from bsm.bitstream.errors import FormatError, LimitError
+from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
+from bsm.files.conventions import converted
 from bsm.files.pipes import file_beside
 from bsm.files.room import continued, plain_text
 
@@ -122,15 +124,45 @@ def described(materials: Mapping[int, Material]) -> dict[str, Value]:
 
 
 def as_gltf(material: Material) -> Material:
-    """A material in the words of glTF, as far as they go."""
+    """A material in the words of glTF, as far as they go: linear colors, and an alphaMode where it is transparent."""
     renamed: Material = {}
     for name, value in material.items():
         if name in _TO_GLTF or not _is_mtl(name):
-            renamed.setdefault(_TO_GLTF.get(name, name), value)
-    color = str(material.get("Kd", "")).split()
-    if len(color) == 3:
-        renamed.setdefault("baseColorFactor", " ".join([*color, str(material.get("d", "1"))]))
+            numbers = as_numbers(value) if name == "Ke" else []
+            renamed.setdefault(_TO_GLTF.get(name, name), converted(numbers, linear=True) if numbers else value)
+    color, opacity = as_numbers(material.get("Kd", "")), opacity_of(material)
+    if len(color) == 3 or opacity < 1:
+        color = color if len(color) == 3 else [1.0] * 3
+        renamed.setdefault("baseColorFactor", converted([*color, opacity], linear=True))
+    factor = as_numbers(renamed.get("baseColorFactor", ""))
+    if (len(factor) == 4 and factor[3] < 1) or is_cut_out(material):
+        renamed.setdefault("alphaMode", "BLEND")
     return renamed
+
+
+def opacity_of(material: Material) -> float:
+    """Return the opacity in the words of MTL: d, or else 1 - Tr."""
+    for name, begin, sign in (("d", 0.0, 1.0), ("Tr", 1.0, -1.0)):
+        if len(numbers := as_numbers(str(material.get(name, "")).removeprefix("-halo"))) == 1:
+            return min(max(begin + sign * numbers[0], 0.0), 1.0)
+    return 1.0
+
+
+def scale_and_offset(options: str) -> tuple[tuple[float, float], tuple[float, float]] | None:
+    """Return the scale and the offset, across and up, of an image in MTL; None: its options are others, or none."""
+    found = {"s": (1.0, 1.0), "o": (0.0, 0.0)}
+    words = re.split(r"\s*(?<!\S)-(?=[a-z])", options)
+    for name, *given in (word.split() for word in words if word.strip()):
+        numbers = as_numbers(" ".join(given))
+        if name not in found or not numbers:
+            return None
+        found[name] = numbers[0], numbers[1] if len(numbers) > 1 else found[name][1]
+    return (found["s"], found["o"]) if words != [""] else None
+
+
+def is_cut_out(material: Material) -> bool:
+    """Return whether the image of the color also holds the opacity."""
+    return "map_d" in material and material["map_d"] == material.get("map_Kd")
 
 
 def gltf_values(material: Material) -> dict[str, Any]:
@@ -158,13 +190,19 @@ def as_numbers(value: object) -> list[float]:
 
 
 def as_mtl(material: Material) -> Material:
-    """A material in the words of MTL, as far as they go."""
+    """A material in the words of MTL, as far as they go, with colors in sRGB."""
     renamed: Material = {_TO_MTL.get(name, name): value for name, value in material.items()}
-    color = str(renamed.pop("baseColorFactor", "")).split()
+    color, glow = (as_numbers(material.get(name, "")) for name in ("baseColorFactor", "emissiveFactor"))
+    renamed.pop("baseColorFactor", None)
+    mode = material.get("alphaMode")
     if len(color) in (3, 4):
-        renamed.setdefault("Kd", " ".join(color[:3]))
-        if len(color) == 4 and color[3] not in ("1", "1.0"):
-            renamed.setdefault("d", color[3])
+        renamed.setdefault("Kd", converted(color[:3], linear=False))
+        if len(color) == 4 and color[3] != 1 and mode in (None, "BLEND"):
+            renamed.setdefault("d", f"{color[3]:.6g}")
+    if len(glow) == 3 and "Ke" not in material:
+        renamed["Ke"] = converted(glow, linear=False)
+    if mode in ("BLEND", "MASK") and "map_Kd" in renamed:
+        renamed.setdefault("map_d", renamed["map_Kd"])
     return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
 
 
@@ -234,11 +272,14 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
     found = dict(metadata)
     notes: list[str] = []
     libraries: list[bytes] = []
+    folders: dict[str, str] = {}
     for line in str(found.get("mtllib", "")).split("\n"):
         whole = read(line)
         for name in [line] if isinstance(whole, bytes) or len(line.split()) < 2 else line.split():
             if isinstance(library := read(name), bytes):
                 libraries.append(library)
+                within = name.replace("\\", "/").rpartition("/")[0]
+                folders |= dict.fromkeys(_images_of(library), within) if within else {}
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
     _add_libraries(found, libraries)
@@ -246,7 +287,8 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
         name, place = str(found[key]), key.removesuffix("name") + "data"
         if place in found:
             continue
-        image = read(name)
+        image = read(f"{folders[name]}/{name}") if name in folders else read(name)
+        image = read(name) if isinstance(image, str) and name in folders else image
         if isinstance(image, bytes) and kind_of_image(image) is None:
             image = "it is not an image"
         if isinstance(image, bytes):
@@ -254,6 +296,12 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
         else:
             notes.append(f"the image {name} was left out, its name was kept: {image}")
     return found, notes
+
+
+def _images_of(library: bytes) -> dict[str, int]:
+    images: dict[str, int] = {}
+    parse_mtl(library, images)
+    return images
 
 
 def _add_libraries(found: dict[str, Value], libraries: Iterable[bytes]) -> None:
@@ -287,14 +335,14 @@ def plain_fields(fields: Mapping[str, Any]) -> tuple[dict[str, Value], list[str]
     return found, left
 
 
-_READ = 4  # times the bytes that metadata may have that are read before the largest images are left out
+_READ = 4  # times the largest section of a stream that all files beside a mesh may have together
 
 
 class Beside:
-    """The files in the folder of a mesh, each read once, and no more of them than metadata may have, and some."""
+    """The files in the folder of a mesh, each read once; each of them must fit into a section of a stream."""
 
-    def __init__(self, folder: Path | None, most: int) -> None:
-        self._folder, self._most, self._left = folder, most, _READ * most
+    def __init__(self, folder: Path | None, limits: Limits) -> None:
+        self._folder, self._most, self._left = folder, limits.frame_bytes, _READ * limits.frame_bytes
         self._read: dict[Path, bytes | str] = {}
 
     def read(self, name: str) -> bytes | str:
@@ -310,10 +358,13 @@ class Beside:
                 continue
             if path not in self._read:
                 size = path.stat().st_size
-                fits = size <= min(self._most, self._left)
-                self._left -= size if fits else 0
-                why = f"its {size} bytes, or those of all files, are more than the {self._most} of all metadata"
-                self._read[path] = path.read_bytes() if fits else why
+                if size > min(self._most, self._left):
+                    raise LimitError(
+                        f"{name} has {size:,} bytes, over the limit of {min(self._most, self._left):,} for a section "
+                        "of a stream (Limits.frame_bytes); make it smaller, or take it away from the mesh"
+                    )
+                self._left -= size
+                self._read[path] = path.read_bytes()
             return self._read[path]
         return reason
 
@@ -359,7 +410,7 @@ def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
 
 
 def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, Value], dict[str, str]]:
-    """Drop the largest entries until metadata fits into `limit` bytes; return the rest, and why each is left out."""
+    """Drop the largest entries until metadata but images fit into `limit` bytes; say why each is left out."""
     refused: dict[str, str] = {}
     images_first = sorted(metadata, key=lambda name: not isinstance(metadata[name], bytes))
     if beyond := images_first[_MOST_ENTRIES:]:
@@ -372,7 +423,7 @@ def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, Value], dict[str,
 
 
 def _size(name: str, value: Value) -> int:
-    content = value.encode(errors="replace") if isinstance(value, str) else value if isinstance(value, bytes) else b""
+    content = value.encode(errors="replace") if isinstance(value, str) else b""  # images: the input pays for them
     return len(name.encode(errors="replace")) + len(content) + _ENTRY_BYTES
 
 
@@ -387,9 +438,35 @@ class Written:
 
 
 def left_out(mesh: TriangleMesh, held: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:
-    """The names of the attributes that are not among those held, and of metadata."""
+    """The names of the attributes that are not among those held, and metadata in words."""
     names = {attribute.name for attribute in held if attribute is not None}
-    return (*(a.name for a in mesh.attributes if a.name not in names), *metadata)
+    return (*(a.name for a in mesh.attributes if a.name not in names), *in_words(metadata, mesh.metadata))
+
+
+_IN_WORDS = {"d": "opacity", "Tr": "opacity", "map_d": "opacity map", "alphaMode": "kind of opacity"}
+_MOST_NAMED = 3
+
+
+def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
+    """Return metadata as a user knows them: "opacity of material Glass", "the image oak.png"."""
+    found: list[str] = []
+    of_materials: dict[str, dict[str, None]] = {}
+    for name in names:
+        kind, number, what = match.groups() if (match := _ENTRY.fullmatch(name)) else ("", "", name)
+        called = str(metadata.get(f"{kind}.{number}.name") or number)
+        if kind == "material":
+            of_materials.setdefault(called, {})[_IN_WORDS.get(what, what)] = None
+        elif kind == "image":
+            found += [f"the image {called}"] if what == "data" or f"{kind}.{number}.data" not in metadata else []
+        else:
+            found.append(name)
+    alike: dict[str, list[str]] = {}
+    for called, words in of_materials.items():
+        alike.setdefault(", ".join(words), []).append(called)
+    for what, those in alike.items():
+        more = f" and {len(those) - _MOST_NAMED} more" if len(those) > _MOST_NAMED else ""
+        found.append(f"{what} of material{'s' * (len(those) > 1)} {', '.join(those[:_MOST_NAMED])}{more}")
+    return found
 
 
 def first(mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *domains: Domain) -> Attribute | None:

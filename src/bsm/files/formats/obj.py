@@ -13,8 +13,8 @@ from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import metadata as materials
-from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped
-from bsm.files.room import Ints, Rows, as_integers, continued, point_row, text_table
+from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
+from bsm.files.room import Doubles, Ints, Rows, as_integers, continued, point_row, text_table
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """The value of a keyword for the faces after it, and the keyword."""
@@ -60,7 +60,8 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
     notes: list[str] = []
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
         if rows := lines.of(keyword):
-            column, note = _corner_column(rows, name, references.of(which), placed(which, keyword))
+            flat = (points.columns(0, 3), sizes, placed(0, b"v")) if name == "normal" else None
+            column, note = _corner_column(rows, name, references.of(which), placed(which, keyword), flat)
             columns += column
             notes += note
     states, names = _states(lines, is_face)
@@ -117,7 +118,11 @@ class _References:
 
 
 def _corner_column(
-    rows: list[bytes], name: Literal["texcoord", "normal"], written: Ints, indices: Ints
+    rows: list[bytes],
+    name: Literal["texcoord", "normal"],
+    written: Ints,
+    indices: Ints,
+    flat: tuple[Doubles, Ints, Ints] | None,
 ) -> tuple[list[Column], list[str]]:
     """Return the values of `vt` or `vn` lines, for the corners that have them."""
     present = written != 0
@@ -131,11 +136,13 @@ def _corner_column(
             there = table.counts > place
             values[there, place] = table.values[table.starts[there] + place]
         values = values if values[:, 2].any() else values[:, :2]
-    if not present.all():
-        # Corners without a value share one: zeros, behind all others.
-        indices = np.where(present, indices, len(values))
-        values = np.vstack([values, np.zeros((1, values.shape[1]))])
-        notes = [f"corners without {PLURALS[name]} were given zeros: {int((~present).sum())}"]
+    if not present.all():  # after all other values there are those of the faces, or zeros
+        more = np.zeros((1, values.shape[1])) if flat is None else polygon_normals(*flat)
+        owner = 0 if flat is None else np.repeat(np.arange(len(flat[1])), flat[1])
+        indices = np.where(present, indices, len(values) + owner)
+        values = np.vstack([values, more])
+        given = "zeros" if flat is None else "those of their faces"
+        notes = [f"corners without {PLURALS[name]} were given {given}: {int((~present).sum())}"]
     return [Column(name, compact(values), "corner", name, indices)], notes
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from typing import Any
@@ -70,33 +70,87 @@ def attributes_of(
 
 
 def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
-    """Return the concatenated columns of parts, and notes."""
-    of_parts = [{(column.name, column.domain): column for column in part.columns} for part in parts]
-    found, notes = [], []
-    for key in dict.fromkeys(key for columns in of_parts for key in columns):
-        model = next(columns[key] for columns in of_parts if key in columns)
-        kinds = {columns[key].values.dtype for columns in of_parts if key in columns}
-        shares = model.semantic == "color" and len(kinds) > 1  # bytes here, and words or floats there
-        model = replace(model, values=_shares(model.values)) if shares else model
-        blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
-        tables, places, begin, lacking = [], [], 0, 0
-        for part, columns in zip(parts, of_parts, strict=True):
-            rows = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}
-            column, count = columns.get(key), rows[model.domain]
-            if column is None or column.values.shape[1:] != model.values.shape[1:]:
-                lacking += 1
-                size = min(count, 1) if model.domain == "corner" else count
-                values = np.full((size, *model.values.shape[1:]), blank, model.values.dtype)
-                column = replace(model, values=values, indices=np.zeros(count, np.int64))
-            tables.append(_shares(column.values) if shares else column.values)
-            places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
-            begin += len(column.values)
-        if lacking:
-            what, filled = PLURALS.get(model.name, model.name), "white" if blank else "zeros"
-            notes.append(f"parts without {what} were given {filled}: {lacking}")
-        at_corners = np.concatenate(places) if model.domain == "corner" else None
-        found.append(replace(model, values=np.concatenate(tables), indices=at_corners))
+    """Return the concatenated columns of parts, and notes.
+
+    Columns of one name become one where no value changes: colors get an opacity of 1, texture coordinates a third
+    number of 0, and values of vertices are also values of corners. Columns of other widths stay apart.
+    """
+    by_name: list[dict[str, list[Column]]] = [{} for _ in parts]
+    for part, named_so in zip(parts, by_name, strict=True):
+        for column in part.columns:
+            named_so.setdefault(column.name, []).append(column)
+    found: list[Column] = []
+    notes: list[str] = []
+    for name in dict.fromkeys(name for named_so in by_name for name in named_so):
+        alike = _made_alike(parts, [named_so.get(name, []) for named_so in by_name], notes)
+        keys = dict.fromkeys((column.domain, column.values.shape[1]) for columns in alike for column in columns)
+        first: dict[Domain, int] = {}
+        for domain, width in keys:
+            usual = first.setdefault(domain, width)
+            called = name if width == usual else f"{name}_{width}"
+            if width != usual:
+                notes.append(
+                    f"{name} has {usual} numbers in some parts and {width} in others; these are {called}, with zeros "
+                    "where a part has no such values"
+                )
+            chosen = [[c for c in columns if (c.domain, c.values.shape[1]) == (domain, width)] for columns in alike]
+            found.append(_concatenated(parts, called, [columns[0] if columns else None for columns in chosen]))
+            lacking = sum(all(c.domain != domain for c in columns) for columns in alike) if width == usual else 0
+            if lacking:
+                filled = "white" if found[-1].semantic == "color" else "zeros"
+                notes.append(f"parts without {PLURALS.get(name, name)} were given {filled}: {lacking}")
     return found, notes
+
+
+_WIDENED = {("color", 3): 4, ("texcoord", 2): 3}
+"""Columns of a meaning and a width that another width can hold."""
+
+
+def _made_alike(parts: Sequence[Part], alike: list[list[Column]], notes: list[str]) -> list[list[Column]]:
+    """Return the columns of one name in a width and a domain that hold those of all parts, where there is one."""
+    every = [column for columns in alike for column in columns]
+    meanings = {column.semantic for column in every}
+    if len(meanings) > 1:
+        alike = [[replace(column, semantic="generic") for column in columns] for columns in alike]
+    widths = {column.values.shape[1] for column in every}
+    if len(meanings) == 1 and any(
+        _WIDENED.get((column.semantic, column.values.shape[1])) in widths for column in every
+    ):
+        alike = [[_widened(column, max(widths)) for column in columns] for columns in alike]
+    lacking = sum(not columns for columns in alike) if meanings == {"normal"} else 0
+    if lacking:
+        notes.append(f"parts without normals were given those of their faces: {lacking}")
+        alike = [columns or [part.own_normals(every[0].name)] for part, columns in zip(parts, alike, strict=True)]
+    domains = {column.domain for columns in alike for column in columns}
+    if len(domains) > 1 and max(map(len, alike)) == 1:
+        alike = [[part.at_corners(c) for c in columns] for part, columns in zip(parts, alike, strict=True)]
+    return alike
+
+
+def _widened(column: Column, width: int) -> Column:
+    values, more = column.values, width - column.values.shape[1]
+    blank = _FULL.get(values.dtype.name, 1) if column.semantic == "color" else 0
+    return replace(column, values=np.pad(values, ((0, 0), (0, more)), constant_values=blank)) if more else column
+
+
+def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) -> Column:
+    """Return the columns of parts as one; parts that have none get zeros, or white."""
+    there = [column for column in given if column is not None]
+    shares = there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1  # bytes here, floats there
+    model = replace(there[0], name=name, values=_shares(there[0].values) if shares else there[0].values)
+    blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
+    tables, places, begin = [], [], 0
+    for part, column in zip(parts, given, strict=True):
+        if column is None:
+            count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[model.domain]
+            size = min(count, 1) if model.domain == "corner" else count
+            values = np.full((size, model.values.shape[1]), blank, model.values.dtype)
+            column = replace(model, values=values, indices=np.zeros(count, np.int64))
+        tables.append(_shares(column.values) if shares else column.values)
+        places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
+        begin += len(column.values)
+    at_corners = np.concatenate(places) if model.domain == "corner" else None
+    return replace(model, values=np.concatenate(tables), indices=at_corners)
 
 
 _FULL = {"uint8": 255, "uint16": 65535}  # of a color
@@ -104,6 +158,22 @@ _FULL = {"uint8": 255, "uint16": 65535}  # of a color
 
 def _shares(colors: Array) -> Array:
     return (colors / _FULL.get(colors.dtype.name, 1)).astype(np.float32)
+
+
+def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
+    """The unit normals of polygons; zeros for polygons without area, or whose corners do not exist."""
+    first, owner = np.cumsum(sizes) - sizes, np.repeat(np.arange(len(sizes)), sizes)
+    if corners.size and not 0 <= corners.min() <= corners.max() < len(positions):
+        return np.zeros((len(sizes), 3))
+    after = np.arange(1, len(corners) + 1)
+    after[first[sizes > 0] + sizes[sizes > 0] - 1] = first[sizes > 0]
+    with np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
+        points = positions[corners] - positions[corners[first[owner]]]
+        vectors = np.cross(points, points[after]) if len(corners) else points
+        sums = np.column_stack([np.bincount(owner, axis, len(sizes)) for axis in vectors.T])
+        lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+        found: Doubles = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0)
+    return found
 
 
 def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
@@ -216,7 +286,7 @@ class Polygons:
     columns: tuple[Column, ...] = ()
     metadata: Metadata = field(default_factory=dict)
 
-    def checked(self, limits: Limits, received: int = 1 << 62) -> MeshFile:
+    def checked(self, limits: Limits, received: int = 1 << 62, cut: Cut | None = None) -> MeshFile:
         positions, sizes, corners = self.positions, self.sizes, self.corners
         require_count("vertices", len(positions), limits)
         triangles = int(np.maximum(sizes - 2, 0).sum())
@@ -238,7 +308,7 @@ class Polygons:
             notes.append(f"faces with fewer than three corners were left out: {int((sizes < 3).sum())}")
         if (sizes > 3).any():
             notes.append(f"{CUT}: {int((sizes > 3).sum())}")
-        places, owner, folded = triangulate(positions, sizes, corners)
+        places, owner, folded = (cut or triangulate)(positions, sizes, corners)
         if folded:
             notes.append(f"{CROSSING}: {folded}")
         finite = [_finite(column, notes) for column in self.columns]
@@ -271,6 +341,29 @@ class Part:
     columns: Sequence[Column]
     materials: Array
     name: str
+
+    def at_corners(self, column: Column) -> Column:
+        """Return a column as values of corners."""
+        faces = np.repeat(np.arange(len(self.sizes)), self.sizes)
+        known = {"vertex": self.corners, "face": faces, "corner": column.indices}
+        return replace(column, domain="corner", indices=known[column.domain])
+
+    def own_normals(self, name: str) -> Column:
+        values = compact(polygon_normals(self.positions, self.sizes, self.corners))
+        return self.at_corners(Column(name, values, "face", "normal"))
+
+    def without(self, faces: Ints) -> Part:
+        """Return the part without some of its polygons."""
+        kept = np.ones(len(self.sizes), np.bool_)
+        kept[faces] = False
+        of_corners = np.repeat(kept, self.sizes)
+        columns = [
+            c if c.domain == "vertex" else replace(c, values=c.values[kept]) if c.domain == "face"
+            else replace(c, indices=(np.arange(len(of_corners)) if c.indices is None else c.indices)[of_corners])
+            for c in self.columns
+        ]  # fmt: skip
+        sizes, corners, materials = self.sizes[kept], self.corners[of_corners], self.materials[kept]
+        return replace(self, sizes=sizes, corners=corners, materials=materials, columns=columns)
 
     def placed(self, matrix: Doubles) -> Part:
         """Return the part where a matrix moves it; mirrors turn its polygons around."""
@@ -381,6 +474,23 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         else:
             places[starts[polygon] : starts[polygon] + size - 2] = corner + cut
     return places, owner, crossing
+
+
+Cut = Callable[[Doubles, Ints, Ints], tuple[Ints, Ints, int]]
+
+
+class CutAlike:
+    """Cuts polygons as those of the mesh before were cut, if they have the same corners: frames share their faces."""
+
+    def __init__(self) -> None:
+        self._sizes, self._corners = np.zeros(0, np.int64), np.zeros(0, np.int64)
+        self._cut: tuple[Ints, Ints, int] | None = None
+
+    def __call__(self, positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:
+        same = np.array_equal(sizes, self._sizes) and np.array_equal(corners, self._corners)
+        if self._cut is None or not same:
+            self._sizes, self._corners, self._cut = sizes, corners, triangulate(positions, sizes, corners)
+        return self._cut
 
 
 def _ears(points: Doubles, normal: Doubles) -> Ints | None:

@@ -23,9 +23,10 @@ _UNKNOWN = (0, 0xFFFFFFFF)  # numbers of triangles by programs that did not know
 def is_text(head: bytes, size: int | None) -> bool:
     """Return whether an STL is text; binary files that begin with "solid" have zeros or the right size."""
     claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little") if len(head) >= HEAD else -1
-    if size == HEAD + RECORD.itemsize * claimed or head.removeprefix(BOM_UTF8).lstrip()[:5].lower() != b"solid":
+    if size == HEAD + RECORD.itemsize * claimed or b"\0" in head[:1024]:
         return False
-    return b"\0" not in head[:1024]
+    begins_so = head.removeprefix(BOM_UTF8).lstrip()[:5].lower() == b"solid"
+    return begins_so or re.search(rb"\b(facet\s+normal|outer\s+loop|vertex)\b", head, re.IGNORECASE) is not None
 
 
 def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
@@ -36,6 +37,8 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
     if size is None:
         return claimed, ""
     held, rest = divmod(size - HEAD, RECORD.itemsize)
+    if held < claimed and claimed not in _UNKNOWN and (kind := _other_kind(head)):
+        raise FormatError(f"this is not an STL file: it is {kind}; give it the right name, or name its format")
     if held < claimed and claimed not in _UNKNOWN:
         raise TruncatedError(
             f"the STL file is cut short (or not an STL file): its header claims {claimed} triangles, {held} are there"
@@ -44,6 +47,16 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
         beyond = size - HEAD - RECORD.itemsize * claimed
         return claimed, f"{beyond} bytes after the last triangle" if beyond else ""
     return held, f"the number of triangles in the header ({claimed}; by its size, the file has {held})"
+
+
+_OTHERS = {rb"\s*<(!doctype html|html)": "an HTML page", rb"\s*<\?xml": "XML", rb"PK\x03\x04": "a zip archive"}
+_OTHERS |= {rb"glTF": "a GLB", rb"ply\s": "a PLY", rb"ISO-10303": "a STEP file", rb"Kaydara": "an FBX"}
+_OTHERS |= {rb"(?:[^\0]*\n)?v[ \t]+[-\d.]": "an OBJ", rb"\s*\{": "JSON"}
+
+
+def _other_kind(head: bytes) -> str:
+    """Return the kind of a file that is called .stl and is none."""
+    return next((kind for begin, kind in _OTHERS.items() if re.match(begin, head[:1024], re.IGNORECASE)), "")
 
 
 def read_stl(data: bytes, limits: Limits) -> Polygons:
@@ -69,7 +82,9 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
 
 def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
     """The corners of a text, and its solids as groups, of which several may have the same name."""
-    data = data.replace(b"\r", b"\n")
+    data = re.sub(rb"(?i)\bend[ \t]+(solid|facet|loop)\b", rb"end\1", re.sub(rb"\r\n?", b"\n", data))
+    if re.search(rb"(?i)\b(outer[ \t]+loop[ \t]+vertex|endloop[ \t]+endfacet)\b", data):  # lines of several words
+        data = re.sub(rb"(?i)(?<=[ \t])((?:end)?facet|outer|(?:end)?loop|vertex)(?=\s)", rb"\n\1", data)
     lines = re.findall(rb"^[ \t]*vertex[ \t]+([^\r\n]*)", data, re.MULTILINE | re.IGNORECASE)
     marks = re.finditer(rb"^[ \t]*(?:(endfacet)|solid\b([^\r\n]*))", data, re.MULTILINE | re.IGNORECASE)
     names: list[str] = []
@@ -79,7 +94,7 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
             facets.append(len(names))
         else:
             names.append(text_of(mark[2]))
-    if len(lines) != 3 * len(facets) or (not re.search(rb"endsolid", data, re.IGNORECASE)):
+    if len(lines) != 3 * len(facets) or not (facets or re.search(rb"endsolid", data, re.IGNORECASE)):
         raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {len(facets)} finished triangles")
     used, of_facet = np.unique(np.array(facets, np.int64), return_inverse=True)
     called = [("", *names)[solid] for solid in used.tolist()]

@@ -3,6 +3,7 @@
 import glob
 import os
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -12,12 +13,13 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
-from bsm.bitstream.limits import Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
 from bsm.files.formats.metadata import Written
-from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.formats.polygons import CutAlike
+from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_cut, save_written, written_mesh
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import about, is_pipe, is_url
 
@@ -45,7 +47,7 @@ def frame_files(path: str) -> list[str]:
         names = [os.path.join(path, name) for name in os.listdir(path)]
     else:
         names = glob.glob(_PLACE.sub("*", path) if is_numbered(path) else path)
-    found = [name for name in names if format_of_name(name)]
+    found = [name for name in names if format_of_name(name) and not os.path.basename(name).startswith(".")]
     if not found:
         known = ", ".join(WRITTEN_FORMATS)
         raise FormatError(f"no mesh files in {path} ({known}); -r looks in the folders below, too")
@@ -59,7 +61,8 @@ def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
         return []
     names = frame_files(path)
     if len(names) > 1:
-        first, last = (read_mesh(name, file_format).mesh for name in (names[0], names[-1]))
+        cut = CutAlike()
+        first, last = (read_cut(name, file_format, DEFAULT_LIMITS, cut).mesh for name in (names[0], names[-1]))
         if first.positions.shape == last.positions.shape and np.array_equal(first.faces, last.faces):
             return []
     return names
@@ -68,6 +71,7 @@ def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
 def in_order(names: Sequence[str]) -> list[str]:
     ordered = sorted(names, key=_natural)
     _require_clear(ordered)
+    _require_one_series(ordered)
     numbers = _numbers(ordered)
     steps = np.diff(numbers)
     if len(steps) and steps.min() > 0 and (steps != steps.min()).any():
@@ -78,6 +82,20 @@ def in_order(names: Sequence[str]) -> list[str]:
             "add it, or number the files without a gap"
         )
     return ordered
+
+
+def _require_one_series(ordered: Sequence[str]) -> None:
+    """Refuse two files for one frame, and two series of frames; names that are alike but for numbers are one."""
+    stems = [str(Path(name).with_suffix("")) for name in ordered]
+    counts = Counter(stems)
+    if twice := [name for name, stem in zip(ordered, stems, strict=True) if counts[stem] > 1][:2]:
+        raise MeshError(f"{twice[0]} and {twice[1]} are two files for one frame; name the files of one format")
+    series: dict[str, list[str]] = {}
+    for name, stem in zip(ordered, stems, strict=True):
+        series.setdefault(_DECIMALS.sub("#", os.path.basename(stem)), []).append(name)
+    if len(series) > 1 and all(len(names) > 1 for names in series.values()):
+        those = " and ".join(common_name(names) for names in [*series.values()][:2])
+        raise MeshError(f"these files are {len(series)} series of frames, {those}; name the files of one, as a pattern")
 
 
 def _require_clear(ordered: Sequence[str]) -> None:
@@ -134,10 +152,12 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
 def read_files(names: Sequence[str], file_format: str | None, limits: Limits, *, runs: bool = False) -> Frames:
     """The frames in files, each read when it is asked for; with `runs`, their faces may change."""
 
+    cut = CutAlike()
+
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
             try:
-                return read_mesh(names[number], file_format, limits).mesh
+                return read_cut(names[number], file_format, limits, cut).mesh
             except NoFacesError as error:
                 if runs:
                     return empty_frame()

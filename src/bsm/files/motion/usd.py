@@ -22,6 +22,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, empty_frame, is_empty
+from bsm.files import conventions
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import START, STEP, TIMES, USUAL_RATE, Frames, Shared, Wanted, between, painted_like
@@ -72,14 +73,14 @@ class Materials:
             numbers[numbers < 0] = self._number(prim)
         return numbers
 
-    def metadata(self, most: int) -> tuple[dict[str, formats.Value], list[str]]:
+    def metadata(self, limits: Limits) -> tuple[dict[str, formats.Value], list[str]]:
         """Return the metadata of all materials found, with images of limited size, and notes on missing images."""
         entries = formats.described({number: dict(words) for words, number in self._known.items()})
         names = {f"image.{number}.name": name for name, number in self._images.items()}
         if not zipfile.is_zipfile(self._path):
-            return formats.fetched({**entries, **names}, formats.Beside(Path(self._path).parent, most).read)
+            return formats.fetched({**entries, **names}, formats.Beside(Path(self._path).parent, limits).read)
         with zipfile.ZipFile(self._path) as package:
-            return formats.fetched({**entries, **names}, lambda name: _packed(package, name, most))
+            return formats.fetched({**entries, **names}, lambda name: _packed(package, name, limits.frame_bytes))
 
     def _bound(self, prim: Any) -> Any:
         return self._shade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
@@ -106,8 +107,15 @@ class Materials:
                 words[painted] = self._images.setdefault(str(image.path), len(self._images))
             if name == "diffuseColor":
                 values[name] = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
+        opacity, cut = (
+            self._value(surface, name, 1) or [usual] for name, usual in (("opacity", 1.0), ("opacityThreshold", 0.0))
+        )
+        if opacity != [1.0] and values["diffuseColor"] is None:
+            values["diffuseColor"] = [0.18] * 3  # as UsdPreviewSurface has it
         if color := values["diffuseColor"]:
-            color += self._value(surface, "opacity", 1) or [1.0]
+            color += opacity
+        if cut[0] > 0 or opacity[0] < 1 or self._texture(surface, "opacity") is not None:
+            words["alphaMode"] = "MASK" if cut[0] > 0 else "BLEND"
         found = {known: (values[name], _USUAL.get(name)) for name, (_, known, _) in _INPUTS.items() if known}
         return words | {known: _text(value) for known, (value, usual) in found.items() if value and value != usual}
 
@@ -200,9 +208,12 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
 
     surface = shader("surface", _SURFACE)
     material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
-    factor = words.get("baseColorFactor")
-    if factor is not None and factor[3] < 1.0:
+    factor, mode = words.get("baseColorFactor"), words.get("alphaMode", "OPAQUE")
+    written.add("alphaMode")
+    if factor is not None and factor[3] < 1.0 and mode != "OPAQUE":
         surface.CreateInput("opacity", types.Float).Set(factor[3])
+    if mode == "MASK" and "alphaCutoff" not in words:
+        surface.CreateInput("opacityThreshold", types.Float).Set(0.5)
     for name, (kind, known, painted) in _INPUTS.items():
         value: Any = words.get(known)
         image = images.get(words.get(painted, -1))
@@ -230,6 +241,9 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
         if name in ("normal", "occlusion"):
             texture.CreateInput("sourceColorSpace", types.Token).Set("raw")
         given.ConnectToSource(texture.ConnectableAPI(), "r" if kind == "Float" else "rgb")
+        if name == "diffuseColor" and mode != "OPAQUE":
+            texture.GetInput("scale").Set(pxr.Gf.Vec4f(*factor)) if factor is not None else None
+            surface.CreateInput("opacity", types.Float).ConnectToSource(texture.ConnectableAPI(), "a")
     return written
 
 
@@ -239,7 +253,6 @@ PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
 _OPENING, _CLOSING = ([ord(bracket) for bracket in brackets] for brackets in ("([{", ")]}"))
 _PIECE = 1 << 18
-_UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
 
 
 def import_usd() -> Any:
@@ -266,6 +279,19 @@ class _Shape:
         self.left_handed = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
         self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": faces, "corner": corners}
         self.left_out: list[str] = ["normals"] if mesh.GetNormalsAttr().HasAuthoredValue() else []
+        scheme = str(mesh.GetSubdivisionSchemeAttr().Get())
+        if scheme != "none" and mesh.GetSubdivisionSchemeAttr().HasAuthoredValue():
+            self.left_out.append(f"subdivision ({scheme}; the mesh is its cage)")
+        creased = mesh.GetCreaseIndicesAttr().Get(time) or mesh.GetCornerIndicesAttr().Get(time)
+        self.left_out += ["creases"] if creased else []
+        self._primvars = [
+            p for p in pxr.UsdGeom.PrimvarsAPI(prim).FindPrimvarsWithInheritance() if p.HasAuthoredValue()
+        ]
+        self.frozen = [
+            str(primvar.GetPrimvarName())
+            for primvar in self._primvars
+            if primvar.ValueMightBeTimeVarying() and primvar.GetAttr() not in self.painted
+        ]
 
     @cached_property
     def counts(self) -> Ints:
@@ -280,26 +306,45 @@ class _Shape:
 
     @cached_property
     def columns(self) -> list[shapes.Column]:
-        return list(self._columns())
+        """The primvars that a mesh has; a displayOpacity is the fourth number of the displayColor."""
+        found = {column.name: column for column in self._columns()}
+        color, opacity = (found.get(name) for name in _SHADES.values())
+        if color is not None and opacity is not None and color.domain == opacity.domain and color.semantic == "color":
+            rows = [c.values if c.indices is None else c.values[c.indices] for c in (color, opacity)]
+            shades = np.hstack([conventions.shares_of(rows[0][:, :3]), rows[1]])
+            indices = None if color.indices is None else np.arange(len(shades))
+            found[color.name] = replace(
+                color, values=conventions.srgb_colors(conventions.to_linear(shades)), indices=indices
+            )
+            del found[opacity.name]
+        return [*found.values()]
 
     @property
     def painted(self) -> list[Any]:
         """The primvars of vertices that change."""
-        found = self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars()
-        at_vertices = (primvar.GetAttr() for primvar in found if _DOMAINS.get(primvar.GetInterpolation()) == "vertex")
-        return [attr for attr in at_vertices if attr.GetNumTimeSamples() > 1]
+        at_vertices = (p for p in self._primvars if _DOMAINS.get(p.GetInterpolation()) == "vertex")
+        moving = (p.GetAttr() for p in at_vertices if not str(p.GetTypeName()).startswith("texCoord"))
+        return [attr for attr in moving if attr.GetNumTimeSamples() > 1]
+
+    @cached_property
+    def holes(self) -> Ints:
+        """The faces that are holes."""
+        found = np.array(self._pxr.UsdGeom.Mesh(self.prim).GetHoleIndicesAttr().Get(self.time) or [], np.int64)
+        return found[(found >= 0) & (found < self.rows["face"])]
 
     def _columns(self) -> Iterator[shapes.Column]:
-        for primvar in self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars():
+        for primvar in self._primvars:
             name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
             domain = _DOMAINS.get(primvar.GetInterpolation())
             value = primvar.Get(self.time)
             if value is None:
                 continue
             self.left_out.append(name)
+            values = np.array(value)
+            if primvar.GetInterpolation() == "constant" and name in _SHADES and len(values) == 1:
+                domain, values = "vertex", np.repeat(values, self.vertices, axis=0)
             if domain is None or not kind.endswith("[]") or name == "normals":
                 continue
-            values = np.array(value)
             values = values[:, None] if values.ndim == 1 else values
             if values.dtype.kind not in "iuf" or values.ndim != 2 or values.shape[1] > MOST_COMPONENTS:
                 continue
@@ -373,6 +418,7 @@ class _Part:
         found = [time for attr in (self.shape.points, *self.shape.painted) for time in attr.GetTimeSamples()]
         found += self.instance[0].times if self.instance else []
         for prim in (self.prim, self.instance[0].prim) if self.instance else (self.prim,):
+            found += _times_of_visibility(geom, prim)
             while prim and not prim.IsPseudoRoot():
                 found += geom.Xformable(prim).GetTimeSamples() if prim.IsA(geom.Xformable) else []
                 prim = prim.GetParent()
@@ -390,7 +436,7 @@ class _Part:
 
     def at(self, time: Any, cache: Any) -> Doubles:
         shape, when = self.shape, f"at time {time.GetValue():g}"
-        points = np.array(shape.points.Get(time), np.float64).reshape(-1, 3)
+        points = np.array(shape.points.Get(time) or (), np.float64).reshape(-1, 3)
         arrays = (("counts", shape.counts_attr, shape.counts), ("corners", shape.corners_attr, shape.corners))
         for name, attr, known in arrays:
             if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(time), np.int64), known):
@@ -404,17 +450,40 @@ class _Part:
             return points @ matrix[:3, :3] + matrix[3, :3]
 
 
+_SHADES = {"displayColor": "color", "displayOpacity": "displayOpacity"}
 _DOMAINS: dict[str, Domain] = {"vertex": "vertex", "varying": "vertex", "uniform": "face", "faceVarying": "corner"}
 
 
 def _meant(name: str, kind: str, values: shapes.Array) -> tuple[str, shapes.Array, Semantic]:
     """The name of a primvar as an attribute, its values, and their meaning."""
     if kind.startswith(("color3", "color4")):
-        model = shapes.color_column(values.astype(np.float64), "vertex")
-        return "color" if name == "displayColor" else name, model.values, model.semantic
+        name = _SHADES.get(name, name)
+        in_range = values.size and 0 <= values.min() <= values.max() <= 1
+        return (name, conventions.srgb_colors(values), "color") if in_range else (name, values, "generic")
     if kind.startswith("texCoord2") or (name in ("st", "uv", "UVMap") and values.shape[1] == 2):
         return "texcoord" if name in ("st", "UVMap") else name, values, "texcoord"
     return name, values, "generic"
+
+
+def _times_of_visibility(geom: Any, prim: Any) -> list[float]:
+    """The times at which a prim may appear or vanish, in order."""
+    found: set[float] = set()
+    while prim and not prim.IsPseudoRoot():
+        attr = geom.Imageable(prim).GetVisibilityAttr()
+        found.update(attr.GetTimeSamples() if attr and attr.ValueMightBeTimeVarying() else ())
+        prim = prim.GetParent()
+    return sorted(found)
+
+
+@contextmanager
+def _quiet(pxr: Any) -> Iterator[None]:
+    """Keep usd-core from writing what notes say, where it can be told to."""
+    if not hasattr(pxr.Tf, "DiagnosticTrap"):
+        yield
+        return
+    with pxr.Tf.DiagnosticTrap() as trap:
+        yield
+        trap.Clear()
 
 
 def _require_room(path: str, limits: Limits) -> None:
@@ -447,12 +516,13 @@ def _require_shallow(file: IO[bytes], received: int, limits: Limits) -> None:
 
 
 class _Stage:
-    def __init__(self, path: str, limits: Limits) -> None:
-        self._limits, self._size = limits, os.path.getsize(path)
+    def __init__(self, path: str, limits: Limits, *, runs: bool = False) -> None:
+        self._limits, self._size, self._runs = limits, os.path.getsize(path), runs
         self.pxr = pxr = import_usd()
         _require_room(path, limits)
         try:
-            self.stage = pxr.Usd.Stage.Open(path)
+            with _quiet(pxr):
+                self.stage = pxr.Usd.Stage.Open(path)
         except Exception as error:  # of the library's own kind
             raise FormatError(f"usd-core cannot read this file: {str(error).strip().splitlines()[-1]}") from error
         if any(prim.IsA(pxr.UsdSkel.Root) for prim in self.stage.Traverse()):
@@ -460,8 +530,10 @@ class _Stage:
             self.stage.SetEditTarget(self.stage.GetSessionLayer())
             pxr.UsdSkel.BakeSkinning(self.stage.Traverse())
         self._materials = Materials(pxr, path)
-        self.notes: list[str] = []
-        self.parts = list(self._parts())
+        lost = [" ".join(str(error).split()) for error in self.stage.GetCompositionErrors()]
+        self.notes: list[str] = [f"left out, a layer or reference: {text[:200]}" for text in lost[:MOST_NAMED]]
+        with _quiet(pxr):
+            self.parts = list(self._parts())
         if not self.parts:
             raise FormatError("this stage has no meshes" + "".join(f"; {note}" for note in self.notes))
 
@@ -488,6 +560,7 @@ class _Stage:
     def _placed(self) -> Iterator[tuple[Any, _Instance | None]]:
         """Yield the visible meshes, and the instances of instancers."""
         pxr, left = self.pxr, dict[str, list[str]]()
+        self.blinking: list[str] = []
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
         for count, prim in enumerate(every):
             if count == MOST_PRIMS:
@@ -504,6 +577,14 @@ class _Stage:
                 yield from instancer.instances()
             elif prim.IsA(pxr.UsdGeom.Mesh):
                 yield prim, None
+            elif (
+                prim.IsA(pxr.UsdGeom.Gprim) or prim.IsA(pxr.UsdGeom.Camera) or str(prim.GetTypeName()).endswith("Light")
+            ):
+                left.setdefault(f"{prim.GetTypeName()}, which is not a mesh", []).append(str(prim.GetPath()))
+        if self.blinking and not self._runs:
+            self.notes.append(
+                f"these vanish, and are always shown; --runs lets them: {', '.join(self.blinking[:MOST_NAMED])}"
+            )
         self.notes += [f"left out, {why}: {', '.join(paths[:MOST_NAMED])}" for why, paths in left.items()]
 
     def _hidden(self, prim: Any) -> str:
@@ -511,10 +592,19 @@ class _Stage:
         geom = self.pxr.UsdGeom
         if not (prim.IsA(geom.Mesh) or prim.IsA(geom.PointInstancer)):
             return ""
-        seen = geom.Imageable(prim)
-        if seen.ComputeVisibility(self.pxr.Usd.TimeCode.EarliestTime()) == geom.Tokens.invisible:
-            return "hidden"
-        return "guides" if seen.ComputePurpose() == geom.Tokens.guide else ""
+        if geom.Imageable(prim).ComputePurpose() == geom.Tokens.guide:
+            return "guides"
+        times = _times_of_visibility(geom, prim)
+        first = self.pxr.Usd.TimeCode.EarliestTime()
+        shown = any(self.seen(prim, time) for time in (times if self._runs else ()) or [first.GetValue()])
+        if times and shown:
+            self.blinking.append(str(prim.GetPath()))
+        return "" if shown else "hidden" if not times or self._runs else "they appear later (--runs)"
+
+    def seen(self, prim: Any, time: float) -> bool:
+        """Return whether a prim is visible at a time."""
+        geom, code = self.pxr.UsdGeom, self.pxr.Usd.TimeCode(time)
+        return bool(geom.Imageable(prim).ComputeVisibility(code) != geom.Tokens.invisible)
 
     @property
     def times(self) -> list[float]:
@@ -533,12 +623,17 @@ class _Stage:
     @property
     def changes(self) -> bool:
         attrs = (attr for part in self.parts for attr in (part.shape.counts_attr, part.shape.corners_attr))
-        return any(attr.GetNumTimeSamples() > 1 for attr in attrs)
+        return bool(self.blinking) or any(attr.GetNumTimeSamples() > 1 for attr in attrs)
 
     def mesh(self, time: float) -> shapes.MeshFile:
         """The mesh at a time, with everything; polygons are cut into triangles."""
         geom, code, materials = self.pxr.UsdGeom, self.pxr.Usd.TimeCode(time), self._materials
         cache = geom.XformCache(code)
+        parts = self.parts
+        if self._runs and self.blinking:
+            parts = [part for part in parts if self.seen(part.instance[0].prim if part.instance else part.prim, time)]
+            if not parts:
+                raise NoFacesError(f"nothing is visible at time {time:g}")
 
         def made(part: Any) -> shapes.Part:
             shape = part.shape
@@ -547,16 +642,19 @@ class _Stage:
             columns = [c if c.indices is None else replace(c, indices=c.indices[order]) for c in shape.columns]
             numbers = materials.of_faces(part.prim, len(shape.counts), shape.time)
             corners, name = shape.corners[order], part.name if len(self.parts) > 1 else part.prim.GetName()
-            return shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name)
+            whole = shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name)
+            return whole.without(shape.holes) if len(shape.holes) else whole
 
-        counts = [(part.shape.vertices, max(part.shape.triangles, 0)) for part in self.parts]
-        found = shapes.joined_parts(map(made, self.parts), counts, self._limits, 1 << 62)  # parts were checked
+        counts = [(part.shape.vertices, max(part.shape.triangles, 0)) for part in parts]
+        found = shapes.joined_parts(map(made, parts), counts, self._limits, 1 << 62)  # parts were checked
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
-        of_materials, absent = materials.metadata(self._limits.metadata_bytes)
-        metadata = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m"), **found.metadata, **of_materials}
+        of_materials, absent = materials.metadata(self._limits)
+        metadata = {"up": up, "unit": conventions.unit_named(unit), **found.metadata, **of_materials}
         left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out)
         notes = [*found.notes, *absent, *self.notes]
+        if frozen := dict.fromkeys(name for part in self.parts for name in part.shape.frozen):
+            notes.append(f"{', '.join(frozen)}: as the first frame has them, for they are not values of vertices")
         notes += [f"left out, face sets without a material: {', '.join(materials.sets)}"] if materials.sets else []
         return replace(found, notes=tuple(notes), dropped=tuple(left), metadata=metadata).checked(self._limits)
 
@@ -564,7 +662,7 @@ class _Stage:
 @as_format_error("stage")
 def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:
     """The frames of a stage, sampled at its rate or the one that is wanted; None if nothing moves."""
-    stage = _Stage(path, limits)
+    stage = _Stage(path, limits, runs=wanted.runs)
     times = stage.times
     if len(times) < 2:
         return None
@@ -577,7 +675,12 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
     require_count("frames", count, limits)
-    still = stage.mesh(first)
+    try:
+        still = stage.mesh(first)
+    except NoFacesError:
+        if not wanted.runs:
+            raise
+        still = shapes.MeshFile(empty_frame())
     every = [first + number * codes / rate for number in range(count)]
     samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
     off = between("time samples", samples, rate)
@@ -688,10 +791,12 @@ def _begun(
     mesh.CreateFaceVertexIndicesAttr().Set(first.faces.reshape(-1))
     mesh.CreatePointsAttr()
     mesh.CreateExtentAttr()
+    if str(metadata.get("up")).lower() == "x":  # which stages cannot have
+        mesh.AddRotateZOp().Set(90.0)
     materials, written = write_materials(pxr, mesh, first, images)
     shared.loses(attribute.name for attribute in _others(first, materials) if not _written(pxr, mesh, attribute))
     written |= {"up", "name", "frame_rate", START, STEP, TIMES} | ({"unit"} if size else set())
-    shared.loses(name for name in first.metadata if name not in written)
+    shared.loses(formats.in_words((name for name in first.metadata if name not in written), first.metadata))
     return mesh, materials
 
 
@@ -717,9 +822,16 @@ def _written(pxr: Any, mesh: Any, attribute: Attribute, time: float = _NO_TIME) 
     if attribute.semantic == "color":
         if width < 3:
             return False
-        whole = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}
-        values = values[:, :3] / whole.get(attribute.values.dtype, 1.0)
-        name, kind = ("displayColor" if attribute.name == "color" else name), "Color3fArray"
+        linear = conventions.to_linear(conventions.shares_of(attribute.values)).astype(np.float32)
+        values, name, kind = linear[:, :3], "displayColor" if attribute.name == "color" else name, "Color3fArray"
+        if width == 4 and (
+            attribute.name != "color"
+            or (linear[:, 3] < 1).any()
+            or pxr.UsdGeom.PrimvarsAPI(mesh).HasPrimvar("displayOpacity")
+        ):
+            opacity = replace(attribute, name="displayOpacity", values=linear[:, 3:], semantic="generic")
+            if attribute.name != "color" or not _written(pxr, mesh, opacity, time):
+                return False
     elif attribute.semantic == "texcoord" and width == 2:
         name, kind = (_COORDINATES if attribute.name == "texcoord" else name), "TexCoord2fArray"
     elif (values == attribute.values).all():

@@ -1,0 +1,141 @@
+"""The table of conventions: what each format takes numbers for, which its reader fills in and its writer obeys.
+
+The numbers of a mesh are right-handed coordinates, in the unit and with the axis that its metadata name ("unit",
+"up"), colors in sRGB with an opacity from 0 to 1, and texture coordinates from the bottom. Materials keep the words of
+their file: colors are sRGB under the words of MTL, and linear under those of glTF and USD, which have the alphaMode as
+well. "frame_start", "frame_step" and "frame_times" say when the frames of a sequence are shown.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.codec.geometry.mesh import Metadata
+from bsm.lengths import metres
+
+Array = npt.NDArray[Any]
+Doubles = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Convention:
+    """The meaning of numbers in a format: a value for all files, "named" by each file, or "" (not said)."""
+
+    unit: str = ""
+    up: str = ""
+    colors: str = "sRGB"
+    origin: str = "bottom"  # of texture coordinates
+    opacity: str = ""
+    times: str = ""
+
+
+FORMATS: Mapping[str, Convention] = {
+    "glb": Convention("meters", "y", "linear", "top", "alphaMode", "seconds"),
+    "usd": Convention("named", "named", "linear", "bottom", "opacity", "codes"),
+    "3mf": Convention("named", "z"),
+    "dae": Convention("named", "named", opacity="transparent"),
+    "obj": Convention(opacity="d"),
+    "vtp": Convention(times="TimeValue"),
+    "mdd": Convention(times="seconds"),
+    "pc2": Convention(times="codes"),
+    **dict.fromkeys(("ply", "off", "stl", "npz"), Convention()),
+    "tileset": Convention("meters", "z", "linear", "top", "alphaMode"),
+}
+_UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
+_TO_Y = {
+    "y": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    "x": ((0, -1, 0), (1, 0, 0), (0, 0, 1)),
+    "z": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
+}
+"""The rotations that turn the axis that a mesh calls up to y."""
+
+
+def unit_named(size: float) -> str:
+    """Return the name of a unit of so many meters, as in metadata."""
+    return _UNITS.get(round(size, 9), f"{size:.9g} meters")
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """A factor and a rotation from coordinates of a mesh to those of a format, and the metadata that these express."""
+
+    scale: float
+    turn: Doubles
+    held: frozenset[str]
+
+    @property
+    def matrix(self) -> Doubles:
+        return self.scale * self.turn
+
+
+def placement(metadata: Metadata, kind: str) -> Placement:
+    """Return the placement for a format; a mesh without a known unit or axis is taken to have those of the format."""
+    given, target = str(metadata.get("up", "")).lower(), FORMATS[kind].up
+    known = given in ("x", "y", "z")
+    turn = np.array(_TO_Y[given] if known else _TO_Y[target], np.float64)
+    turn = np.array(_TO_Y[target], np.float64).T @ turn
+    own, wanted = metres(str(metadata.get("unit", ""))), metres(FORMATS[kind].unit)
+    held = {name for name, holds in (("up", known), ("unit", own is not None and wanted is not None)) if holds}
+    return Placement(own / wanted if own and wanted else 1.0, turn, frozenset(held))
+
+
+# -------------------------------------------------------------------------------------------------------------- colors
+
+_WORD = 65535.0
+
+
+def to_linear(shares: Array) -> Doubles:
+    """Return the linear values of colors in sRGB; a fourth column is an opacity, which stays."""
+    return _curved(shares, lambda c: np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4))
+
+
+def to_srgb(shares: Array) -> Doubles:
+    """Return linear colors in sRGB; a fourth column is an opacity, which stays."""
+    return _curved(
+        shares, lambda c: np.where(c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055)
+    )
+
+
+def _curved(shares: Array, curve: Callable[[Doubles], Doubles]) -> Doubles:
+    found = np.array(shares, np.float64)
+    found[..., :3] = curve(found[..., :3])
+    return found
+
+
+def linear_colors(colors: Array) -> Array:
+    """Return the colors of a mesh in numbers that `srgb_colors` makes the same ones of, as few as possible."""
+    linear = to_linear(shares_of(colors))
+    if colors.dtype == np.uint8:
+        return np.rint(linear * _WORD).astype(np.uint16)
+    narrow = np.rint(linear.clip(0.0, 1.0) * 255).astype(np.uint8)
+    same = colors.dtype == np.uint16 and np.array_equal(srgb_colors(narrow), colors)
+    found: Array = narrow if same else linear.astype(np.float32)
+    return found
+
+
+def srgb_colors(colors: Array) -> Array:
+    """Return linear colors as those of a mesh: as bytes where bytes become these colors, or else as words or floats."""
+    linear = shares_of(colors)
+    shares = to_srgb(linear)
+    bytes_ = np.rint(shares.clip(0.0, 1.0) * 255)
+    if colors.size and np.abs(to_linear(bytes_ / 255) - linear).max() <= 0.51 / _WORD:
+        found: Array = bytes_.astype(np.uint8)
+    elif colors.dtype == np.uint8:
+        found = np.rint(shares * _WORD).astype(np.uint16)
+    else:
+        found = shares.astype(np.float32)
+    return found
+
+
+def shares_of(colors: Array) -> Doubles:
+    """Return floats as they are, and whole numbers as shares of their largest one."""
+    found: Doubles = colors / np.float64(1 if colors.dtype.kind == "f" else np.iinfo(colors.dtype).max)
+    return found
+
+
+def converted(words: Iterable[float], *, linear: bool) -> str:
+    """Return the color of a material, and its opacity, as linear values, or those as sRGB."""
+    return " ".join(f"{number:.6g}" for number in (to_linear if linear else to_srgb)(np.array([*words])).tolist())

@@ -1,0 +1,185 @@
+"""What is written acts in other programs: size, up, opacity, colors; parts that differ are joined without a loss."""
+
+import itertools
+import json
+import struct
+
+import numpy as np
+import pytest
+
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.cli import main
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.conventions import placement, unit_named
+from bsm.files.formats.metadata import as_gltf, as_mtl, in_words, scale_and_offset
+from bsm.files.formats.polygons import Column, Part, joined_parts
+from bsm.files.mesh import read_mesh, written_mesh
+from bsm.lengths import metres
+
+TRIANGLE = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 3]], float)
+
+
+def tree_of(data):
+    return json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
+
+
+@pytest.mark.parametrize("up", ["x", "y", "z"])
+@pytest.mark.parametrize("unit", ["mm", "inches", "0.5 m", "0.01 * meters", "meters", ""])
+def test_a_glb_has_the_size_in_meters_and_y_up(unit, up, tmp_path):
+    metadata = {"up": up, **({"unit": unit} if unit else {})}
+    written = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], (), metadata), "glb")
+    trimesh = pytest.importorskip("trimesh")
+    (tmp_path / "a.glb").write_bytes(written.data)
+    size = metres(unit) if unit else 1.0
+    upward = size * np.ptp(TRIANGLE[:, "xyz".index(up)])
+    assert trimesh.load(tmp_path / "a.glb", process=False).extents[1] == pytest.approx(upward, rel=1e-6)
+    again = read_mesh(tmp_path / "a.glb").mesh
+    assert np.ptp(again.positions, axis=0)[1] == pytest.approx(upward, rel=1e-6)
+    assert (again.metadata["unit"], again.metadata["up"]) == ("meters", "y") and written.left_out == ()
+
+
+def test_a_unit_that_is_unknown_is_kept_and_changes_no_size():
+    assert metres("furlong") is None and placement({"unit": "furlong"}, "glb").scale == 1.0
+    assert unit_named(0.001) == "millimeters" and metres(unit_named(0.0123)) == pytest.approx(0.0123)
+
+
+@pytest.mark.parametrize(
+    ("words", "opacity", "mode"),
+    [
+        ({"Kd": "0 1 0", "d": "0.3"}, 0.3, "BLEND"),
+        ({"Tr": "0.7"}, 0.3, "BLEND"),
+        ({"Kd": "0 1 0"}, 1.0, None),
+        ({"map_Kd": 0, "map_d": 0}, None, "BLEND"),
+        ({"Kd": "1 1 1", "map_d": 0}, 1.0, None),
+        ({"baseColorFactor": "1 1 1 0.5", "alphaMode": "OPAQUE"}, 0.5, "OPAQUE"),
+    ],
+)
+def test_opacity_acts(words, opacity, mode):
+    found = as_gltf(words)
+    assert found.get("alphaMode") == mode
+    if opacity is not None:
+        assert float(found["baseColorFactor"].split()[3]) == pytest.approx(opacity)
+
+
+def test_colors_of_materials_are_linear_in_gltf_and_srgb_in_mtl():
+    words = as_gltf({"Kd": "0.501961 0 1", "Ke": "0.501961 0 0"})
+    assert words["baseColorFactor"].split()[0] == words["emissiveFactor"].split()[0] == "0.215861"
+    again = as_mtl(words)
+    assert float(again["Kd"].split()[0]) == float(again["Ke"].split()[0]) == pytest.approx(0.501961, abs=2e-6)
+    assert "d" not in as_mtl({"baseColorFactor": "1 1 1 0.5", "alphaMode": "OPAQUE"})
+    assert as_mtl({"baseColorFactor": "1 1 1 0.5"})["d"] == "0.5"
+
+
+def test_vertices_that_are_transparent_blend():
+    shades = Attribute("color", np.array([[255, 0, 0, 128]] * 3, np.uint8), semantic="color")
+    data = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], [shades]), "glb").data
+    assert tree_of(data)["materials"] == [{"alphaMode": "BLEND"}]
+    again = read_mesh(data, "glb").mesh
+    assert again.attributes[0].values[0].tolist() == [255, 0, 0, 128]
+    opaque = data.replace(b'"BLEND"', b'"MASK" ')
+    assert read_mesh(opaque, "glb").mesh.metadata["material.0.alphaMode"] == "MASK"
+
+
+def test_options_of_images_and_words_for_what_is_lost():
+    assert (
+        scale_and_offset("-s 2 3 1 -o 0.5 0.25") == ((2.0, 3.0), (0.5, 0.25)) and scale_and_offset("-clamp on") is None
+    )
+    metadata = {"material.0.name": "Glass", "material.0.d": "0.3", "material.1.d": "0.5", "image.0.name": "oak.png"}
+    assert in_words([*metadata], metadata) == [
+        "the image oak.png",
+        "name, opacity of material Glass",
+        "opacity of material 1",
+    ]
+
+
+SHADES = {3: np.array([[10, 20, 30]] * 3, np.uint8), 4: np.array([[10, 20, 30, 40]] * 3, np.uint8)}
+
+
+def part(*columns):
+    return Part(TRIANGLE, np.array([3]), np.arange(3), columns, np.zeros(1, np.int64), "")
+
+
+def joined(*parts):
+    found = joined_parts(parts, [(3, 1)] * len(parts), DEFAULT_LIMITS, 1 << 20).checked(DEFAULT_LIMITS)
+    return {attribute.name: attribute for attribute in found.mesh.attributes}, found.notes
+
+
+@pytest.mark.parametrize("widths", [*itertools.product((3, 4), repeat=2)])
+def test_colors_of_three_and_of_four_numbers_are_joined(widths):
+    found, notes = joined(*(part(Column("color", SHADES[width], "vertex", "color")) for width in widths))
+    expected = [SHADES[width][0].tolist() + [255] * (max(widths) - width) for width in widths]
+    assert found["color"].values[[0, 3]].tolist() == expected and len(notes) == 1
+
+
+@pytest.mark.parametrize("widths", [(2, 3), (1, 4), (3, 2)])
+def test_values_of_other_widths_stay_apart(widths):
+    tables = [np.full((3, width), 7.0, np.float32) for width in widths]
+    found, notes = joined(*(part(Column("W", table)) for table in tables), part())
+    assert found["W"].values[0].tolist() == [7] * widths[0]
+    assert found[f"W_{widths[1]}"].values[3].tolist() == [7] * widths[1]
+    assert any(f"W has {widths[0]} numbers in some parts and {widths[1]} in others" in note for note in notes)
+    assert "parts without W were given zeros: 1" in notes
+
+
+def test_parts_without_normals_get_those_of_their_faces():
+    slanted = np.tile([0.6, 0.8, 0.0], (3, 1))
+    found, notes = joined(part(Column("normal", slanted, semantic="normal")), part())
+    normals = found["normal"].values[found["normal"].indices]
+    flat = np.cross(TRIANGLE[1] - TRIANGLE[0], TRIANGLE[2] - TRIANGLE[0])
+    assert normals[0] == pytest.approx(slanted) and normals[1] == pytest.approx(
+        np.tile(flat / np.linalg.norm(flat), (3, 1))
+    )
+    assert "parts without normals were given those of their faces: 1" in notes
+
+
+def test_usd_has_linear_colors_opacity_holes_and_parts_that_come_and_go(tmp_path):
+    pytest.importorskip("pxr")
+    stage = """#usda 1.0
+(
+    metersPerUnit = 0.01
+    upAxis = "Z"
+    startTimeCode = 0
+    endTimeCode = 2
+)
+def Xform "W" {
+color3f[] primvars:displayColor = [(0.2158605, 0, 1)] (interpolation = "constant")
+def Mesh "a" {
+int[] faceVertexCounts = [3, 3]
+int[] faceVertexIndices = [0, 1, 2, 0, 2, 3]
+int[] holeIndices = [1]
+point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+}
+def Mesh "b" {
+int[] faceVertexCounts = [3]
+int[] faceVertexIndices = [0, 1, 2]
+point3f[] points.timeSamples = {0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], 2: [(0, 0, 1), (1, 0, 1), (0, 1, 1)]}
+token visibility.timeSamples = {0: "invisible", 1: "inherited"}
+}
+def Cube "c" {}
+}
+"""
+    (tmp_path / "a.usda").write_text(stage)
+    read = read_mesh(tmp_path / "a.usda")
+    assert len(read.mesh.faces) == 1 and read.mesh.metadata["unit"] == "centimeters"
+    (color,) = (a for a in read.mesh.attributes if a.name == "color")
+    assert color.values.tolist() == [[128, 0, 255]] * 4
+    assert any("Cube, which is not a mesh: /W/c" in note for note in read.notes)
+    assert any("they appear later (--runs): /W/b" in note for note in read.notes)
+    from bsm.files.motion.frames import Wanted
+    from bsm.files.sequence import open_sequence
+
+    frames = open_sequence(str(tmp_path / "a.usda"), None, Wanted(runs=True))
+    assert [len(mesh.faces) for mesh in frames.meshes] == [1, 2, 2]
+
+
+def test_tiles_keep_the_unit_and_the_axis(tmp_path):
+    mesh = TriangleMesh(10 * TRIANGLE, [[0, 1, 2]], (), {"unit": "mm", "up": "y"})
+    (tmp_path / "a.ply").write_bytes(written_mesh(mesh, "ply").data)
+    assert main(["tile", str(tmp_path / "a.ply"), "-o", str(tmp_path / "t"), "--tileset", "--grid-cell", "0.25"]) == 0
+    tree = json.loads((tmp_path / "t" / "tileset.json").read_text())["root"]
+    matrix = np.array(tree["transform"]).reshape(4, 4).T
+    center = matrix @ [*tree["boundingVolume"]["box"][:3], 1]
+    assert center[:3] == pytest.approx([0.005, -0.015, 0.01], abs=1e-6)
+    assert main(["untile", str(tmp_path / "t"), "-o", str(tmp_path / "b.ply")]) == 0
+    assert {**read_mesh(tmp_path / "b.ply").mesh.metadata} == {"unit": "mm", "up": "y"}
