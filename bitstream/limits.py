@@ -15,6 +15,7 @@ from bsm.bitstream.errors import (
     LimitError,
     NumericError,
     OptionError,
+    TargetError,
     TruncatedError,
     UnsupportedError,
     public,
@@ -200,6 +201,7 @@ _REFUSALS: dict[int, type[BsmError]] = {
     5: UnsupportedError,
     6: LimitError,
     7: NumericError,
+    10: TargetError,
     12: TruncatedError,
 }
 _BEYOND = re.compile(r"(\w+) = (\d+) is over the limit of \d+$")

@@ -83,11 +83,14 @@ FLOORS = {
         ("sequence",),
         ("decoder",),
         ("changes", "split"),
-        ("whole", "encode", "python", "wasm"),
+        ("whole", "encode"),
+        ("python", "wasm"),
     ),
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # Of these, only numpy is there wherever a mesh or a sequence is encoded.
+# What encoders call of the engine.
+OF_ENCODERS = ("Field", "quantized", "rounded")
 CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
 
 
@@ -263,7 +266,7 @@ def allowed(importer: str, imported: str) -> bool:
         return library in BITSTREAM_LIBRARIES or imported.startswith("bsm._engine.write_")
     if room == "bsm.codec":
         if imported.startswith("bsm._engine."):
-            return importer == "bsm.codec.decoding" or imported == "bsm._engine.Field"
+            return importer == "bsm.codec.decoding" or imported.rpartition(".")[2] in OF_ENCODERS
         if library == "bsm.bitstream":
             return importer.startswith(KNOW_BYTES) or imported.startswith(KNOWN_TO_ALL)
         return library in CODEC_LIBRARIES and f"{importer}.".startswith(f"{CODEC_LIBRARIES[library]}.")

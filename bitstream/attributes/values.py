@@ -3,7 +3,6 @@
 import numpy as np
 import numpy.typing as npt
 
-Ints = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
 
 
@@ -12,17 +11,6 @@ def octahedral_normals(levels: npt.ArrayLike, size: int) -> npt.NDArray[np.float
     points = _unfolded(np.asarray(levels, np.int64), size).astype(np.float64)
     unit: npt.NDArray[np.float64] = points / np.sqrt((points * points).sum(axis=1, keepdims=True))
     return unit
-
-
-def canonical_levels(levels: npt.ArrayLike, size: int) -> Ints:
-    """The pairs, shape (n, 2), that a decoder gives for the directions of `levels`, shape (n, 2)."""
-    return _folded(_unfolded(np.asarray(levels, np.int64), size), size)
-
-
-def _folded(points: Longs, size: int) -> Ints:
-    flat = points[:, :2]
-    outside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
-    return (np.where(points[:, 2:] < 0, outside, flat) + size).astype(np.int32)
 
 
 def _unfolded(levels: Longs, size: int) -> Longs:

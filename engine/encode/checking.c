@@ -220,24 +220,20 @@ static bool prove_shape(Proof *proof) {
 
 /* Whether a decoded value is as near to a given one as the outcome says. */
 static bool is_near(const bsmenc_attribute *a, const Quantized *q, int64_t row, const void *values, int64_t decoded) {
-    double own[MOST_COMPONENTS], back[MOST_COMPONENTS], length = 0.0;
+    double own[MOST_COMPONENTS], back[MOST_COMPONENTS];
     bool whole = a->kind < BSMDEC_FLOAT32;
     for (int j = 0; j < a->components; j++) {
         own[j] = load_number(a->values, row * a->components + j, a->kind);
         back[j] = load_number(values, decoded * a->components + j, a->kind);
-        if (q->outcome.bits > 0) {
-            length += own[j] * own[j];
-            continue;
-        }
+        if (q->outcome.bits > 0) continue;
         double error = __builtin_fabs(own[j] - back[j]), slack = whole ? 0.0 : 1e-12 * (__builtin_fabs(own[j])
             + q->outcome.error);
         if (!(error <= q->outcome.error + (q->outcome.error > 0.0 ? slack : 0.0))) return false;
     }
     if (q->outcome.bits == 0) return true;
-    length = __builtin_sqrt(length);
-    if (length == 0.0) return back[0] == 0.0 && back[1] == 0.0 && back[2] == 0.0;
-    for (int j = 0; j < 3; j++) own[j] /= length;
-    return degrees_between(back, own) <= q->outcome.error + 1e-6;
+    double unit[3];
+    if (direction_of(own, unit) == 0.0) return back[0] == 0.0 && back[1] == 0.0 && back[2] == 0.0;
+    return degrees_between(back, unit) <= q->outcome.error + 1e-6;
 }
 
 static bool prove_attribute(Proof *proof, int index) {

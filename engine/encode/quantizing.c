@@ -264,12 +264,19 @@ static void place_of(const double *unit, int64_t size, int64_t *place) {
     }
 }
 
-/* The direction and the length of a normal; one without length is given a direction. */
-static double unit_of(const Table *t, int64_t row, double *unit) {
-    for (int j = 0; j < 3; j++) unit[j] = number_at(t, 3 * row + j);
+double direction_of(const double *vector, double *unit) {
+    double most = 0.0, scale = 1.0;
+    for (int j = 0; j < 3; j++) most = __builtin_fabs(vector[j]) > most ? __builtin_fabs(vector[j]) : most;
+    if (most > 0x1p500 || most < 0x1p-500) scale = most > 0.0 ? most : 1.0; /* whose squares are no numbers */
+    for (int j = 0; j < 3; j++) unit[j] = vector[j] / scale;
     double length = __builtin_sqrt((unit[0] * unit[0] + unit[1] * unit[1]) + unit[2] * unit[2]);
     for (int j = 0; j < 3; j++) unit[j] = length > 0.0 ? unit[j] / length : j == 2 ? 1.0 : 0.0;
-    return length;
+    return length > 0.0 ? length * scale : 0.0;
+}
+
+static double unit_of(const Table *t, int64_t row, double *unit) {
+    const double vector[3] = {number_at(t, 3 * row), number_at(t, 3 * row + 1), number_at(t, 3 * row + 2)};
+    return direction_of(vector, unit);
 }
 
 /* Levels of normals with so many bits: places on an octahedron; or in a cube, if some have no length and keep none. */

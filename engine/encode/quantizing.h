@@ -15,6 +15,8 @@ typedef struct {
 /* Values, `rows` of them, of the kind, components, semantic and name of the declaration. */
 bool quantize(Context *context, const void *values, int64_t rows, bsmenc_quality quality, double amount, Arena *arena,
     Quantized *quantized);
+/* The direction of a vector; returns its length, and any direction if that is 0. */
+double direction_of(const double *vector, double *unit);
 /* The angle between a vector and a unit vector, in degrees. */
 double degrees_between(const double *vector, const double *unit);
 

@@ -132,13 +132,13 @@ bool round_to_bits(Context *context, ConstDoubles2 positions, int bits, Rounded 
     bool narrow = spacing > 0.0f && (double)(spacing * (float)cells) < PART_OF_CELL * extent;
     rounded->exact = false;
     if (!is_finite(extent) || !is_finite((double)cells / (extent > 0.0 ? extent : 1.0)))
-        return FAIL(context, NUMERIC, "a grid of # bits is beyond the range of numbers for this mesh", bits);
+        return FAIL(context, UNREACHABLE, "a grid of # bits is beyond the range of numbers for this mesh", bits);
     if (was_made_on(positions, low, extent, cells, narrow, rounded)) return true;
     if (narrow) round_narrowly(positions, low, (float)cells, rounded);
     else round_widely(positions, low, extent, (double)cells, rounded);
     note_largest(rounded);
     return (rounded->step > 0.0 && is_finite(rounded->step))
-        || FAIL(context, NUMERIC, "a grid of # bits is beyond the range of numbers for this mesh", bits);
+        || FAIL(context, UNREACHABLE, "a grid of # bits is beyond the range of numbers for this mesh", bits);
 }
 
 /* Whether places counted from `least` are as they were counted from the origin. */
@@ -170,14 +170,14 @@ bool round_to_cells(Context *context, ConstDoubles2 positions, double cell, cons
         high[j] = __builtin_floor((high[j] - origin[j]) / cell + 0.5);
         /* Beyond 2^53, the next number is not the next place. */
         if (!(low[j] > -0x1p53 && high[j] < 0x1p53))
-            return FAIL(context, NUMERIC, "the cells are too small to count from the origin to this mesh");
+            return FAIL(context, UNREACHABLE, "the cells are too small to count from the origin to this mesh");
         large = large || high[j] - low[j] > MOST_LARGEST;
     }
     if (counts_from(positions, cell, origin, low, rounded) || counts_from(positions, cell, origin, none, rounded)
         || counts_from(positions, cell, origin, all, rounded))
         return true;
-    return large ? FAIL(context, NUMERIC, "this mesh is larger than # cells; choose larger ones", MOST_LARGEST)
-                 : FAIL(context, NUMERIC, "this mesh is more than # cells from the origin, too far to tell places "
+    return large ? FAIL(context, UNREACHABLE, "this mesh is larger than # cells; choose larger ones", MOST_LARGEST)
+                 : FAIL(context, UNREACHABLE, "this mesh is more than # cells from the origin, too far to tell places "
                      "exactly; choose a nearer origin, or a power of two as cell and multiples of it as origin",
                        MOST_LARGEST / 2);
 }
@@ -209,6 +209,7 @@ bool round_exactly(Context *context, ConstDoubles2 positions, Rounded *rounded) 
     double coarsest = 2.0 * spacing_of_float(farthest(low, high)); /* in a smaller cell there may be no float */
     double step = decimal_step(positions, extent, coarsest);
     if (step == 0.0) step = extent / MOST_CELLS > coarsest ? extent / MOST_CELLS : coarsest;
+    if (!is_finite(step)) return FAIL(context, UNREACHABLE, "this mesh is as large as numbers can be; scale it");
     rounded->exact = true;
     rounded->step = step;
     for (int j = 0; j < 3; j++) rounded->origin[j] = (__builtin_floor(low[j] / step) - 1.0) * step;
@@ -221,7 +222,7 @@ bool round_exactly(Context *context, ConstDoubles2 positions, Rounded *rounded) 
             place += (number >= number_of_float(up + origin)) - (number < number_of_float(down + origin));
         }
         if (!(place >= 0 && place <= MOST_LARGEST))
-            return FAIL(context, NUMERIC, "this mesh is too large for its smallest coordinates");
+            return FAIL(context, UNREACHABLE, "this mesh is too large for its smallest coordinates");
         rounded->places.data[i] = (int32_t)place;
     }
     note_largest(rounded);

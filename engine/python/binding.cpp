@@ -323,6 +323,45 @@ nb::tuple faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional
     return nb::make_tuple(output.payloads()[0], order.numpy, face_order.numpy, coded.numpy);
 }
 
+// An attribute's values as whole numbers: coding, largest levels, offsets, step, levels, and the outcome: error, step
+// of integers, bits, normals without length, whether others had another length than 1.
+nb::tuple quantized(nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int semantic,
+    int quality, double amount) {
+    if (kind < 0 || kind > 7 || values.itemsize() != bsmdec_kind_size(kind) || values.shape(0) < 1
+        || values.shape(1) < 1 || values.shape(1) > 4)
+        throw nb::value_error("values are not of this kind");
+    Output output;
+    Whole whole;
+    size_t rows = values.shape(0);
+    output.run([&] {
+        return encode_quantized(output.encoding, values.data(), (int64_t)rows, semantic, kind, (int)values.shape(1),
+            quality, amount, &whole);
+    });
+    nb::list largest, offset;
+    for (int i = 0; i < whole.words; i++) {
+        largest.append((int64_t)whole.largest[i]);
+        offset.append(whole.offset[i]);
+    }
+    return nb::make_tuple(whole.coding, largest, offset, whole.step,
+        copy_of(whole.levels, "int64", whole.words > 0 ? rows : 0, (size_t)whole.words),
+        nb::make_tuple(whole.error, whole.whole_step, whole.bits, (int64_t)whole.zeros, whole.scaled != 0));
+}
+
+// Positions on a grid: its origin, step and largest places, and the places.
+nb::tuple rounded(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
+    if (origin.size() != 3 || positions.shape(0) < 1 || bits < 0 || bits > 20)
+        throw nb::value_error("a grid has three axes, and at most 20 bits");
+    Output output;
+    double grid[7];
+    Array places = array_of("int32", positions.shape(0), 3);
+    output.run([&] {
+        return encode_rounded(output.encoding, positions.data(), (int64_t)positions.shape(0), bits, cell,
+            origin.data(), grid, (int32_t *)places.data);
+    });
+    return nb::make_tuple(nb::make_tuple(grid[0], grid[1], grid[2]), grid[3],
+        nb::make_tuple((int)grid[4], (int)grid[5], (int)grid[6]), places.numpy);
+}
+
 // Writes or reads the values of one field, chunk after chunk.
 class Field : public Shared, Output {
   public:
@@ -408,6 +447,14 @@ NB_MODULE(_engine, m) {
                 "merged: numpy.typing.NDArray[numpy.int32] | None = None) -> tuple[bytes, "
                 "numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], "
                 "numpy.typing.NDArray[numpy.int32]]"));
+    m.def("quantized", quantized, "values"_a, "kind"_a, "semantic"_a, "quality"_a, "amount"_a,
+        nb::sig("def quantized(values: typing.Any, kind: int, semantic: int, quality: int, amount: float) -> "
+                "tuple[int, list[int], list[float], float, numpy.typing.NDArray[numpy.int64], "
+                "tuple[float, float, int, int, bool]]"));
+    m.def("rounded", rounded, "positions"_a, "bits"_a, "cell"_a, "origin"_a,
+        nb::sig("def rounded(positions: numpy.typing.NDArray[numpy.float64], bits: int, cell: float, "
+                "origin: numpy.typing.NDArray[numpy.float64]) -> tuple[tuple[float, float, float], float, "
+                "tuple[int, int, int], numpy.typing.NDArray[numpy.int32]]"));
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none())

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "engine/decoder.h"
+#include "engine/encode/quantizing.h"
+#include "engine/encode/rounding.h"
 #include "engine/writing.h"
 
 void decoder_state(const bsmdec *decoder, double *state) {
@@ -96,6 +98,35 @@ bool encode_chunk(Encoding *encoding, int64_t first, int64_t count) {
 
 bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size) {
     return code_chunk(&encoding->field, first, count, (Span){payload, size}, NULL);
+}
+
+bool encode_quantized(Encoding *encoding, const void *values, int64_t rows, int semantic, int kind, int components,
+    int quality, double amount, Whole *whole) {
+    Writer *writer = &encoding->writer;
+    Quantized found = {.declaration = {.semantic = semantic, .kind = kind, .components = components}};
+    const Declaration *d = &found.declaration;
+    if (!quantize(&writer->context, values, rows, (bsmenc_quality)quality, amount, &writer->arena, &found))
+        return false;
+    *whole = (Whole){d->coding, d->words, found.outcome.bits, d->step[0], found.outcome.error, found.outcome.step,
+        (double)found.outcome.zeros, found.outcome.scaled, {0}, {0}, found.levels.data};
+    for (int i = 0; i < d->words; i++) {
+        whole->largest[i] = d->largest[i];
+        whole->offset[i] = d->offset[i];
+    }
+    return true;
+}
+
+bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,
+    const double *origin, double *grid, int32_t *places) {
+    Context *context = &encoding->writer.context;
+    ConstDoubles2 given = {positions, rows, 3};
+    Rounded rounded = {.places = {places, rows, 3}};
+    bool done = bits > 0 ? round_to_bits(context, given, bits, &rounded)
+        : cell > 0.0 ? round_to_cells(context, given, cell, origin, &rounded) : round_exactly(context, given, &rounded);
+    memcpy(grid, rounded.origin, sizeof rounded.origin);
+    grid[3] = rounded.step;
+    for (int j = 0; j < 3; j++) grid[4 + j] = rounded.largest[j];
+    return done;
 }
 
 const int32_t *encoding_order(const Encoding *encoding) { return order_of_field(&encoding->field); }

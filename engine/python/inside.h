@@ -38,6 +38,20 @@ bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declarat
 /* Write the payloads of rows, or read that of one kind of values. */
 bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
 bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
+/* Values of an attribute as whole numbers (engine/encode/quantizing.h): the numbers of the declaration and of the
+ * outcome; `levels` are the encoding's, `words` for each of the rows. */
+typedef struct {
+    int coding, words, bits;
+    double step, error, whole_step, zeros, scaled;
+    double largest[8], offset[8];
+    const int64_t *levels;
+} Whole;
+bool encode_quantized(Encoding *encoding, const void *values, int64_t rows, int semantic, int kind, int components,
+    int quality, double amount, Whole *whole);
+/* Positions on a grid (engine/encode/rounding.h): of so many bits, of cells if there are no bits, or of exact floats if
+ * there are no cells. `grid`: origin, step, and the largest place of each axis. */
+bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,
+    const double *origin, double *grid, int32_t *places);
 const int32_t *encoding_order(const Encoding *encoding);
 const int32_t *encoding_values(const Encoding *encoding);
 

@@ -1,19 +1,16 @@
 """Positions on grids whose places are rounded, or chosen for the normals: ways to code a mesh."""
 
 import math
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from bsm._engine import rounded as places_on
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.errors import TargetError
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from bsm.bitstream.fields.grid import ordered
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of
@@ -39,24 +36,30 @@ def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = Fal
 
 def rounded(prepared: Prepared, bits: int) -> Draft:
     """Round every position to a grid with `bits` bits along the longest side of the bounding box."""
-    positions = prepared.mesh.positions
-    cells = (1 << bits) - 1
-    largest, extent = np.abs(positions).max(), np.ptp(positions, axis=0).max()
-    with np.errstate(over="ignore", invalid="ignore"):
-        narrow = np.spacing(np.float32(largest)) * cells < PART_OF_CELL * extent
-    kind = np.float32 if narrow else np.float64
-    if (recomputed := _made_on_grid(positions, cells, kind)) is not None:
-        return grid_draft(prepared, *recomputed)
-    values = positions.astype(kind)
-    low = values.min(axis=0)
-    most, extent = kind(cells), (values - low).max()
-    if not extent > 0:
-        extent = kind(1)
-    places = np.floor((values - low) * (most / extent) + kind(0.5)).astype(np.int32)
-    step = float(extent / most)
-    if not (step > 0.0 and np.isfinite(step)):
-        raise TargetError(f"a grid of {bits} bits is beyond the range of numbers for this mesh")
-    return grid_draft(prepared, Grid(tuple(map(float, low)), step, tuple(places.max(axis=0).tolist())), places)
+    return grid_draft(prepared, *_rounded(prepared, bits=bits))
+
+
+def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float, float]) -> Draft:
+    """Every position at the nearest place of a grid that is given: at ``origin + k * cell``, k whole numbers."""
+    return grid_draft(prepared, *_rounded(prepared, cell=cell, origin=origin))
+
+
+def exact(prepared: Prepared) -> Draft:
+    """Every position, which is one of single precision, to the bit: a grid, and which float of its cell each is."""
+    grid, places = _rounded(prepared)
+    grid, held = replace(grid, exact=True), prepared.mesh.positions.astype(np.float32).astype(np.float64)
+    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
+    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places, held))
+    return Draft(header, body, held, places)
+
+
+def _rounded(
+    prepared: Prepared, bits: int = 0, cell: float = 0.0, origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> tuple[Grid, Levels]:
+    """A grid of so many bits, of given cells, or of exact floats, and the places on it, shape (n, 3)."""
+    positions = np.ascontiguousarray(prepared.mesh.positions, np.float64)
+    corner, step, largest, places = places_on(positions, bits, cell, np.array(origin, np.float64))
+    return Grid(corner, step, largest), places
 
 
 def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -> tuple[Grid, Levels] | None:
@@ -72,63 +75,6 @@ def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -
             if (grid.positions(places.astype(np.int32)) == positions).all():
                 return grid, places.astype(np.int32)
     return None
-
-
-def exact(prepared: Prepared) -> Draft:
-    """Every position, which is one of single precision, to the bit: a grid, and which float of its cell each is."""
-    narrow = prepared.mesh.positions.astype(np.float32)
-    held, floats = narrow.astype(np.float64), ordered(narrow)
-    coarsest = 2.0 * float(np.spacing(np.abs(narrow).max()))  # in a smaller cell there may be no float
-    step = _decimal(narrow, coarsest)
-    if step is None:
-        step = max(float(np.ptp(held, axis=0).max()) / MOST_CELLS, coarsest)
-    origin = (np.floor(held.min(axis=0) / step) - 1.0) * step
-    places = np.floor((held - origin) / step + 0.5).astype(np.int64)
-    grid = Grid(tuple(map(float, origin)), step, tuple(int(value) for value in places.max(axis=0) + 1), exact=True)
-    for _ in range(4):  # where rounding has put one beside its cell
-        cells = grid.cells(places.astype(np.int32))
-        places += (floats >= cells.high).astype(np.int64) - (floats < cells.low)
-    coded = places.astype(np.int32)
-    grid = replace(grid, largest=tuple(int(value) for value in coded.max(axis=0)))
-    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
-    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, coded, held))
-    return Draft(header, body, held, coded)
-
-
-def _decimal(narrow: npt.NDArray[np.float32], least: float) -> float | None:
-    """A power of ten, at least so much, of which all coordinates, shape (n, 3), are multiples, but for rounding."""
-    held = narrow.astype(np.float64)
-    for power in range(math.floor(math.log10(max(np.ptp(held, axis=0).max(), least))), -sys.float_info.max_10_exp, -1):
-        step = float(f"1e{power}")
-        places = np.rint(held / step)
-        if step < least or np.ptp(places, axis=0).max() >= MOST_LARGEST - 1:
-            return None
-        if (np.float32(places * step) == narrow).all():
-            return step
-    return None
-
-
-def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float, float]) -> Draft:
-    """Every position at the nearest place of a grid that is given: at ``origin + k * cell``, k whole numbers."""
-    corner = np.array(origin)
-    with np.errstate(over="ignore", invalid="ignore"):
-        places = np.floor((prepared.mesh.positions - corner) / cell + 0.5)
-    if not (np.spacing(np.abs(places)) < 1.0).all():
-        raise TargetError(f"cells of {cell:g} are too small to count from {origin} to this mesh")
-    everywhere = np.full(3, -float(MOST_LARGEST // 2 + 1))
-    wanted = (places - everywhere) * cell + (everywhere * cell + corner)
-    # Counted from the mesh, or from the origin if that gives the same positions: smaller numbers.
-    for least in (places.min(axis=0), np.zeros(3), everywhere):
-        coded, low = places - least, least * cell + corner
-        if coded.min() >= 0.0 and coded.max() <= MOST_LARGEST and (coded * cell + low == wanted).all():
-            grid = Grid(tuple(map(float, low)), cell, tuple(int(value) for value in coded.max(axis=0)))
-            return grid_draft(prepared, grid, coded.astype(np.int32))
-    if np.ptp(places, axis=0).max() > MOST_LARGEST:
-        raise TargetError(f"this mesh is larger than {MOST_LARGEST} cells of {cell:g}; choose larger ones")
-    raise TargetError(
-        f"this mesh is more than {MOST_LARGEST // 2} cells of {cell:g} from {origin}, too far to tell places exactly; "
-        "choose an origin that is nearer, or a power of two as cell and multiples of it as origin"
-    )
 
 
 def made_on(positions: Matrix, within: float) -> float | None:

@@ -11,7 +11,6 @@ from bsm._engine import Field
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import EXACT
 from bsm.bitstream.container.wire import with_lengths
-from bsm.bitstream.fields.grid import Cells, cells_of
 from bsm.codec.arrays import Indices, Levels, Positions
 
 FIRST, CHUNK = 1 << 12, 1 << 13
@@ -31,10 +30,6 @@ class Grid:
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
         return np.asarray(coded * self.step + np.array(self.origin))
-
-    def cells(self, coded: Levels) -> Cells:
-        """The cells of coded values, shape (n, 3)."""
-        return cells_of(coded, np.array(self.origin), self.step)
 
     @property
     def fields(self) -> dict[str, Any]:

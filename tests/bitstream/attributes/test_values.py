@@ -8,24 +8,27 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.bitstream.attributes.seams import encode_seams, find_seams
-from bsm.bitstream.attributes.values import canonical_levels, octahedral_normals
-from bsm.bitstream.fields.corners import MOST_LARGEST, corners_of
-from bsm.codec.static.attributes.levels import _places
+from bsm.bitstream.attributes.values import octahedral_normals
+from bsm.bitstream.fields.corners import corners_of
+from bsm.codec.static.attributes.levels import quantized
+from bsm.codec.static.attributes.quality import Quality
 from tests.bitstream.fields.fields import decode, encode, field_of
 from tools.measure.grids import welded
 
-OCTAHEDRA = st.sampled_from([1, 2, 127, MOST_LARGEST // 2])
+
+def places(normals, bits):
+    return quantized(normals, "normal", Quality("bits", bits), "normals").levels
 
 
-@given(st.lists(st.tuples(*[st.floats(-1e300, 1e300)] * 3), min_size=1, max_size=40), OCTAHEDRA)
-def test_levels_of_normals(normals, size):
-    vectors = np.array([normal for normal in normals if np.abs(normal).max() > 1e-290]).reshape(-1, 3)
+@given(st.lists(st.tuples(*[st.floats(-1e300, 1e300)] * 3), min_size=1, max_size=40), st.sampled_from([2, 8, 16]))
+def test_levels_of_normals(normals, bits):
+    vectors = np.array([normal for normal in normals if np.abs(normal).max() > 1e-290] or [(0.0, 0.0, 1.0)])
+    size = 2 ** (bits - 1) - 1
     unit = vectors / np.abs(vectors).max(axis=1, keepdims=True)
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
-    levels = _places(unit, 2 * size)
+    levels = places(vectors, bits)
     assert (levels >= 0).all() and (levels <= 2 * size).all()
-    np.testing.assert_array_equal(canonical_levels(levels, size), levels)
-    np.testing.assert_array_equal(_places(octahedral_normals(levels, size), 2 * size), levels)
+    np.testing.assert_array_equal(places(octahedral_normals(levels, size), bits), levels)
     assert (np.linalg.norm(np.cross(unit, octahedral_normals(levels, size)), axis=1) < 2.2 / size).all()
 
 
@@ -39,7 +42,7 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
     for corner in range(3):
         np.add.at(normals, faces[:, corner], across)
     normals[np.abs(normals).max(axis=1) == 0] = 1
-    levels = _places(normals / np.linalg.norm(normals, axis=1, keepdims=True), 254).astype(np.int32)
+    levels = places(normals, 8).astype(np.int32)
     at = np.rint(positions / edge * 32).astype(np.int32)
     field = field_of("normal", faces, len(levels), (254, 254), at)
     chunks = encode(field, levels)

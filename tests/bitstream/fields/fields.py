@@ -8,7 +8,7 @@ import numpy.typing as npt
 from hypothesis import strategies as st
 
 from bsm._engine import Field
-from bsm.bitstream.attributes.values import canonical_levels
+from bsm.bitstream.attributes.values import _unfolded
 from bsm.bitstream.container.header import (
     COLOR,
     FACE,
@@ -31,6 +31,14 @@ Chunks = list[tuple[bytes, int]]
 NAMES = ("grid", "light", "levels", "plain", "color", "texcoord", "normal", "faces")
 COLUMNS = {"grid": 3, "light": 3, "levels": 3, "texcoord": 2, "normal": 2}
 """Columns of kinds with a fixed number."""
+
+
+def canonical_levels(levels: Ints, size: int) -> Ints:
+    """The pairs, shape (n, 2), that a decoder gives for the directions of `levels`, shape (n, 2)."""
+    points = _unfolded(np.asarray(levels, np.int64), size)
+    flat = points[:, :2]
+    outside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
+    return (np.where(points[:, 2:] < 0, outside, flat) + size).astype(np.int32)
 
 
 @dataclass(frozen=True)
