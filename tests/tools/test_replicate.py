@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import TriangleMesh
+from bsm import TriangleMesh, research
 from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
@@ -373,7 +373,7 @@ def test_algorithm_2_and_the_codec_s_rule_keep_their_bounds(study):
     values = values - values.mean(axis=0)
     high = 0.5 * float(np.sqrt(dynamic.fixed_size(cut, values).errors).max())
     ours = dynamic.codec_rule(cut, values, 0.5, high)
-    theirs = dynamic.algorithm_2(cut, values, dynamic.frobenius, 0.5, high)
+    theirs = dynamic.algorithm_2(cut, values, research.frobenius, 0.5, high)
     assert (np.sqrt(ours.errors) <= high * 1.01).all()
     ended = theirs.iterations < dynamic.MOST
     assert ended.any() and (np.sqrt(theirs.errors[ended]) <= high * 1.01).all()
