@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +17,7 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.codec.denoise.denoise_shapes import grid
 from tests.shapes import torus
-from tools.replicate import ablation, denoising, fetch, outside, paper, rates, report, stages
+from tools.replicate import ablation, denoising, fetch, outside, paper, quotes, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
 from tools.replicate.paper import coherence, dictionaries, dynamic, iterations, models, published, rivals
@@ -170,6 +171,10 @@ class TestTables:
         for commit in ("b", "c"):
             report.write_page({"rates": [row()]}, {"rates": {"commit": commit, "processor": "p", "date": "d"}})
         text = page.read_text()
+        page.write_text(text + "\n## The paper, 9: an old table\n\n| t |\n")
+        made = published.printed("The paper, 4: new", ("x",), [("a", (1.0,), ())])
+        report.write_page({"paper": [made]}, {"paper": {"commit": "d", "processor": "p", "date": "d"}})
+        assert "## The paper, 4: new" in page.read_text() and "an old table" not in page.read_text()
         assert text.startswith("# Measured\n") and "words" not in text and "Commit c, p, d" in text
         assert "Commit b" not in text and "## Moving meshes\n\nCommit a.\n\n| t |\n" in text and "| default" in text
 
@@ -277,7 +282,7 @@ def test_the_paper_s_numbers_stand_in_brackets_and_stand_ins_are_not_judged(stud
     assert table["numbers"] == {"n": "1"}
     other, real = study.model("bunny"), replace(study.model("julio"), own=True)
     assert published.claim("It is so", False, "it was not.", real) == (
-        f'"It is so" does not hold on {real.name}: it was not.'
+        f'"It is so" does not hold on {real.name}. It was not.'
     )
     assert published.claim("It is so", True, "it was.", real, other) == (
         f'"It is so" is not judged: {other.name} stands in for the Bunny.'
@@ -328,6 +333,20 @@ def test_onorms_agree_and_the_kernel_with_them():
 def test_the_angle_between_subspaces():
     plane, turned = np.eye(3)[:, :2], np.array([[1, 0], [0, np.cos(0.3)], [0, np.sin(0.3)]])
     assert iterations.subspace_error(plane, turned) == pytest.approx(math.tan(0.3))
+
+
+def test_numbers_of_the_documents_are_those_that_were_measured():
+    for document in set(quotes.PASSAGES.values()):
+        text = (quotes.ROOT / document).read_text(encoding="utf-8")
+        assert quotes.with_passages(document, text) == text, f"{document}: run python -m tools.replicate --docs"
+
+
+def test_numbers_in_decibels_stand_only_in_what_is_measured():
+    for document in ("codec/PAPER.md", "docs/how-it-works.md"):
+        text = (quotes.ROOT / document).read_text(encoding="utf-8")
+        plain = re.sub(r"<!-- measured: .*?<!-- end: \w+ -->", "", text, flags=re.DOTALL)
+        assert not re.findall(r"\d dB|\d x |\d times", plain)
+        assert re.findall(r"\d dB", text)
 
 
 ANGLES = {

@@ -206,6 +206,8 @@ def write_page(results: dict[str, list[Row]], facts: dict[str, dict[str, Any]]) 
     """Put the tables into docs/measured.md, with the facts of their stages; what no run in this folder made stays."""
     page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
     kept = {f"## {part.partition(chr(10))[0]}": part.partition("\n")[2].strip() for part in page.split("\n## ")[1:]}
+    if "paper" in facts:  # tables of earlier experiments go
+        kept = {title: text for title, text in kept.items() if not title.startswith("## The paper, ")}
     for name, entry in tables(results).items():
         if not (run := facts.get(name.split("-")[0])):
             continue

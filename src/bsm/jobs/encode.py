@@ -157,6 +157,7 @@ def _errors(result: Attempt, found: Simplified | None, diagonal: float, unit: st
     error = result.comparison
     words, facts = farthest(error.max_error_relative)
     angles = {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
+    angles["nmsve_paper_db"] = finite(error.nmsve_paper_db)
     kept = "; all triangles are kept" if found else ""
     return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", {**angles, **facts}
 

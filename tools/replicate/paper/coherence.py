@@ -96,8 +96,8 @@ def coherence(study: Study) -> Iterator[Row]:
         claim(
             "A segment is nearest to its own model",
             min(counts["the paper's weights, rows as in the file"]) > SEGMENTS / 2,
-            f"{right} of {of} with the paper's matrix, {plain} of {of} without weights in the order of the file. Our "
-            f"order of rows makes all models alike: {sorted_rows} of {of}.",
+            f"it is for {right} of {of} with the paper's matrix, {plain} of {of} without weights in file order. "
+            f"Our order of rows makes all models alike: {sorted_rows} of {of}.",
             *models.values(),
         ),
         numbers={"paper": str(right), "plain": str(plain), "sorted": str(sorted_rows), "of": str(of)},

@@ -199,8 +199,8 @@ def powers(study: Study) -> Iterator[Row]:
 
 def rivals(study: Study) -> Iterator[Row]:
     """Other methods with and without the coarse step (Figure 14)."""
-    fandisk, twelve, armadillo = (study.model(role) for role in ("fandisk 0.3", "twelve", "armadillo"))
-    every = [fandisk] if study.quick else [fandisk, twelve, armadillo]
+    fandisk, twelve = (study.model(role) for role in ("fandisk 0.3", "twelve"))
+    every = [fandisk] if study.quick else [fandisk, twelve]
     helps: dict[float, list[bool]] = {}
     rows: list[Line] = []
     pictures: dict[str, tuple[Floats, Floats]] = {}
@@ -208,9 +208,8 @@ def rivals(study: Study) -> Iterator[Row]:
         for noise in NOISES[1:] if study.quick else NOISES:
             noisy = gaussian_along_normals(model.clean, model.faces, noise, seed=1)
             coarse = CoarseFilter(model.faces, len(noisy))(noisy)
-            names = [name for name in RIVALS if model is not armadillo or not name.startswith("L0")]
-            for name in names:
-                alone, after = RIVALS[name](noisy, model.faces), RIVALS[name](coarse, model.faces)
+            for name, rival in RIVALS.items():
+                alone, after = rival(noisy, model.faces), rival(coarse, model.faces)
                 angles = model.reference.theta(alone), model.reference.theta(after)
                 helps.setdefault(noise, []).append(angles[1] < angles[0])
                 angle = model.reference.theta(noisy), model.reference.theta(coarse)

@@ -33,7 +33,7 @@ def claim(says: str, holds: bool, found: str, *models: Model) -> str:
         names = ", ".join(dict.fromkeys(f"{model.name} stands in for {model.title}" for model in others))
         return f'"{says}" is not judged: {names}.'
     names = " and ".join(dict.fromkeys(model.name for model in models))
-    return f'"{says}" {"holds" if holds else "does not hold"} on {names}: {found}'
+    return f'"{says}" {"holds" if holds else "does not hold"} on {names}. {found[:1].upper()}{found[1:]}'
 
 
 OVERLAPS = (1.0, 1.05, 1.10, 1.15, 1.20, 1.25)
