@@ -45,7 +45,7 @@ class Limits:
     frame_bytes : int
         Largest section of the stream.
     metadata_bytes : int
-        Largest metadata, names and values.
+        Largest metadata, names and values, without binary values such as images.
     work, work_per_vertex, work_per_byte : float
         Nanoseconds of a processor core, by the estimates of the specification: a constant, and more for each vertex
         and each byte that have arrived.

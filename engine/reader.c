@@ -140,13 +140,23 @@ static bool read_frame(Reader *reader, Span bytes, Frame *frame) {
     return true;
 }
 
+/* Bytes of a payload of METADATA without those of binary values, such as images, for which the bytes received pay. */
+static int64_t plain_bytes(const Map *map, Span payload) {
+    int64_t bytes = payload.size;
+    for (int i = 0; i < map->count; i++) {
+        if (map->value[i].kind == BINARY) bytes -= map->value[i].bytes.size;
+    }
+    return bytes;
+}
+
 /* Entries of a payload of METADATA; kept where `adding`. */
 static bool read_metadata(Reader *reader, Span payload, bool adding) {
     Context *context = reader->context;
-    if (!WITHIN(context, metadata_bytes, payload.size)) return false;
     Mark mark = mark_of(&reader->scratch);
     Map *map;
     bool done = TAKE(&reader->scratch, 1, map) && parse_map(context, payload, map);
+    if (done) reader->plain_bytes = plain_bytes(map, payload);
+    done = done && WITHIN(context, metadata_bytes, reader->plain_bytes);
     for (int i = 0; done && i < map->count; i++) {
         if (map->key[i].kind != TEXT || map->value[i].kind == LIST)
             done = FAIL(context, CORRUPT, "metadata of a wrong type");
@@ -224,7 +234,7 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
     bool is_metadata = packet->type == METADATA_FRAME;
     if (is_metadata && !read_metadata(reader, frame.payload, false)) return false;
     if (!check_packet(context, grammar, packet)) return false;
-    if (is_metadata && !WITHIN(context, metadata_bytes, reader->metadata_bytes + frame.payload.size)) return false;
+    if (is_metadata && !WITHIN(context, metadata_bytes, reader->metadata_bytes + reader->plain_bytes)) return false;
     if (packet->type != END_FRAME) return true;
     if (reader->damaged || grammar->joined) {
         packet->has_positions = false;
@@ -250,7 +260,7 @@ static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
         }
         if (packet->type == METADATA_FRAME) {
             if (!read_metadata(reader, frame.payload, true)) return false;
-            reader->metadata_bytes += frame.payload.size;
+            reader->metadata_bytes += reader->plain_bytes;
         }
         advance_grammar(&reader->grammar, packet, own);
     }

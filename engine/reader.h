@@ -25,7 +25,8 @@ typedef struct {
     uint8_t *buffer;
     int64_t room, begin, end, moves; /* moves: how often bytes went elsewhere */
     int64_t last_offset, last_frame; /* where the last packet began, and its number */
-    int64_t offset, frames, metadata_bytes; /* bytes and frames read; bytes of metadata */
+    int64_t offset, frames, metadata_bytes; /* bytes and frames read; bytes of metadata without binary values */
+    int64_t plain_bytes; /* of the last metadata */
     uint32_t sum;
     uint8_t version;
     bool started, finished;

@@ -218,10 +218,11 @@ def read_frames(stream, packets):
         if kind in (PARTITION, GOP):
             raise UnsupportedError(f"extension {'paper' if kind == PARTITION else 'sequence'}")
         if kind == METADATA:  # F 5.1, F 3.9
-            require_limit(len(payload), MOST_METADATA_BYTES, "metadata")
             entries = canonical_map(payload)
+            plain = len(payload) - sum(len(value) for _, value in entries if type(value) is bytes)
+            require_limit(plain, MOST_METADATA_BYTES, "metadata")
             require(all(type(key) is str and type(v) is not list for key, v in entries), "metadata of a wrong type")
-            names, metadata_bytes = {key for key, _ in entries}, metadata_bytes + len(payload)
+            names, metadata_bytes = {key for key, _ in entries}, metadata_bytes + plain
             require(not names & metadata_names, "duplicate metadata name")
             require_limit(metadata_bytes, MOST_METADATA_BYTES, "metadata")
             metadata_names |= names

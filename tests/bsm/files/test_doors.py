@@ -9,6 +9,7 @@ import pytest
 
 import bsm
 from bsm import Attribute, BsmWarning, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.files.formats.metadata import images_in, materials_in
 from bsm.files.formats.polygons import meaning_of
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
@@ -677,3 +678,15 @@ def test_an_obj_in_utf16_and_a_ply_with_a_line_that_is_a_comment():
         assert names(read_mesh(text.encode(encoding), "obj").mesh, "group") == ["\u00fc"]
     head, body = written_mesh(torus(5, 4), "ply").data.split(b"format", 1)
     assert len(read_mesh(head + b"Created by somebody\nformat" + body).mesh.faces) == 40
+
+
+def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
+    data = png() + bytes(DEFAULT_LIMITS.metadata_bytes)
+    (tmp_path / "a.png").write_bytes(data)
+    (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\n")
+    (tmp_path / "a.obj").write_text(f"mtllib a.mtl\nusemtl m\n{THREE}f 1 2 3\n")
+    stream = bsm.encode(str(tmp_path / "a.obj"), preset="lossless")
+    assert bsm.decode(stream).metadata["image.0.data"] == data
+    story = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * DEFAULT_LIMITS.metadata_bytes})
+    with pytest.raises(LimitError, match="metadata_bytes"):
+        bsm.encode(story)
