@@ -400,6 +400,7 @@ def header_of(numbers: list[float]) -> Header:
         smoothing=n[8],
         attributes=whole[9],
         light=whole[10],
+        congruence=whole[41],
         center=tuple(n[15:18]),
         refinement=tuple(n[19:21]) if n[18] else (),
         grid=tuple(whole[22:25]) if n[21] else (),

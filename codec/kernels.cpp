@@ -138,6 +138,8 @@ NB_MODULE(_kernels, m) {
     m.def("collect_creases", checked<&collect_creases>, "positions"_a, "faces"_a, "starts"_a, "around"_a, "most"_a,
           "cosine"_a, "least"_a, "largest"_a, "crosses"_a, "pairs"_a, "sharp"_a, "costs"_a, Unlocked());
     m.def("hang_creases", checked<&hang_creases>, "faces"_a, "pairs"_a, "starts"_a, "members"_a, Unlocked());
+    m.def("find_motions", checked<&find_motions>, "positions"_a, "faces"_a, "degrees"_a, "worth"_a, "heads"_a,
+          "links"_a, "covered"_a, "room"_a, "found"_a, Unlocked());
     m.def("settle_levels", checked<&settle_levels>, "offsets"_a, "normals"_a, "losses"_a, "steps"_a,
           "reach"_a, "starts"_a, "members"_a, "rates"_a, "pull"_a, "fixed"_a, "creases"_a, "places"_a, "frames"_a,
           "moved"_a, "levels"_a, "counts"_a, Unlocked());

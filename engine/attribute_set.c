@@ -239,7 +239,7 @@ static bool begin_group(Attributes *attributes, Attribute *attribute, Group *gro
     double needed = of_faces ? (72 + 48 + 8 * c) * m + model : (84 + 16 * c + own) * n + 48 * m + model + c * (1 << 17);
     if (!WITHIN(context, field_bytes, needed)) return false;
     Ints largest;
-    if (!take_ints(arena, group->columns, &largest) || !make_value_model(arena, &group->model)
+    if (!take_ints(arena, group->columns, &largest) || !make_value_model(arena, &group->model, false)
         || !zero_ints2(arena, attribute->rows, group->columns, &group->pieces))
         return false;
     int32_t most = 0;

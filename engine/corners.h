@@ -10,7 +10,7 @@ bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *aren
 bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order);
 /* Models and learners that have learned nothing (V 4.3, V 6.1); a learner starts from the weights of its row of
  * `starts`. */
-MUST_CHECK bool make_value_model(Arena *arena, ValueModel *model);
+MUST_CHECK bool make_value_model(Arena *arena, ValueModel *model, bool of_twins);
 MUST_CHECK bool make_learners(Arena *arena, int64_t count, Longs2 *learners);
 INLINE void start_learner(Longs2 learners, int64_t k, int term, int64_t weight) {
     Learner *learner = (Learner *)learners.data + k;

@@ -1,4 +1,4 @@
-/* Positions on a grid (specification, V 7 to V 10, V 12, V 15, V 16). */
+/* Positions on a grid (specification, V 7 to V 10, V 12, V 15 to V 17). */
 #include "engine/grid.h"
 
 #include "engine/costs.h"
@@ -20,6 +20,12 @@ static bool charge_grid(Context *context, const Header *header) {
     if (!reserve(context, grid_memory(n, m), 0) || !charge(context, light ? light_work(n, m) : grid_work(n, m), 0)
         || !WITHIN(context, field_bytes, grid_field_bytes(n, m)))
         return false;
+    if (is_congruent(header)) {
+        double images = 2 * (header->congruence - 1), bytes = twins_bytes(n, images);
+        if (!reserve(context, bytes, 0) || !charge(context, twins_work(n, images), 0)
+            || !WITHIN(context, field_bytes, grid_field_bytes(n, m) + bytes))
+            return false;
+    }
     return method_of(header) != EXACT_FLOATS
         || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
 }
@@ -27,7 +33,8 @@ static bool charge_grid(Context *context, const Header *header) {
 static bool begin_full(GridField *field, Arena *arena, Arena *scratch) {
     Grid *grid = &field->grid;
     int64_t n = field->header->vertices, words = most_of(field->header) / 64 + 1;
-    if (!order_mesh(&field->corners, arena, scratch, &field->order) || !make_value_model(arena, &field->model))
+    if (!order_mesh(&field->corners, arena, scratch, &field->order) 
+        || !make_value_model(arena, &field->model, is_congruent(field->header)))
         return false;
     *grid = (Grid){.largest = const_ints(field->largest), .order = const_ints(field->order), .values = field->values};
     if (!zero_ints2(arena, n, AXES, &grid->gaps) || !zero_longs2(arena, n, 4, &grid->sums)
@@ -63,6 +70,34 @@ static bool begin_floats(GridField *field, Arena *arena) {
     return true;
 }
 
+static bool begin_twins(GridField *field, Arena *arena) {
+    int64_t n = field->header->vertices, transforms = field->header->congruence - 1, images = 2 * transforms;
+    Twins *twins;
+    if (!TAKE_ZEROS(arena, 1, twins) || !TAKE(arena, MOST_ECHOES, twins->echo)
+        || !TAKE_ZEROS(arena, ECHO_HEADS, twins->echo_head)
+        || !zero_ints2(arena, transforms, TRANSFORM_ROW, &field->transforms))
+        return false;
+    field->twins = field->grid.twins = twins;
+    if (images == 0) return true;
+    twins->head_bits = 2; /* four times as many as vertices: few hold more than one cell */
+    while (INT64_C(1) << (twins->head_bits - 2) < n && twins->head_bits < 26) twins->head_bits++;
+    int64_t heads = INT64_C(1) << twins->head_bits;
+    if (!TAKE(arena, n * images, twins->twin) || !TAKE_ZEROS(arena, n, twins->has) || !TAKE(arena, heads, twins->head)
+        || !TAKE(arena, n, twins->next))
+        return false;
+    for (int64_t i = 0; i < heads; i++) twins->head[i] = -1;
+    return true;
+}
+
+/* The transforms, which precede the first value (V 17.2). */
+static bool code_twins(GridField *field, Coder coder) {
+    ConstInts span = const_ints(field->largest);
+    if (code_transforms(coder, span, field->transforms) < 0)
+        return FAIL(field->context, CORRUPT, "transforms that cannot be read");
+    list_images(span, const_ints2(field->transforms), field->twins);
+    return true;
+}
+
 bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
     Arena *scratch) {
     int64_t n = header->vertices;
@@ -74,12 +109,15 @@ bool begin_grid(GridField *field, Context *context, const Header *header, ConstI
     for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
     memcpy(field->largest.data, header->grid, sizeof header->grid);
     if (method_of(header) == LIGHT) return begin_light(field, arena);
-    return begin_full(field, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena));
+    return begin_full(field, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena))
+        && (!is_congruent(header) || begin_twins(field, arena));
 }
 
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {
     Coding coding;
-    if (!begin_coding(field->context, payload, &coding)) return false;
+    if (!begin_coding(field->context, payload, &coding)
+        || (first == 0 && field->twins != NULL && !code_twins(field, coding.coder)))
+        return false;
     int64_t done = method_of(field->header) == LIGHT
         ? code_light(coding.coder, field->corners, field->light, first, count)
         : code_grid(coding.coder, field->model, field->corners, field->grid, first, count);

@@ -1,8 +1,8 @@
-/* Positions on a grid (specification, V 7 to V 10, V 12, V 15, V 16). */
+/* Positions on a grid (specification, V 7 to V 10, V 12, V 15 to V 17). */
 #ifndef BSMDEC_GRID_H
 #define BSMDEC_GRID_H
 
-#include "bitstream/fields/fields.h"
+#include "bitstream/fields/twins.h"
 #include "engine/header.h"
 
 /* Positions on a grid, and their models. */
@@ -15,6 +15,8 @@ typedef struct {
     Grid grid;
     Light light;
     Floats floats;
+    Twins *twins;
+    Ints2 transforms; /* as they are coded */
     Ints largest, order;
     Ints2 values;
     Doubles2 positions; /* in the unit of the mesh */

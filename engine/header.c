@@ -4,6 +4,7 @@
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
+    CONGRUENCE,
 };
 
 static const Field FIELDS[] = {
@@ -27,11 +28,12 @@ static const Field FIELDS[] = {
     {.key = RUN, .type = INTS_FIELD, .high = INT32_MAX, .most = 2},
     {.key = PAPER, .type = FLOATS_FIELD, .high = 0x1p30, .most = 8},
     {.key = ONORM, .type = INT_FIELD, .high = 64},
+    {.key = CONGRUENCE, .type = INT_FIELD, .high = 17},
 };
 
 #define BIT(key) (1u << (key))
 static const uint32_t OF_A_GRID = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(ATTRIBUTES) | BIT(GRID)
-    | BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY);
+    | BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY) | BIT(CONGRUENCE);
 static const uint32_t OF_A_RUN = BIT(VERTICES) | BIT(FACES) | BIT(SEQUENCE) | BIT(RUN);
 enum { MOST_HEADER = 1 << 16 };
 
@@ -50,7 +52,8 @@ static void set_header(const Record *record, Header *header) {
         .step = number[STEP][0], .scale = number[SCALE][0], .smoothing = number[SMOOTHING][0],
         .refined = count[REFINEMENT] > 0, .on_grid = count[GRID] > 0, .is_sequence = count[SEQUENCE] > 0,
         .refinement = {number[REFINEMENT][0], number[REFINEMENT][1]},
-        .onorm = (int)number[ONORM][0], .light = (int)number[LIGHT_KEY][0], .counted = count[CORNER] > 0,
+        .onorm = (int)number[ONORM][0], .light = (int)number[LIGHT_KEY][0], .congruence = (int)number[CONGRUENCE][0],
+        .counted = count[CORNER] > 0,
         .frames = (int64_t)number[SEQUENCE][0], .gop_frames = (int64_t)number[SEQUENCE][1],
         .run = (int64_t)number[RUN][0], .mesh_of = count[RUN] > 1 ? (int64_t)number[RUN][1] : -1,
         .paper = {.power = 3, .iterations = count[SEQUENCE] > 0 ? 2 : 1, .key_iterations = 2, .springs = 1,
@@ -105,6 +108,7 @@ static bool check_grid(Context *context, const Record *record, const Header *hea
         && agrees(context, count[CORNER] % 3 == 0, "a corner of other than three axes")
         && agrees(context, !(header->counted && centered), "a corner and a center") && agrees(context,
             header->light != EXACT_FLOATS || count[LATTICE] + count[CORNER] == 0, "floats in cells that are counted")
+        && agrees(context, header->light != LIGHT || header->congruence == 0, "congruent parts of a light grid")
         && agrees(context, (record->stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
 }
 
@@ -113,7 +117,8 @@ static bool check_blocks(Context *context, const Record *record, const Header *h
     double rows = (double)header->blocks * (double)header->block_size, step = header->refinement[0];
     return agrees(context, header->blocks > 0 && header->block_size > 0
             && header->coefficients > 0, "neither blocks nor a grid")
-        && agrees(context, count[LATTICE] + count[CORNER] + header->light == 0, "what belongs to a grid, without one")
+        && agrees(context, count[LATTICE] + count[CORNER] + header->light + header->congruence == 0,
+            "what belongs to a grid, without one")
         && agrees(context, header->blocks <= header->vertices, "more blocks than vertices")
         && agrees(context, header->block_size <= header->vertices, "blocks larger than the mesh")
         && agrees(context, rows >= (double)header->vertices, "blocks too small to cover the mesh") && agrees(context,
@@ -164,7 +169,7 @@ void list_header(const Header *h, double *numbers) {
         h->refinement[0], h->refinement[1], h->on_grid, h->grid[0], h->grid[1], h->grid[2], (double)h->cells,
         (double)h->points, h->counted, (double)h->corner[0], (double)h->corner[1], (double)h->corner[2], p->bits,
         p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence,
-        h->onorm,
+        h->onorm, h->congruence,
     };
     memcpy(numbers, all, sizeof all);
 }

@@ -22,6 +22,7 @@ typedef struct {
     int64_t cells, points, corner[3]; /* of a lattice, 0 without */
     bool counted;                     /* there is a corner */
     int light, onorm;                 /* solutions before each Onorm in doubles, or 0 */
+    int congruence; /* 1 more than the transforms of congruent parts; 0: the grid is coded without */
     int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;
 } Header;
@@ -35,10 +36,13 @@ INLINE int method_of(const Header *header) {
 #endif
 }
 
+/* Whether values of a grid are also foretold from congruent parts. */
+INLINE bool is_congruent(const Header *header) { return method_of(header) != LIGHT && header->congruence > 0; }
+
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 
 /* All numbers of a header in a row, for other languages. */
-enum { HEADER_NUMBERS = 41 };
+enum { HEADER_NUMBERS = 42 };
 void list_header(const Header *header, double *numbers);
 
 /* Blocks of a chain (M 10.1). */

@@ -160,6 +160,7 @@ FIELDS = {
 }
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
 EXTENSIONS |= {19: "extension paper", 21: "extension paper"}
+EXTENSIONS[22] = "extension congruence"
 
 
 def parse_header(payload):

@@ -14,7 +14,7 @@ from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.ways.grid import grid_field
+from bsm.codec.static.ways.grid import Grid, grid_field
 from tools.payloads import decode_connectivity
 from tools.surgery import Frames, frames_of, header_entries, header_frame, parse_packet, stream_of
 
@@ -23,25 +23,48 @@ LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_LARGEST)
 """Largest values of an axis that random grids have."""
 
 
-def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **fields: Any) -> Frames:
-    """Frames of a mesh on a grid."""
+def gridded(
+    coded: EncodedConnectivity, values: Ints, counts: Iterable[int], transforms: Ints | None = None, **fields: Any
+) -> Frames:
+    """Frames of a mesh on a grid, with `transforms`, shape (k, 8), of congruent parts."""
     fields = {"grid": values.max(axis=0).tolist()} | fields
+    fields |= {} if transforms is None else {"congruence": 1 + len(transforms)}
     announced = {"vertices": len(values), "faces": len(coded.faces)}
     return [
         header_frame(**announced | fields),
         (FrameType.CONNECTIVITY, coded.payload),
-        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0)),
+        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0), transforms),
     ]
 
 
-def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int) -> Frames:
+def grid_frames(
+    faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int, transforms: Ints | None = None
+) -> Frames:
     """Return GRID packets of this many vertices each."""
     frames, first = [], 0
-    field = grid_field(faces, largest, values, light)
+    field = grid_field(faces, largest, values, light, Grid((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms))
     for count in counts:
         frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + field.write(count)[0]))
         first += count
     return frames
+
+
+def any_transforms(random: Random, count: int, largest: Sequence[int]) -> Ints:
+    """Transforms of a grid of which nothing is known."""
+    rows = np.zeros((count, 8), np.int32)
+    most = max(*largest, 1)
+    fine = 2 << min(most.bit_length() + 2, 19)
+    for row in rows:
+        row[0] = random.randrange(50)
+        first, turn = divmod(int(row[0]) // 8, 2)
+        second = (first + 1 + turn) % 3
+        source = (first, second, 3 - first - second)
+        if row[0] < 48:
+            row[5:] = [random.randint(0, largest[j] + largest[source[j]]) for j in range(3)]
+        else:
+            row[1:5] = random.randrange(4), *(random.randint(0, fine) for _ in range(3))
+            row[5:] = [random.randint(0, 24 * most) for _ in range(3)]
+    return rows
 
 
 def lightened(stream: bytes, *counts: int) -> bytes:
@@ -89,7 +112,10 @@ def random_grid(random: Random, mesh: TriangleMesh) -> bytes:
     while left:
         counts.append(random.randrange(1, left + 1) if random.random() < 0.5 else left)
         left -= counts[-1]
-    return stream_of(gridded(coded, values, counts, **{"grid": largest} | _fields(random, max(largest))))
+    fields = {"grid": largest} | _fields(random, max(largest))
+    if not fields["light"] and random.random() < 0.75:
+        fields["transforms"] = any_transforms(random, random.randrange(17), largest)
+    return stream_of(gridded(coded, values, counts, **fields))
 
 
 def _values(random: Random, positions: npt.NDArray[np.float64], largest: list[int]) -> Ints:

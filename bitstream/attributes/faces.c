@@ -39,7 +39,7 @@ static bool code_component(RangeCoder *coder, const ValueModel *model, const Cor
     uint32_t known = (uint32_t)near[0] * 31 + (uint32_t)last;
     for (int i = 0; i < j; i++) known = (i == 0 ? 0 : known * 31) + (uint32_t)of_face(g, f, i);
     int32_t *usual = memory + (known * 0x9E3779B1u >> 24);
-    Expectation e;
+    Expectation e = {.contexts = CONTEXTS};
     e.prediction[0] = near[0] * FINE;
     e.prediction[1] = near[1] * FINE;
     e.prediction[2] = near[2] * FINE;

@@ -194,7 +194,7 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
     foresee_error(&f, far, true);
     int32_t guess = base + f.shift, bucket = size_class(f.typical), unit = f.typical / 2 + 4, twin = p->twin >= 0;
 
-    Expectation e;
+    Expectation e = {.contexts = CONTEXTS};
     e.prediction[0] = base;
     e.prediction[1] = s->by_angle[j];
     e.prediction[2] = s->drift[j];

@@ -80,7 +80,7 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
 
     int32_t first = near > 0 ? value_at(g, r->neighbor[0], j) * FINE : mean, like = find_like(g, p, v, j);
     int32_t second = near > 1 ? value_at(g, r->neighbor[1], j) * FINE : mean;
-    Expectation e;
+    Expectation e = {.contexts = CONTEXTS};
     e.prediction[0] = mean;
     e.prediction[1] = t.best;
     e.prediction[2] = p->bases > 0 ? t.straight : first;

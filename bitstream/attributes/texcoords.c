@@ -142,7 +142,7 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     foresee_error(&f, far, number > 0);
     int32_t guess = base + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
-    Expectation e;
+    Expectation e = {.contexts = CONTEXTS};
     e.prediction[0] = base;
     e.prediction[1] = p->all.similar[j];
     e.prediction[2] = one->affine[j];

@@ -141,6 +141,8 @@ class Header:
     """The numbers of `Paper`; empty: those of the law."""
     onorm: int = wire(21, int, 0, 64, default=0)
     """Onorm follows each of so many solutions of an iteration, with packed coefficients; 0: each solution."""
+    congruence: int = wire(22, int, 0, 17, default=0)
+    """1 plus the transforms between congruent parts, from which the values of a grid are also predicted; 0: without."""
 
     def __post_init__(self) -> None:
         normalize_fields(self, "header")

@@ -190,9 +190,9 @@ class Writer:
     def __init__(self) -> None:
         self._frames = self._crc = 0
 
-    def start(self) -> bytes:
-        """Return the preamble, which comes first."""
-        preamble = write_preamble()
+    def start(self, minor: int = 0) -> bytes:
+        """Return the preamble, which comes first, of a minor version."""
+        preamble = write_preamble(minor)
         self._crc = zlib.crc32(preamble)
         return preamble
 

@@ -39,8 +39,8 @@ class FrameType(IntEnum):
     END = 15
 
 
-def write_preamble() -> bytes:
-    return MAGIC + bytes([VERSION])
+def write_preamble(minor: int = 0) -> bytes:
+    return MAGIC + bytes([VERSION + minor])
 
 
 def require_major(what: str, major: int) -> None:

@@ -27,7 +27,7 @@ enum { PARTS = 1, INPUT_PARTS = WEIGHT_ROW / 8 };
 typedef int32_t Number;
 typedef int32_t UnalignedNumber;
 typedef int64_t Inverse;
-enum { PARTS = PREDICTIONS, INPUT_PARTS = VALUE_INPUTS };
+enum { PARTS = PREDICTIONS, INPUT_PARTS = WEIGHT_ROW };
 #endif
 
 #define EACH_PART(i) for (int i = 0; i < PARTS; i++)
@@ -39,6 +39,8 @@ typedef struct { /* a value under way */
     Number prediction[PARTS];
     Inverse inverse[PARTS]; /* of the scales: 2^38 by 1/4096 */
     Number input[INPUT_PARTS];
+    int32_t means[MODEL_ROW], counts[MODEL_ROW]; /* of each prediction */
+    uint32_t hits[MODEL_ROW];
 } Work;
 
 INLINE Number numbers_at(const int32_t *row, int i) { return ((const UnalignedNumber *)row)[i]; }
@@ -78,27 +80,30 @@ INLINE Number odds_of(Number d) { return entries_of(ODDS, entry(d)); }
 INLINE Number less_of(Number d) { return entries_of(LESS, entry(d)); }
 
 /* As below: quotients of whole doubles below 2^52 are as whole as those of integers. */
-INLINE Inverse inverse_of(Number scale, int32_t count, int32_t first, int32_t *typical) {
-    Inverse mean = (as_doubles(scale) * (double)count + (double)first * 512) / (double)(count + 2);
+INLINE Inverse inverse_of(Number scale, Number count, int32_t first, int32_t *typical) {
+    Inverse mean = (as_doubles(scale) * as_doubles(count) + (double)first * 512) / as_doubles(count + 2);
     mean = (Inverse)_mm512_max_pd((__m512d)whole_of(mean), _mm512_set1_pd(256));
     *typical = (int32_t)((int64_t)mean[PREDICTIONS - 1] >> 8);
     return whole_of(0x1p38 / mean);
 }
 
-INLINE void set_contexts(Work *w, uint32_t *const *slots) {
+INLINE void set_contexts(Work *w, uint32_t *const *slots, int contexts) {
+    bool all = contexts > CONTEXTS;
     w->input[0][CONSTANT_INPUT] = 256;
     w->input[1] = (Number){slot_odds(*slots[0]), slot_odds(*slots[1]), slot_odds(*slots[2]), slot_odds(*slots[3]),
-        slot_odds(*slots[4]), slot_odds(*slots[5])};
+        slot_odds(*slots[4]), slot_odds(*slots[5]), all ? slot_odds(*slots[6]) : 0, all ? slot_odds(*slots[7]) : 0};
 }
 
-INLINE int64_t weighed(const Number *input, const int32_t *own, const int32_t *other) {
+INLINE int64_t weighed(const Number *input, const int32_t *own, const int32_t *other, int inputs) {
+    (void)inputs;
     Long sum = as_longs(input[0]) * (as_longs(numbers_at(own, 0)) + as_longs(numbers_at(other, 0)))
         + as_longs(input[1]) * (as_longs(numbers_at(own, 1)) + as_longs(numbers_at(other, 1)));
     return _mm512_reduce_add_epi64((__m512i)sum);
 }
 
 /* Products are below 2^31; weights are added modulo 2^32. */
-INLINE void train(int32_t *weights, const Number *input, int32_t error) {
+INLINE void train(int32_t *weights, const Number *input, int32_t error, int inputs) {
+    (void)inputs;
     for (int i = 0; i < 2; i++) {
         __m256i change = (__m256i)((input[i] * error + (1 << 19)) >> 20);
         ((UnalignedNumber *)weights)[i] = (Number)_mm256_add_epi32((__m256i)numbers_at(weights, i), change);
@@ -133,57 +138,78 @@ INLINE int32_t odds_of(int32_t d) { return ODDS[entry(d)]; }
 INLINE int32_t less_of(int32_t d) { return LESS[entry(d)]; }
 
 /* 2^38 by a mean size of errors, the expected one counting as if seen twice. */
-INLINE Inverse inverse_of(Number scale, int32_t count, int32_t first, int32_t *typical) {
+INLINE Inverse inverse_of(Number scale, Number count, int32_t first, int32_t *typical) {
     int64_t mean = largest(((int64_t)scale * count + ((int64_t)first << 9)) / (count + 2), 256);
     *typical = (int32_t)(mean >> 8);
     return (INT64_C(1) << 38) / mean;
 }
 
-INLINE void set_contexts(Work *w, uint32_t *const *slots) {
+INLINE void set_contexts(Work *w, uint32_t *const *slots, int contexts) {
     w->input[CONSTANT_INPUT] = 256;
-    for (int i = 0; i < CONTEXTS; i++) w->input[CONSTANT_INPUT + 1 + i] = slot_odds(*slots[i]);
+    for (int i = 0; i < contexts; i++) w->input[CONSTANT_INPUT + 1 + i] = slot_odds(*slots[i]);
 }
 
-INLINE int64_t weighed(const int32_t *input, const int32_t *own, const int32_t *other) {
+INLINE int64_t weighed(const int32_t *input, const int32_t *own, const int32_t *other, int inputs) {
     int64_t total = 0;
-    for (int i = 0; i < VALUE_INPUTS; i++) total += input[i] * ((int64_t)own[i] + other[i]);
+    for (int i = 0; i < inputs; i++) total += input[i] * ((int64_t)own[i] + other[i]);
     return total;
 }
 
-INLINE void train(int32_t *weights, const int32_t *input, int32_t error) {
-    for (int i = 0; i < VALUE_INPUTS; i++) weights[i] = trained(weights[i], input[i], error);
+INLINE void train(int32_t *weights, const int32_t *input, int32_t error, int inputs) {
+    for (int i = 0; i < inputs; i++) weights[i] = trained(weights[i], input[i], error);
 }
 #endif
 
 INLINE void set_input(Work *w, int i, Number odds) { w->input[i] = smaller(larger(odds, -MOST_ODDS), MOST_ODDS); }
 
-/* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 4.4). */
-OFTEN static int decide(Work *w, int node, int kind, int bit) {
-    uint32_t *slots[CONTEXTS];
-    for (int i = 0; i < CONTEXTS; i++)
+/* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 4.4). The number of contexts is a
+ * constant wherever this is called, so that loops are unrolled. */
+INLINE int decide_by(Work *w, int node, int kind, int bit, int contexts) {
+    uint32_t *slots[CONTEXTS + TWIN_CONTEXTS];
+    int inputs = PREDICTIONS + 1 + contexts;
+    for (int i = 0; i < contexts; i++)
         slots[i] = w->model->slots.data + (i * CONTEXT_SIZE + w->e->context[i]) * VALUE_NODES + node;
-    set_contexts(w, slots);
+    set_contexts(w, slots, contexts);
     int32_t *own = w->model->weights.data + node * WEIGHT_ROW;
     int32_t *other = w->model->weights.data + (VALUE_NODES + w->e->set * KINDS + kind) * WEIGHT_ROW;
-    uint32_t probability = squashed(weighed(w->input, own, other) >> 16);
+    uint32_t probability = squashed(weighed(w->input, own, other, inputs) >> 16);
     bit = code_bit(w->coder, probability, bit);
 
     int32_t error = (bit * ONE - (int32_t)probability) * RATE;
-    train(own, w->input, error);
-    train(other, w->input, error);
-    for (int i = 0; i < CONTEXTS; i++) learn_slot(slots[i], bit, SLOT_LIMIT);
+    train(own, w->input, error, inputs);
+    train(other, w->input, error, inputs);
+    for (int i = 0; i < contexts; i++) learn_slot(slots[i], bit, SLOT_LIMIT);
     return bit;
+}
+
+OFTEN static int decide(Work *w, int node, int kind, int bit) {
+    return w->e->contexts == CONTEXTS ? decide_by(w, node, kind, bit, CONTEXTS)
+        : decide_by(w, node, kind, bit, CONTEXTS + TWIN_CONTEXTS);
 }
 
 INLINE int32_t first_scale(const Expectation *e) { return e->scale < 2 ? 2 : e->scale; }
 
 /* The learned sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 5.3). */
 INLINE int32_t find_scales(Work *w) {
-    const int32_t *row = w->model->scales.data + MODEL_ROW * w->e->scale_context;
-    int32_t count = row[PREDICTIONS], typical = 0;
+    const Expectation *e = w->e;
+    const int32_t *row = w->model->scales.data + MODEL_ROW * e->scale_context;
+    const uint32_t *hits = w->model->hits.data + MODEL_ROW * e->hit_context;
+    int32_t typical = 0;
+    for (int j = 0; j < MODEL_ROW; j++) {
+        w->means[j] = row[j];
+        w->counts[j] = row[PREDICTIONS];
+        w->hits[j] = hits[j];
+    }
+    for (int i = 0; i < TWIN_PREDICTIONS && e->contexts > CONTEXTS; i++) { /* V 17.7 */
+        if (e->twin[i] < 0) continue;
+        const int32_t *own = w->model->twins.data + TWIN_ROW * e->twin[i];
+        w->means[TWIN_AT[i]] = own[0];
+        w->counts[TWIN_AT[i]] = own[1];
+        w->hits[TWIN_AT[i]] = (uint32_t)own[2];
+    }
     EACH_PART(i) {
-        w->prediction[i] = numbers_at(w->e->prediction, i);
-        w->inverse[i] = inverse_of(numbers_at(row, i), count, first_scale(w->e), &typical);
+        w->prediction[i] = numbers_at(e->prediction, i);
+        w->inverse[i] = inverse_of(numbers_at(w->means, i), numbers_at(w->counts, i), first_scale(e), &typical);
     }
     return typical;
 }
@@ -191,7 +217,7 @@ INLINE int32_t find_scales(Work *w) {
 /* Is the value one of the predictions that often are exact? What was asked goes to `asked` (V 5.4). */
 INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
     const Expectation *e = w->e;
-    const uint32_t *hits = w->model->hits.data + MODEL_ROW * e->hit_context;
+    const uint32_t *hits = w->hits;
     int open = (1 << PREDICTIONS) - 1;
     for (*asks = 0; *asks < e->asks && open != 0;) {
         int best = 0;
@@ -273,19 +299,29 @@ INLINE int64_t code_distance(
     return first + place + (size > 0 ? code_uniform(w->coder, (distance - first) & (rest - 1), rest) : 0);
 }
 
+/* Learn the size of an error and whether it is none, of which `count` were seen. */
+INLINE void learn_error(const Expectation *e, int j, int32_t value, uint32_t *hits, int32_t *mean, int32_t count) {
+    int64_t error = (int64_t)value * FINE - e->prediction[j];
+    int64_t usual = count > 0 ? *mean : (int64_t)first_scale(e) << 8;
+    int64_t seen = least((error < 0 ? -error : error) << 8, 8 * usual + 4096); /* an outlier counts as eight */
+    *mean += (int32_t)((least(seen, 1 << 30) - *mean) * RECIPROCAL[count] >> 16);
+    learn_slot(hits, whole(e->prediction[j]) == value, HIT_LIMIT);
+}
+
 /* Hit rates and scales, after a value (V 5.9). */
 INLINE void learn_errors(const Work *w, int32_t value) {
     const Expectation *e = w->e;
     uint32_t *hits = w->model->hits.data + MODEL_ROW * e->hit_context;
-    int32_t *row = w->model->scales.data + MODEL_ROW * e->scale_context, *count = row + PREDICTIONS;
-    int32_t first = first_scale(e), share = RECIPROCAL[*count];
-    for (int j = 0; j < PREDICTIONS; j++) learn_slot(hits + j, whole(e->prediction[j]) == value, HIT_LIMIT);
-    for (int j = 0; j < PREDICTIONS; j++) {
-        int64_t error = (int64_t)value * FINE - e->prediction[j];
-        int64_t usual = *count > 0 ? row[j] : (int64_t)first << 8;
-        int64_t seen = least((error < 0 ? -error : error) << 8, 8 * usual + 4096); /* an outlier counts as eight */
-        row[j] += (int32_t)((least(seen, 1 << 30) - row[j]) * share >> 16);
+    int32_t *row = w->model->scales.data + MODEL_ROW * e->scale_context, *count = row + PREDICTIONS, of_twins = 0;
+    for (int i = 0; i < TWIN_PREDICTIONS && e->contexts > CONTEXTS; i++) {
+        if (e->twin[i] < 0) continue;
+        int32_t *own = w->model->twins.data + TWIN_ROW * e->twin[i];
+        of_twins |= 1 << TWIN_AT[i];
+        learn_error(e, TWIN_AT[i], value, (uint32_t *)own + 2, own, own[1]);
+        if (own[1] < SCALE_LIMIT) own[1] += 1;
     }
+    for (int j = 0; j < PREDICTIONS; j++)
+        if (!(of_twins >> j & 1)) learn_error(e, j, value, hits + j, row + j, *count);
     if (*count < SCALE_LIMIT) *count += 1;
 }
 

@@ -46,6 +46,7 @@ enum {
     FINE = 16, /* predictions and their errors are in 1/16 */
     PREDICTIONS = 7,
     CONTEXTS = 6,
+    TWIN_CONTEXTS = 2, /* more where twins foretell values, each of two sizes */
     CONTEXT_SIZE = 512, /* values of a context */
     SCALE_CONTEXTS = 512,
     HIT_CONTEXTS = 32,
@@ -53,7 +54,7 @@ enum {
     KINDS = 6, /* of decisions */
     MOST_ASKS = 3,
     CONSTANT_INPUT = PREDICTIONS, /* behind it are those of the contexts */
-    VALUE_INPUTS = PREDICTIONS + CONTEXTS + 1,
+    VALUE_INPUTS = PREDICTIONS + CONTEXTS + 1, /* without twins */
     WEIGHT_ROW = 16,
     MODEL_ROW = 8, /* numbers from one row to the next, some beyond the last */
     /* Nodes of the decisions, by kind. */
@@ -63,20 +64,29 @@ enum {
     PLACE_NODE = CLASS_NODE + 2 * 15,
     VALUE_NODES = PLACE_NODE + 2 * 9,
     VALUE_BYTES = 160, /* more than a value can take */
+    TWIN_PREDICTIONS = 4,
+    TWIN_ROWS = 2 * 96 + 2 * 45,
+    TWIN_ROW = 4,
 };
+
+/* Predictions that twins replace: by images, and by flaps alike. */
+static const int TWIN_AT[TWIN_PREDICTIONS] = {3, 5, 1, 2};
 
 typedef struct {
     Words slots;   /* CONTEXTS x CONTEXT_SIZE x VALUE_NODES */
     Words hits;    /* HIT_CONTEXTS x MODEL_ROW: how often a prediction is exact */
     Ints2 weights; /* VALUE_NODES + WEIGHT_SETS * KINDS rows of WEIGHT_ROW, VALUE_INPUTS of which are used */
     Ints2 scales;  /* SCALE_CONTEXTS rows of MODEL_ROW: mean sizes of errors in 1/4096, and how many were seen */
+    Ints2 twins;   /* TWIN_ROWS of a mean size, how many, and how often it is exact: of predictions by twins */
 } ValueModel;
 
 typedef struct { /* filled by the front-end */
     int32_t prediction[MODEL_ROW]; /* below 2^28 in magnitude; the last is the best guess */
     int32_t scale;                   /* what to expect of the size of its error, in 1/16; 0 .. 2^28 */
     int32_t asks;                    /* predictions that may be asked for, at most MOST_ASKS */
-    int32_t scale_context, hit_context, context[CONTEXTS], set;
+    int32_t scale_context, hit_context, context[CONTEXTS + TWIN_CONTEXTS], set;
+    int32_t contexts;                /* CONTEXTS, or TWIN_CONTEXTS more */
+    int32_t twin[TWIN_PREDICTIONS];  /* rows of those of TWIN_AT that are by twins; -1 for others */
 } Expectation;
 
 INLINE int32_t whole(int32_t fine) { return (fine + FINE / 2) >> 4; }
@@ -267,6 +277,7 @@ typedef struct {
     Longs2 sums;       /* n x 4: values of the coded neighbors, added, and how many they are */
     Longs2 seen;       /* 3 x words: bit v of an axis tells that it has taken the value v */
     Longs2 learners;
+    struct Twins *twins; /* or NULL */
 } Grid;
 
 int64_t ISA(code_grid)(Coder coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count);

@@ -1,4 +1,5 @@
 /* Positions on a grid, vertex after vertex, predicted from coded neighbors (specification, V 7 to V 10). */
+#include "bitstream/fields/twins.h"
 #include "bitstream/fields/wide.h"
 
 enum {
@@ -6,6 +7,8 @@ enum {
     STEPS = 3, /* axes of a vertex in the order in which they are coded */
     GUESSES = 4 * 2 * VALENCES,
     LEARNERS = GUESSES + 4 * STEPS,
+    CERTAINTIES = 4 * 2 * 4 * STEPS,
+    ECHO_CLASSES = 15,
 };
 
 /* How meshes deviate from parallelograms, as vectors in 1/16 (V 8.3). */
@@ -162,6 +165,48 @@ OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, int32
     span_planes(g, p);
 }
 
+/* How well a twin is known: its row of scales and hits, less what it is of (V 17.6). */
+INLINE int32_t certainty(const Twins *t, const Candidate *c) {
+    bool other = false;
+    for (int a = 0; a < t->known_axes; a++) other = other || whole(c->place[t->axis[a]]) != t->value[a];
+    int32_t trust = t->image[c->image].trust, state = t->known_axes == 0 ? 0 : other ? 2 : 1;
+    int32_t level = (trust >= ONE / 5) + (trust >= ONE / 2) + (trust >= ONE / 5 * 4);
+    return (((int32_t)least(c->support, 3) * 2 + c->same_degree) * 4 + level) * STEPS + state;
+}
+
+/* Predictions by twins in the place of others, and their contexts (V 17.6). */
+INLINE void expect_twins(const Twins *t, int j, int step, int kind, int32_t far, int32_t unit, Expectation *e) {
+    int32_t guess = e->prediction[PREDICTIONS - 1], image_off = 0, off[2] = {0, 0};
+    int chosen[2];
+    choose_twins(t, chosen);
+    for (int i = 0; i < TWIN_PREDICTIONS; i++) e->twin[i] = -1;
+    e->contexts = CONTEXTS + TWIN_CONTEXTS;
+    e->context[6] = 1008 + kind;
+    for (int i = 0; i < 2 && chosen[i] >= 0; i++) {
+        const Candidate *c = t->candidate + chosen[i];
+        int32_t place = within(c->place[j], 0, far), sure = certainty(t, c);
+        e->prediction[TWIN_AT[i]] = place;
+        e->twin[i] = i * CERTAINTIES + sure;
+        if (i == 0) {
+            image_off = place - guess;
+            int32_t trusted = t->image[c->image].trust >= ONE / 2;
+            e->context[6] = (((sure / 12 * STEPS + sure % STEPS) * 2 + trusted) * 7
+                + signed_class(image_off, (int32_t)largest(unit, FINE / 2))) * 3;
+        } else {
+            e->context[6] += 1 + (size_of(place - guess - image_off) < 24);
+        }
+    }
+    bool echoed = t->echo_class > 0;
+    for (int i = 0; i < 2 && echoed; i++) {
+        int32_t place = within(t->echoed[i][j], 0, far);
+        off[i] = place - guess;
+        e->prediction[TWIN_AT[2 + i]] = place;
+        e->twin[2 + i] = 2 * CERTAINTIES + (i * ECHO_CLASSES + t->echo_class - 1) * STEPS + step;
+    }
+    e->context[7] = CONTEXT_SIZE + (echoed ? three_classes(off[0], off[1], image_off, FINE / 2, unit)
+        + 343 * (t->echo_class > 6) : 686 + signed_class(image_off, FINE / 2));
+}
+
 /* Code a value; false if it is invalid (V 9, V 10). */
 OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, Place *p,
     int32_t *hits, int32_t *first_gap) {
@@ -187,6 +232,7 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     int32_t second = r->flaps > 1 ? p->across[1][j] : base;
     int64_t words = g->seen.columns;
     Expectation e;
+    e.contexts = CONTEXTS;
     e.prediction[0] = base + tilted;
     e.prediction[1] = flaps > 0 ? p->across[0][j] : mean;
     e.prediction[2] = second;
@@ -214,6 +260,7 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     }
     e.context[5] = step == 0 ? 0 : *hits + (step << PREDICTIONS);
     e.set = step;
+    if (g->twins) expect_twins(g->twins, j, step, kind, far, unit, &e);
 
     int32_t value = ISA(code_value)(coder, model, &e, is_reading(coder) ? 0 : x[AXES * (int64_t)v + j]);
     if (value < 0 || value > most) return false;
@@ -223,6 +270,7 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     g->gaps.data[AXES * (int64_t)v + j] = gap;
     *hits = hits_of(&e, value);
     if (step == 0) *first_gap = size_of(gap);
+    if (g->twins) pass_twin_axis(g->twins, j, value);
     pass_axis(&p->whole, j, error);
     for (int i = 0; i < 2 && i < r->flaps; i++) pass_axis(&p->plane[i], j, value * FINE - p->across[i][j]);
     return true;
@@ -241,9 +289,11 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
     int32_t v = g->order.data[i], last = i > 0 ? g->order.data[i - 1] : -1, hits = 0, first_gap = 0;
     Place p;
     survey(&w->corners, g, v, last, &p);
+    if (g->twins) seek_twins(g->twins, &w->corners, &g->values, &p.around, v, p.base);
     for (int step = 0; step < STEPS; step++)
         if (!code_axis(&w->coder, &w->model, g, v, step, &p, &hits, &first_gap)) return false;
     pass_on(&w->corners, &g->values, &g->sums, v);
+    if (g->twins) remember_twins(g->twins, &g->values, &p.around, v);
     return true;
 }
 

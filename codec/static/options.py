@@ -147,6 +147,9 @@ class EncodeOptions:
         The same as ``effort="quick"``.
     exact : bool
         Keep every position exactly in single precision.
+    congruence : bool
+        Let positions on a grid also be predicted from congruent parts of the mesh, where that makes the stream smaller.
+        Such streams are of version 1.1; False writes what decoders of 1.0 read.
     grid : int, optional
         Round every position to a grid with this many bits along the longest side.
     attributes : mapping of str to str, or pairs
@@ -194,6 +197,7 @@ class EncodeOptions:
     effort: str = "normal"
     quick: bool = False
     exact: bool = False
+    congruence: bool = True
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     normals: str = "look"

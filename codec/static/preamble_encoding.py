@@ -147,6 +147,9 @@ class Prepared:
     coding_faces: Order
     joined_faces: Faces
     light: bool
+    congruence: bool
+    motions: dict[int, Matrix] = field(default_factory=dict, init=False, repr=False)
+    """Transforms between parts, shape (k, 12), by half octaves of the step."""
     _spectra: dict[float, MeasuredSpectrum] = field(default_factory=dict, init=False, repr=False)
 
     def spectrum(self, shift: float) -> MeasuredSpectrum:
@@ -235,7 +238,13 @@ class Parts:
 
 
 def prepare(
-    mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None, light: bool = False
+    mesh: TriangleMesh,
+    parts: Parts,
+    *,
+    keep_order: bool,
+    splits: Splits | None = None,
+    light: bool = False,
+    congruence: bool = True,
 ) -> Prepared:
     """Code the connectivity of a mesh whose vertices are all in faces."""
     connectivity = encode_connectivity(mesh.faces, len(mesh.positions))
@@ -255,6 +264,7 @@ def prepare(
         coding_faces=connectivity.face_order.astype(np.int64),
         joined_faces=mesh.faces,
         light=light,
+        congruence=congruence,
     )
 
 
@@ -277,7 +287,7 @@ class Draft:
 
     def _write(self) -> Iterator[bytes]:
         writer = Writer()
-        yield writer.start()
+        yield writer.start(minor=int(self.header.congruence > 0))
         for packet in (self.header, *self.body):
             yield writer.write(packet)
         yield writer.end(checksum_of(self.decoded))

@@ -367,12 +367,14 @@ class Field : public Shared, Output {
   public:
     Field(Rows<int32_t, 3> faces, Table values) : faces(faces), values(values) {}
 
-    void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact) {
+    void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact,
+        std::optional<Rows<int32_t, 8>> transforms) {
         if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows()))
             throw nb::value_error("a grid has three axes");
         begin([&] {
-            return encode_positions(
-                encoding, given(), largest.data(), light, origin.data(), step, exact ? exact->data() : nullptr);
+            return encode_positions(encoding, given(), largest.data(), light, origin.data(), step,
+                exact ? exact->data() : nullptr, transforms ? transforms->data() : nullptr,
+                transforms ? (int64_t)transforms->shape(0) : -1);
         });
     }
     void levels() {
@@ -457,7 +459,8 @@ NB_MODULE(_engine, m) {
                 "tuple[int, int, int], numpy.typing.NDArray[numpy.int32]]"));
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
-        .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none())
+        .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
+            "transforms"_a.none() = nb::none())
         .def("levels", in_turn(&Field::levels))
         .def("attribute", in_turn(&Field::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
         .def("write", in_turn(&Field::write), "count"_a, nb::sig("def write(self, count: int) -> list[bytes]"))

@@ -75,8 +75,9 @@ bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *
 }
 
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
-    double step, const double *exact) {
-    return begin_positions(&encoding->field, &encoding->writer.context, given, largest, light, origin, step, exact);
+    double step, const double *exact, const int32_t *transforms, int64_t transforms_count) {
+    return begin_positions(&encoding->field, &encoding->writer.context, given, largest, light, origin, step, exact,
+        transforms, transforms_count);
 }
 
 bool encode_levels(Encoding *encoding, Written given) {

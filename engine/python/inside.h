@@ -30,8 +30,9 @@ const bsmdec_error *encoding_error(const Encoding *encoding);
 const Writing *encoding_payloads(const Encoding *encoding);
 bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
     int32_t *faces);
+/* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
-    double step, const double *exact);
+    double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
 bool encode_levels(Encoding *encoding, Written given);
 bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places);

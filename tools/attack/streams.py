@@ -148,6 +148,10 @@ def _grid(shape: tuple[Any, ...], chunk: int, **fields: Any) -> bytes:
     return stream_of(gridded(coded, np.zeros((size, 3), np.int32), counts, **{"grid": (1, 1, 1)} | fields))
 
 
+STAYING = np.array([[48, 0, *[1 << 3] * 3, *[12] * 3]] * 16, np.int32)
+"""Transforms that leave everything where it is."""
+
+
 def _layers(rows: int, columns: int, chunk: int) -> bytes:
     coded = _coded("torus", rows, columns)
     size = len(coded.vertex_order)
@@ -470,6 +474,8 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "copies": lambda: _copies(64, 64),  # copies of one vertex in every block
     "grid": lambda: _grid(ring(1024, 1024), 1 << 15),  # a grid of a million vertices
     "grid-chunks": lambda: _grid(ring(100, 100), 1),  # a grid, vertex by vertex
+    "congruent": lambda: _grid(ring(1024, 1024), 1 << 15, transforms=STAYING),  # images of everything
+    "congruent-chunks": lambda: _grid(ring(100, 100), 1, transforms=STAYING),
     "light": lambda: _grid(ring(1024, 1024), 1 << 15, light=1),  # the small model on a million vertices
     "light-chunks": lambda: _grid(ring(100, 100), 1, light=1),  # the same, vertex by vertex
     "light-hubs": lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1),  # hubs beside everything, by the small model

@@ -5,10 +5,22 @@ from tools.vectors.edges import EDGES
 from tools.vectors.exact import EXACT
 from tools.vectors.good import STATIC, Good
 from tools.vectors.good_attributes import ATTRIBUTES
+from tools.vectors.good_congruence import CONGRUENCE, CONGRUENCE_BAD
 from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_light import LIGHT
 from tools.vectors.good_sequences import SEQUENCES
 from tools.vectors.large import LARGE
 
-GOODS: dict[str, Good] = {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES, **BOUNDS, **LARGE}
-BADS: dict[str, Bad] = BOUNDS_BAD
+GOODS: dict[str, Good] = {
+    **STATIC,
+    **FIELDS,
+    **SEQUENCES,
+    **ATTRIBUTES,
+    **LIGHT,
+    **EXACT,
+    **EDGES,
+    **BOUNDS,
+    **LARGE,
+    **CONGRUENCE,
+}
+BADS: dict[str, Bad] = {**BOUNDS_BAD, **CONGRUENCE_BAD}

@@ -47,7 +47,12 @@ class Input:
         options = self.coded
         parts = Parts(options.block_size, options.growth, options.paper.partition == "metis")
         return prepare(
-            self.joined.mesh, parts, keep_order=options.keep_order, splits=self.joined.splits, light=options.quick
+            self.joined.mesh,
+            parts,
+            keep_order=options.keep_order,
+            splits=self.joined.splits,
+            light=options.quick,
+            congruence=options.congruence,
         )
 
     @cached_property

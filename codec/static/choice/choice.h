@@ -1,4 +1,4 @@
-/* What chooses levels and places: shaping.c, settling.c, creases.c. Encoder only. */
+/* What chooses levels, places and transforms: shaping.c, settling.c, creases.c, congruence.c. Encoder only. */
 #ifndef BSM_CHOICE_H
 #define BSM_CHOICE_H
 
@@ -55,5 +55,8 @@ int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double 
 int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps);
 int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
     ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, Bytes wrong, Bytes open);
+
+int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads, Ints links,
+    Bytes covered, Doubles room, Doubles2 found);
 
 #endif

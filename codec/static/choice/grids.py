@@ -12,13 +12,14 @@ from bsm._engine import rounded as places_on
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
+from bsm.codec.static.choice.congruence import transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import Grid, encode_grid, sampled_ratio
+from bsm.codec.static.ways.grid import Grid, encode_grid, grid_field, sampled_ratio
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
@@ -29,9 +30,27 @@ SAMPLE = 1 << 11
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative; with the small model, which is quick, if `light`."""
     grid = replace(grid, light=light or prepared.light)
-    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
-    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places))
-    return Draft(header, body, grid.positions(places), places)
+    ways = [grid] if grid.light or not prepared.congruence else [grid, *_congruent(prepared, grid, places)]
+    coded = [encode_grid(prepared.mesh.faces, way, places) for way in ways]
+    sizes = [sum(len(packet.data) for packet in packets) for packets in coded]
+    best = sizes.index(min(sizes))
+    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **ways[best].fields)
+    return Draft(header, (*prepared.before_grid, *coded[best]), grid.positions(places), places)
+
+
+def _congruent(prepared: Prepared, grid: Grid, places: Levels) -> Iterator[Grid]:
+    """The grid with predictions by congruent parts where they may take fewer bytes."""
+    faces, transforms = prepared.mesh.faces, transforms_of(prepared, grid)
+    alone = replace(grid, transforms=transforms[:0])
+    if len(transforms):
+        yield replace(grid, transforms=transforms)
+    if len(places) <= SAMPLE or sampled_size(faces, alone, places) < sampled_size(faces, grid, places):
+        yield alone
+
+
+def sampled_size(faces: Faces, grid: Grid, places: Levels) -> int:
+    """The bytes of the first vertices."""
+    return sum(map(len, grid_field(faces, grid.largest, places, 0, grid).write(SAMPLE)))
 
 
 def rounded(prepared: Prepared, bits: int) -> Draft:

@@ -26,6 +26,7 @@ class Grid:
     largest: tuple[int, ...]
     light: bool = False
     exact: bool = False
+    transforms: Levels | None = None  # of congruent parts, shape (k, 8); None: coded without
 
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
@@ -35,7 +36,14 @@ class Grid:
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
         light = EXACT if self.exact else int(self.light)
-        return {"center": self.origin, "scale": self.step, "grid": self.largest, "light": light}
+        congruence = 0 if self.transforms is None else 1 + len(self.transforms)
+        return {
+            "center": self.origin,
+            "scale": self.step,
+            "grid": self.largest,
+            "light": light,
+            "congruence": congruence,
+        }
 
 
 def grid_field(
@@ -44,7 +52,8 @@ def grid_field(
     """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats in their cells."""
     field = Field(faces, np.ascontiguousarray(coded, np.int32))
     origin, step = ((0.0, 0.0, 0.0), 1.0) if grid is None else (grid.origin, grid.step)
-    field.grid(np.array(largest, np.int32), light, np.array(origin, np.float64), step, exact)
+    transforms = None if grid is None else grid.transforms
+    field.grid(np.array(largest, np.int32), light, np.array(origin, np.float64), step, exact, transforms)
     return field
 
 

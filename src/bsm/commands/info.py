@@ -51,6 +51,7 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
     extensions = {
         "order": sizes["order"] > 0,
         "light": header.light > 0,
+        "congruence": header.congruence > 0,
         "paper": bool(header.paper) or sizes["partition"] > 0,
         "attributes": header.attributes > 0,
         "sequence": bool(header.sequence),

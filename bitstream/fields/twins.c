@@ -1,0 +1,476 @@
+/* What repeats in a mesh: images under transforms, and congruent flaps (specification, V 17). */
+#include "bitstream/fields/twins.h"
+
+enum {
+    AXES = 3,
+    TURN_BITS = 20,
+    MOST_FINENESS = 19, /* bits of a component of a quaternion */
+    CELL_BITS = 4,      /* of space, by which known vertices are found */
+    MOST_VISITS = 8,   /* of one chain */
+    REACH = 29,         /* in 1/16: how far an image may be from its vertex */
+    MATCH = 26,         /* in 1/16, on each axis */
+    MOST_ADDED = 24,   /* corners around twins of neighbors */
+    MOST_AROUND = 12,  /* corners around the twin of an edge */
+    MOST_BEYOND = 96,  /* of all such */
+    LOOKED_UP = 16,     /* images by which a vertex with a twin is sought among the known ones, too */
+    ECHO_VISITS = 4,
+    MOST_ECHO = 256, /* distances of flaps, in 1/64 of what they may differ by */
+    NEAREST_ECHOES = 4,
+    UNIT_BITS = 16,
+    SURE = ONE / 8 * 7, /* trust from which on an image is enough */
+};
+
+/* The greatest number whose square is at most x < 2^62: exact, however a processor rounds. */
+INLINE int64_t root_of(int64_t x) {
+    int64_t root = (int64_t)__builtin_sqrt((double)x);
+    while (root * root > x) root--;
+    while ((root + 1) * (root + 1) <= x) root++;
+    return root;
+}
+
+INLINE int32_t most_of(ConstInts values) {
+    return (int32_t)largest(largest(values.data[0], values.data[1]), largest(values.data[2], 1));
+}
+
+static int fineness_of(ConstInts span) { return (int)least(bit_length((uint32_t)most_of(span)) + 2, MOST_FINENESS); }
+
+/* The axis of which each axis of an axis-parallel image is made. */
+INLINE void axes_of(int32_t kind, int *from) {
+    int order = kind / 8;
+    from[0] = order / 2;
+    from[1] = (order / 2 + 1 + order % 2) % 3;
+    from[2] = 3 - from[0] - from[1];
+}
+
+/* Code the numbers of a transform (V 17.2). */
+static void code_transform(RangeCoder *coder, ConstInts span, int32_t *number) {
+    number[0] = (int32_t)code_uniform(coder, number[0], AXIS_KINDS + 2);
+    if (number[0] < AXIS_KINDS) {
+        int from[AXES];
+        axes_of(number[0], from);
+        for (int j = 0; j < AXES; j++)
+            number[5 + j] = (int32_t)code_uniform(coder, number[5 + j], (int64_t)span.data[j] + span.data[from[j]] + 1);
+        return;
+    }
+    int64_t fine = INT64_C(2) << fineness_of(span), shifts = 24 * (int64_t)most_of(span) + 1;
+    number[1] = (int32_t)code_uniform(coder, number[1], 4);
+    for (int i = 2; i < 5; i++) number[i] = (int32_t)code_uniform(coder, number[i], fine + 1);
+    for (int i = 5; i < 8; i++) number[i] = (int32_t)code_uniform(coder, number[i], shifts);
+}
+
+int64_t code_transforms(Coder given, ConstInts span, Ints2 numbers) {
+    RangeCoder coder;
+    if (!open_coder(&coder, given) || span.size != AXES || numbers.rows > MOST_TRANSFORMS
+        || numbers.columns != TRANSFORM_ROW || !has_room(&coder, TWIN_BYTES * MOST_TRANSFORMS))
+        return MISUSED;
+    for (int64_t i = 0; i < numbers.rows; i++) code_transform(&coder, span, numbers.data + TRANSFORM_ROW * i);
+    close_coder(&coder, given);
+    return 0;
+}
+
+static void set_parallel(ConstInts span, const int32_t *number, Image *image) {
+    int from[AXES];
+    axes_of(number[0], from);
+    for (int j = 0; j < AXES; j++) {
+        bool back = number[0] >> j & 1;
+        image->turn[j][from[j]] = back ? -(1 << TURN_BITS) : 1 << TURN_BITS;
+        image->shift[j] = FINE * (number[5 + j] - (back ? 0 : span.data[from[j]]));
+    }
+}
+
+static void set_turned(ConstInts span, const int32_t *number, Image *image) {
+    int bits = fineness_of(span);
+    int64_t q[4], square = 0;
+    for (int i = 0, k = 2; i < 4; i++) {
+        q[i] = i == number[1] ? INT64_C(1) << bits : number[k++] - (INT64_C(1) << bits);
+        square += q[i] * q[i];
+    }
+    int64_t a = q[0], b = q[1], c = q[2], d = q[3];
+    const int64_t turn[AXES][AXES] = {
+        {a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
+        {2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)},
+        {2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d}};
+    int64_t sign = number[0] > AXIS_KINDS ? -(1 << TURN_BITS) : 1 << TURN_BITS;
+    for (int j = 0; j < AXES; j++) {
+        for (int k = 0; k < AXES; k++) image->turn[j][k] = (int32_t)(sign * turn[j][k] / square);
+        image->shift[j] = FINE / 4 * (number[5 + j] - 12 * most_of(span));
+    }
+}
+
+void image_of(const Image *image, const int32_t *place, int32_t *to) {
+    for (int j = 0; j < AXES; j++) {
+        int64_t sum = 1 << (TURN_BITS - 5);
+        for (int k = 0; k < AXES; k++) sum += (int64_t)image->turn[j][k] * place[k];
+        to[j] = (int32_t)(sum >> (TURN_BITS - 4)) + image->shift[j];
+    }
+}
+
+/* The image of the inverse; whether that is the same. */
+static bool invert(const Image *image, Image *inverse) {
+    bool same = true;
+    for (int j = 0; j < AXES; j++) {
+        int64_t sum = 0;
+        for (int k = 0; k < AXES; k++) {
+            inverse->turn[j][k] = image->turn[k][j];
+            sum += (int64_t)image->turn[k][j] * image->shift[k];
+            same = same && size_of(image->turn[k][j] - image->turn[j][k]) <= 1 << 4;
+        }
+        inverse->shift[j] = (int32_t)(-sum >> TURN_BITS);
+        same = same && size_of(inverse->shift[j] - image->shift[j]) <= FINE;
+    }
+    return same;
+}
+
+void list_images(ConstInts span, ConstInts2 numbers, Twins *twins) {
+    int32_t images = 0;
+    for (int64_t i = 0; i < numbers.rows; i++) {
+        const int32_t *number = numbers.data + TRANSFORM_ROW * i;
+        Image *image = twins->image + images, *inverse = image + 1;
+        *image = *inverse = (Image){.trust = ONE / 2, .inverse = images};
+        if (number[0] < AXIS_KINDS) set_parallel(span, number, image);
+        else set_turned(span, number, image);
+        if (!invert(image, inverse)) image->inverse = ++images;
+        images++;
+    }
+    twins->images = images;
+}
+
+/* Which chain holds the known vertices of a cell. */
+INLINE uint32_t chain_of(const Twins *t, int32_t x, int32_t y, int32_t z) {
+    uint32_t mixed = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ (uint32_t)z * 83492791u;
+    return mixed * 2654435769u >> (32 - t->head_bits);
+}
+
+/* The nearest known vertex whose twin by `image` is not known yet, within REACH of a place (1/16); -1: none. */
+static int32_t nearest_free(const Twins *t, const int32_t *x, int32_t image, const int32_t *place) {
+    int32_t first[AXES], last[AXES], best = -1;
+    int64_t least_square = REACH * REACH;
+    for (int j = 0; j < AXES; j++) {
+        first[j] = (place[j] - REACH) >> (4 + CELL_BITS);
+        last[j] = (place[j] + REACH) >> (4 + CELL_BITS);
+    }
+    for (int32_t a = first[0]; a <= last[0]; a++)
+        for (int32_t b = first[1]; b <= last[1]; b++)
+            for (int32_t c = first[2]; c <= last[2]; c++) {
+                uint32_t chain = chain_of(t, a, b, c);
+                int32_t u = t->head[chain];
+                for (int visits = 0; u >= 0 && visits < MOST_VISITS; visits++, u = t->next[u]) {
+                    int64_t square = 0;
+                    for (int j = 0; j < AXES; j++) {
+                        int64_t away = FINE * x[AXES * (int64_t)u + j] - place[j];
+                        square += away * away;
+                    }
+                    if (square >= least_square || (t->has[u] >> image & 1)) continue;
+                    least_square = square;
+                    best = u;
+                }
+            }
+    return best;
+}
+
+static void add_candidate(Twins *t, const Ints2 *values, int32_t image, int32_t w, int support) {
+    const Image *by = t->image + image;
+    for (int i = 0; i < t->candidates; i++) {
+        Candidate *known = t->candidate + i;
+        if (known->image == image && known->vertex == w) {
+            known->support += support;
+            return;
+        }
+    }
+    if (t->candidates == MOST_CANDIDATES || (t->has[w] >> by->inverse & 1)) return;
+    Candidate *new = t->candidate + t->candidates++;
+    *new = (Candidate){.image = image, .vertex = w, .support = support};
+    image_of(by, values->data + AXES * (int64_t)w, new->place);
+}
+
+/* Third vertices of the faces of u that have an edge to w; returns how many corners were looked at. */
+static int add_beyond(Twins *t, const Corners *corners, const Ints2 *values, int32_t image, int32_t u, int32_t w,
+    int32_t now) {
+    const int32_t *vertex = corners->faces.data;
+    int32_t first = corners->starts.data[u], end = (int32_t)least(corners->starts.data[u + 1], first + MOST_AROUND);
+    for (int32_t k = first; k < end; k++) {
+        int32_t after = vertex[next_corner(corners->corners.data[k])];
+        int32_t before = vertex[previous_corner(corners->corners.data[k])];
+        if (after == w && corners->rank.data[before] < now) add_candidate(t, values, image, before, 2);
+        if (before == w && corners->rank.data[after] < now) add_candidate(t, values, image, after, 2);
+    }
+    return end - first;
+}
+
+/* Images of vertices beyond the twins of edges, or else of those around the twins of neighbors (V 17.4). */
+static void seek_images(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
+    const int32_t *base) {
+    const int32_t *vertex = corners->faces.data, *rank = corners->rank.data;
+    int32_t now = rank[v];
+    int added = 0;
+    t->candidates = 0;
+    if (t->images == 0) return;
+    for (int i = 0; i < around->flaps && i < 3; i++) {
+        Flap flap = around->flap[i];
+        const int32_t *a = t->twin + (int64_t)t->images * flap.a, *b = t->twin + (int64_t)t->images * flap.b;
+        for (uint32_t both = t->has[flap.a] & t->has[flap.b]; both != 0 && added < MOST_BEYOND; both &= both - 1) {
+            int image = __builtin_ctz(both);
+            added += add_beyond(t, corners, values, image, a[image], b[image], now);
+        }
+    }
+    added = 0;
+    for (int i = 0; i < around->neighbors && i < 4 && t->candidates == 0; i++) {
+        const int32_t *row = t->twin + (int64_t)t->images * around->neighbor[i];
+        for (uint32_t has = t->has[around->neighbor[i]]; has != 0 && added < MOST_ADDED; has &= has - 1) {
+            int image = __builtin_ctz(has);
+            int32_t u = row[image];
+            for (int32_t k = corners->starts.data[u]; k < corners->starts.data[u + 1] && added < MOST_ADDED; k++) {
+                int32_t after = vertex[next_corner(corners->corners.data[k])];
+                int32_t before = vertex[previous_corner(corners->corners.data[k])];
+                if (rank[after] < now) add_candidate(t, values, image, after, 1);
+                if (rank[before] < now) add_candidate(t, values, image, before, 0);
+                added++;
+            }
+        }
+    }
+    int32_t unit = 64;
+    for (int i = 0; i < around->flaps && i < 1; i++) {
+        Flap flap = around->flap[i];
+        int32_t along = 0;
+        for (int j = 0; j < AXES; j++)
+            along += size_of(values->data[AXES * (int64_t)flap.a + j] - values->data[AXES * (int64_t)flap.b + j]);
+        unit = (int32_t)largest(unit, 6 * (int64_t)along);
+    }
+    for (int i = 0; i < t->candidates; i++) { /* the best first */
+        Candidate found = t->candidate[i];
+        int64_t away = 0;
+        for (int j = 0; j < AXES; j++) away += size_of(found.place[j] - base[j]);
+        bool same = faces_at(corners, found.vertex) == faces_at(corners, v);
+        found.score = (int32_t)(48 * least(found.support, 4) + 48 * same - least(32 * away / unit, 1 << 16)
+            + (t->image[found.image].trust >> 10));
+        int at = i;
+        for (; at > 0 && t->candidate[at - 1].score < found.score; at--) t->candidate[at] = t->candidate[at - 1];
+        found.same_degree = same;
+        t->candidate[at] = found;
+    }
+}
+
+static void add_product(const int64_t *a, const int64_t *b, int64_t *to) {
+    for (int j = 0; j < AXES; j++) {
+        int s = (j + 1) % 3, t = (j + 2) % 3;
+        to[j] = a[s] * b[t] - a[t] * b[s];
+    }
+}
+
+static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, int32_t v, Frame *f) {
+    const int32_t *a = values->data + AXES * (int64_t)flap.a, *b = values->data + AXES * (int64_t)flap.b,
+                  *c = values->data + AXES * (int64_t)flap.c;
+    int64_t along[AXES], beside[AXES], up[AXES], squares[3] = {0, 0, 0}, most = 0;
+    for (int j = 0; j < AXES; j++) {
+        along[j] = b[j] - a[j];
+        beside[j] = c[j] - a[j];
+        int64_t other = c[j] - b[j];
+        squares[0] += along[j] * along[j];
+        squares[1] += beside[j] * beside[j];
+        squares[2] += other * other;
+        f->middle[j] = 8 * (a[j] + b[j]);
+    }
+    for (int i = 0; i < 3; i++) f->length[i] = (int32_t)root_of(squares[i] << 8);
+    add_product(along, beside, up);
+    for (int j = 0; j < AXES; j++) most = largest(most, up[j] < 0 ? -up[j] : up[j]);
+    int down = 0;
+    while (most >> down >= 1 << 20) down++;
+    int64_t square = 0;
+    for (int j = 0; j < AXES; j++) {
+        up[j] = up[j] >> down;
+        square += up[j] * up[j];
+    }
+    int64_t height = root_of(square << 8);
+    f->is_there = f->length[0] > 0 && height > 0;
+    if (!f->is_there) return;
+    int64_t ex[AXES], ez[AXES], ey[AXES];
+    for (int j = 0; j < AXES; j++) {
+        ex[j] = along[j] * (1 << (UNIT_BITS + 4)) / f->length[0];
+        ez[j] = up[j] * (1 << (UNIT_BITS + 4)) / height;
+    }
+    add_product(ez, ex, ey);
+    for (int j = 0; j < AXES; j++) {
+        f->unit[0][j] = (int32_t)ex[j];
+        f->unit[1][j] = (int32_t)(ey[j] >> UNIT_BITS);
+        f->unit[2][j] = (int32_t)ez[j];
+    }
+    f->degree[0] = (uint8_t)least(faces_at(corners, v), 12);
+    f->degree[1] = (uint8_t)least(faces_at(corners, flap.a), 12);
+    f->degree[2] = (uint8_t)least(faces_at(corners, flap.b), 12);
+}
+
+/* Classes of lengths (1/16): sixteen to the octave, and half a class. */
+INLINE int32_t length_class(int32_t length) {
+    int32_t x = length / 8 + 128, exponent = bit_length((uint32_t)x) - 8;
+    return 32 * exponent + (x >> (exponent + 2)) - 32;
+}
+
+INLINE uint32_t echo_chain(const int32_t *class) {
+    uint32_t mixed = (uint32_t)class[0] * 73856093u ^ (uint32_t)class[1] * 19349663u ^ (uint32_t)class[2] * 83492791u;
+    return mixed * 2654435769u >> 18;
+}
+
+typedef struct {
+    int32_t away, place[AXES];
+} Alike;
+
+/* How far two flaps are from being congruent. */
+INLINE int32_t difference(const Twins *t, const Echo *echo, const Frame *f) {
+    int64_t sum = 0, may = (f->length[0] >> 5) + 24;
+    for (int i = 0; i < 3; i++) sum += size_of(echo->length[i] - f->length[i]);
+    if (64 * sum > MOST_ECHO * may) return INT32_MAX;
+    return (int32_t)(64 * sum / may) + 38 * (echo->degree[0] != f->degree[0]) + 19 * (echo->degree[1] != f->degree[1])
+        + 19 * (echo->degree[2] != f->degree[2]) + 3 * bit_length((uint32_t)(t->echoes - echo->number));
+}
+
+/* Flaps alike among those remembered: a vertex in the same place beside each is foretold (V 17.5). */
+static void seek_echoes(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v) {
+    int64_t sum[AXES] = {0, 0, 0}, weights = 0;
+    int32_t best = INT32_MAX;
+    for (int i = 0; i < around->flaps && i < 2; i++) {
+        Frame *f = t->frame + i;
+        set_frame(corners, values, around->flap[i], v, f);
+        if (!f->is_there) continue;
+        Alike near[NEAREST_ECHOES];
+        int found = 0;
+        int32_t class[3], other[3];
+        for (int k = 0; k < 3; k++) {
+            int32_t fine = length_class(f->length[k]);
+            class[k] = fine >> 1;
+            other[k] = class[k] + ((fine & 1) ? 1 : -1);
+        }
+        for (int probe = 0; probe < 8; probe++) {
+            int32_t at[3];
+            for (int k = 0; k < 3; k++) at[k] = probe >> k & 1 ? other[k] : class[k];
+            int32_t number = t->echo_head[echo_chain(at)];
+            for (int visits = 0; number > t->echoes - MOST_ECHOES && number > 0 && visits < ECHO_VISITS; visits++) {
+                const Echo *echo = t->echo + (number & (MOST_ECHOES - 1));
+                int32_t away = difference(t, echo, f);
+                if (away < INT32_MAX && (found < NEAREST_ECHOES || away < near[found - 1].away)) {
+                    int place = found < NEAREST_ECHOES ? found++ : found - 1;
+                    for (; place > 0 && near[place - 1].away > away; place--) near[place] = near[place - 1];
+                    near[place] = (Alike){away, {echo->place[0], echo->place[1], echo->place[2]}};
+                }
+                number = echo->below;
+            }
+        }
+        for (int k = 0; k < found; k++) {
+            int64_t weight = 65536 >> least(near[k].away >> 5, 16);
+            for (int j = 0; j < AXES; j++) {
+                int64_t off = 0;
+                for (int axis = 0; axis < AXES; axis++) off += (int64_t)near[k].place[axis] * f->unit[axis][j];
+                int32_t place = limited(f->middle[j] + (off >> UNIT_BITS));
+                sum[j] += weight * place;
+                if (near[k].away < best) t->echoed[1][j] = place;
+            }
+            weights += weight;
+            if (near[k].away < best) best = near[k].away;
+        }
+    }
+    if (weights == 0) return;
+    int32_t apart = 0;
+    for (int j = 0; j < AXES; j++) {
+        t->echoed[0][j] = (int32_t)(sum[j] / weights);
+        apart += size_of(t->echoed[0][j] - t->echoed[1][j]);
+    }
+    int kind = (best >= 26) + (best >= 51) + (best >= 96) + (best >= 160);
+    t->echo_class = 1 + 3 * kind + (apart >= 16) + (apart >= 64);
+}
+
+void seek_twins(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
+    const int32_t *base) {
+    t->known_axes = 0;
+    seek_images(t, corners, values, around, v, base);
+    for (int i = 0; i < 2; i++) t->frame[i].is_there = false;
+    t->echo_class = 0;
+    if (t->candidates > 0 && t->candidate[0].same_degree && t->candidate[0].support > 1
+        && t->image[t->candidate[0].image].trust >= SURE)
+        return;
+    seek_echoes(t, corners, values, around, v);
+}
+
+void choose_twins(const Twins *t, int *chosen) {
+    int found = 0;
+    chosen[0] = chosen[1] = -1;
+    for (int i = 0; i < t->candidates && found < 2; i++) {
+        const int32_t *place = t->candidate[i].place;
+        bool fits = true;
+        int32_t apart = 0;
+        for (int a = 0; a < t->known_axes; a++) fits = fits && size_of(place[t->axis[a]] - FINE * t->value[a]) <= MATCH;
+        if (!fits) continue;
+        for (int j = 0; j < AXES && found > 0; j++) apart += size_of(place[j] - t->candidate[chosen[0]].place[j]);
+        if (found == 0 || apart >= FINE) chosen[found++] = i;
+    }
+}
+
+void pass_twin_axis(Twins *t, int axis, int32_t value) {
+    t->axis[t->known_axes] = axis;
+    t->value[t->known_axes++] = value;
+}
+
+/* v is the image of u. */
+static void join(Twins *t, int32_t v, int32_t u, int32_t image) {
+    int32_t inverse = t->image[image].inverse;
+    if ((t->has[v] >> image & 1) || (t->has[u] >> inverse & 1)) return;
+    t->twin[(int64_t)t->images * v + image] = u;
+    t->twin[(int64_t)t->images * u + inverse] = v;
+    t->has[v] |= 1u << image;
+    t->has[u] |= 1u << inverse;
+}
+
+static void remember_flap(Twins *t, const Frame *f, const int32_t *place, bool turned) {
+    if (t->echoes == 1 << 30) return;
+    int32_t number = ++t->echoes;
+    Echo *echo = t->echo + (number & (MOST_ECHOES - 1));
+    int32_t class[3];
+    *echo = (Echo){.length = {f->length[0], f->length[1 + turned], f->length[2 - turned]},
+        .place = {turned ? -place[0] : place[0], place[1], place[2]}, .number = number,
+        .degree = {f->degree[0], f->degree[1 + turned], f->degree[2 - turned]}};
+    for (int k = 0; k < 3; k++) class[k] = length_class(echo->length[k]) >> 1;
+    int32_t *head = t->echo_head + echo_chain(class);
+    echo->below = *head;
+    *head = number;
+}
+
+void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t v) {
+    const int32_t *x = values->data + AXES * (int64_t)v;
+    if (t->candidates > 0) {
+        Image *image = t->image + t->candidate[0].image;
+        bool right = true;
+        for (int j = 0; j < AXES; j++)
+            right = right && size_of(t->candidate[0].place[j] - FINE * x[j]) <= MATCH;
+        image->trust += ((right ? ONE : 0) - image->trust) >> 4;
+    }
+    for (int i = 0; i < t->candidates; i++) {
+        const Candidate *c = t->candidate + i;
+        bool near = true;
+        for (int j = 0; j < AXES; j++) near = near && size_of(c->place[j] - FINE * x[j]) <= MATCH;
+        if (near) join(t, v, c->vertex, c->image);
+    }
+    int lookups = t->images > 0 && t->has[v] != 0 ? (int)least(LOOKED_UP, t->images) : t->images;
+    for (int k = 0; k < lookups; k++) {
+        t->turn = t->turn + 1 < t->images ? t->turn + 1 : 0;
+        int32_t place[AXES], inverse = t->image[t->turn].inverse;
+        if (t->has[v] >> t->turn & 1) continue;
+        image_of(t->image + inverse, x, place);
+        int32_t u = nearest_free(t, values->data, inverse, place);
+        if (u >= 0) join(t, v, u, t->turn);
+    }
+    if (t->images > 0) {
+        uint32_t chain = chain_of(t, x[0] >> CELL_BITS, x[1] >> CELL_BITS, x[2] >> CELL_BITS);
+        t->next[v] = t->head[chain];
+        t->head[chain] = v;
+    }
+    for (int i = 0; i < around->flaps && i < 2; i++) {
+        const Frame *f = t->frame + i;
+        int32_t place[AXES];
+        if (!f->is_there) continue;
+        for (int axis = 0; axis < AXES; axis++) {
+            int64_t sum = 0;
+            for (int j = 0; j < AXES; j++) sum += (int64_t)(FINE * x[j] - f->middle[j]) * f->unit[axis][j];
+            place[axis] = (int32_t)(sum >> UNIT_BITS);
+        }
+        remember_flap(t, f, place, false);
+        remember_flap(t, f, place, true);
+    }
+}

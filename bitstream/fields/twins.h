@@ -1,0 +1,75 @@
+/* What repeats in a mesh: images under transforms, and congruent flaps (specification, V 17). */
+#ifndef BSM_TWINS_H
+#define BSM_TWINS_H
+
+#include "bitstream/fields/fields.h"
+
+enum {
+    MOST_TRANSFORMS = 16,
+    MOST_IMAGES = 2 * MOST_TRANSFORMS,
+    TRANSFORM_ROW = 8, /* numbers of a transform: its kind, the largest component, three others, a shift */
+    AXIS_KINDS = 48,
+    MOST_CANDIDATES = 12,
+    MOST_ECHOES = 1 << 13, /* flaps that are remembered, a power of two */
+    ECHO_HEADS = 1 << 14,
+    TWIN_BYTES = 32, /* more than a transform takes in a payload */
+};
+
+typedef struct { /* a transform, or the inverse of one */
+    int32_t turn[3][3]; /* in 2^-20 */
+    int32_t shift[3];   /* in 1/16 */
+    int32_t inverse;    /* which of the images */
+    int32_t trust;      /* how often it told the place, in 2^-16 */
+} Image;
+
+/* The frame of a flap: lengths of its sides, the middle of its edge (1/16), unit vectors along it, across and up
+ * (2^-16), and how many faces are at the vertex and at the ends of the edge. */
+typedef struct {
+    bool is_there;
+    int32_t length[3], middle[3], unit[3][3];
+    uint8_t degree[3];
+} Frame;
+
+typedef struct { /* a flap, and where its vertex was in the frame of its coded edge, in 1/16 */
+    int32_t length[3], place[3], below, number;
+    uint8_t degree[3];
+} Echo;
+
+typedef struct {
+    int32_t image, vertex, support, score, place[3];
+    bool same_degree;
+} Candidate;
+
+typedef struct Twins {
+    int32_t images, head_bits, echoes;
+    Image image[MOST_IMAGES];
+    int32_t *twin;        /* n x images: of which vertex each is the image */
+    int32_t *head, *next; /* known vertices by cell of space: 1 << head_bits, n */
+    uint32_t *has;        /* n: by which images each vertex has a twin */
+    int32_t turn;         /* the image that was looked up last */
+    Echo *echo;           /* MOST_ECHOES */
+    int32_t *echo_head;   /* ECHO_HEADS */
+    /* What is foretold of the vertex at hand. */
+    Candidate candidate[MOST_CANDIDATES];
+    int32_t candidates, known_axes, axis[3], value[3];
+    int32_t echoed[2][3], echo_class; /* of flaps alike, weighed and the best; 0: there is none */
+    Frame frame[2]; /* of the first two flaps */
+} Twins;
+
+/* Code the transforms of a grid, a row each of `numbers`. */
+int64_t code_transforms(Coder coder, ConstInts largest, Ints2 numbers);
+/* The transforms and their inverses. */
+void list_images(ConstInts largest, ConstInts2 numbers, Twins *twins);
+/* Where the image of a place is, in 1/16. */
+void image_of(const Image *image, const int32_t *place, int32_t *to);
+
+/* What a vertex with these surroundings may be: its base is in 1/16. */
+void seek_twins(Twins *twins, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
+    const int32_t *base);
+/* The two best candidates that agree with the axes known so far; -1: there is none. */
+void choose_twins(const Twins *twins, int *chosen);
+void pass_twin_axis(Twins *twins, int axis, int32_t value);
+/* Learn from a vertex, which is known now. */
+void remember_twins(Twins *twins, const Ints2 *values, const Around *around, int32_t v);
+
+#endif

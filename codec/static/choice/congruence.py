@@ -1,0 +1,96 @@
+"""Rigid and mirrored transforms that take parts of a mesh to others: found, and as a grid codes them. Encoder only."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.ways.grid import Grid
+
+MOST_FINENESS, AXIS_KINDS = 19, 48
+"""Bits of a component of a quaternion, and transforms that are parallel to the axes (V 17.2)."""
+MOST = 16  # transforms of a grid
+WORTH = 16.0  # vertices that a transform must explain
+ROOM = 1 << 18  # numbers for votes
+
+
+def transforms_of(prepared: Prepared, grid: Grid) -> Levels:
+    """The transforms of a mesh that pay on a grid, shape (k, 8), as they are coded; sought once for like steps."""
+    octave = round(2.0 * math.log2(grid.step))
+    if octave not in prepared.motions:
+        prepared.motions[octave] = _found(prepared.mesh.positions / grid.step, prepared.mesh.faces)
+        prepared.motions[octave][:, 9:] *= grid.step
+    turns, shifts = np.split(prepared.motions[octave], [9], axis=1)
+    turns, origin = turns.reshape(-1, 3, 3), np.array(grid.origin)
+    return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
+
+
+def _found(positions: Matrix, faces: Faces) -> Matrix:
+    """Turns and shifts, shape (k, 12), of positions in cells."""
+    count, found = len(positions), np.empty((MOST, 12))
+    degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
+    heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
+    links, covered = np.empty(count + len(faces), np.int32), np.empty(48 << 14, np.uint8)
+    centered = np.ascontiguousarray(positions - positions.mean(axis=0))
+    kept = _kernels.find_motions(centered, faces, degrees, WORTH, heads, links, covered, np.empty(ROOM), found)
+    turns = found[:kept, :9].reshape(-1, 3, 3)
+    found[:kept, 9:] += positions.mean(axis=0) - turns @ positions.mean(axis=0)
+    return found[:kept]
+
+
+def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> Levels:
+    """The numbers of transforms x -> turn x + shift of places on a grid, shape (k, 8), of turns, shape (k, 3, 3)."""
+    span = np.asarray(largest, np.int64)
+    rows = [_coded(turn, shift, span) for turn, shift in zip(turns, shifts, strict=True)]
+    return np.array([row for row in rows if row is not None], np.int32).reshape(-1, 8)
+
+
+def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int] | None:
+    source = np.abs(turn).argmax(axis=1)
+    sign = np.sign(turn[np.arange(3), source])
+    parallel = np.zeros((3, 3))
+    parallel[np.arange(3), source] = sign
+    if sorted(source) == [0, 1, 2] and (np.abs(turn - parallel) * span).max() < 1.0:
+        middle = span[source] / 2.0
+        moved = turn @ (span / 2.0) + shift
+        given = np.rint(moved - sign * middle).astype(np.int64)
+        numbers = given + np.where(sign > 0, span[source], 0)
+        order = 2 * int(source[0]) + int((source[1] - source[0]) % 3 == 2)
+        kind = 8 * order + sum(1 << j for j in range(3) if sign[j] < 0)
+        return None if (numbers < 0).any() or (numbers > span + span[source]).any() else [kind, 0, 0, 0, 0, *numbers]
+    mirrored = np.linalg.det(turn) < 0.0
+    quaternion = _quaternion(-turn if mirrored else turn)
+    bits = min(int(max(span.max(), 1)).bit_length() + 2, MOST_FINENESS)
+    which = int(np.abs(quaternion).argmax())
+    unit = np.rint(quaternion / quaternion[which] * (1 << bits)).astype(np.int64)
+    a, b, c, d = (int(q) for q in unit)
+    square = a * a + b * b + c * c + d * d
+    coded = np.array([
+        [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)],
+        [2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)],
+        [2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d],
+    ]) / square * (-1.0 if mirrored else 1.0)  # fmt: skip
+    middle = span / 2.0
+    quarters = np.rint(4.0 * (turn @ middle + shift - coded @ middle)).astype(np.int64) + 12 * int(max(span.max(), 1))
+    others = np.delete(unit, which) + (1 << bits)
+    if (quarters < 0).any() or (quarters > 24 * max(span.max(), 1)).any():
+        return None
+    return [AXIS_KINDS + int(mirrored), which, *others, *quarters]
+
+
+def _quaternion(turn: Matrix) -> Matrix:
+    """The unit quaternion of a rotation, shape (3, 3)."""
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = turn
+    products = np.array([
+        [xx + yy + zz, zy - yz, xz - zx, yx - xy],
+        [zy - yz, xx - yy - zz, xy + yx, xz + zx],
+        [xz - zx, xy + yx, yy - xx - zz, yz + zy],
+        [yx - xy, xz + zx, yz + zy, zz - xx - yy],
+    ])  # fmt: skip
+    found: Matrix = np.linalg.eigh(products)[1][:, 3]
+    return found

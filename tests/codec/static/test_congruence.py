@@ -1,0 +1,111 @@
+"""Grids that are predicted from congruent parts: transforms are found, pay, and come back."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from bsm.bitstream.errors import CorruptError, TruncatedError
+from bsm.codec.decoding import decode
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.congruence import coded_transforms, transforms_of
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.ways.grid import Grid
+from bsm.files.mesh import read_mesh
+from tools.surgery import with_header
+from tools.vectors.good_congruence import about, mirrors
+from tools.vectors.good_fields import header_of
+from tools.vectors.meshes import together, torus
+
+
+def bumpy(seed: int, rows: int = 24, columns: int = 18) -> TriangleMesh:
+    """A torus with noise, which has no congruent parts."""
+    mesh = torus(rows, columns)
+    noise = np.random.default_rng(seed).normal(0.0, 0.05, mesh.positions.shape)
+    return TriangleMesh(mesh.positions + noise, mesh.faces)
+
+
+def copies(mesh: TriangleMesh, turns: np.ndarray, apart: float = 20.0) -> TriangleMesh:
+    """A mesh, and its images by turns, apart from it."""
+    moved = [
+        TriangleMesh(mesh.positions @ turn.T + [apart * (k + 1), 0.0, 0.0], mesh.faces) for k, turn in enumerate(turns)
+    ]
+    return together(mesh, *moved)
+
+
+def version_of(data: bytes) -> int:
+    return data[4]
+
+
+@pytest.mark.parametrize("turn", [mirrors()[0], about(2, 4), about(1, 7), about(0, 5) @ mirrors()[2]])
+def test_copies_cost_little(turn):
+    mesh = copies(bumpy(1), np.array([turn, turn @ turn]))
+    alone, plain, both = (
+        encode(given, EncodeOptions(grid=15, congruence=congruent))
+        for given, congruent in ((bumpy(1), False), (mesh, False), (mesh, True))
+    )
+    assert len(both) < 0.75 * len(plain), "two of three parts are images of the first"
+    assert version_of(both) == 17 and version_of(plain) == version_of(alone) == 16
+    assert header_of(both).congruence > 1 and header_of(plain).congruence == 0
+    assert (decode(both).positions == decode(plain).positions).all()
+    assert (decode(both).faces == decode(plain).faces).all()
+
+
+def test_a_mesh_without_congruent_parts_is_coded_as_by_1_0():
+    mesh = bumpy(2)
+    assert encode(mesh, EncodeOptions(grid=12)) == encode(mesh, EncodeOptions(grid=12, congruence=False))
+
+
+def test_the_search_finds_a_turn():
+    prepared = Encoder(copies(bumpy(3), np.array([about(1, 7)])), EncodeOptions(grid=12))._input.prepared
+    positions = prepared.mesh.positions
+    low, extent = positions.min(axis=0), np.ptp(positions, axis=0)
+    step = float(extent.max()) / 4095
+    rows = transforms_of(prepared, Grid(tuple(low), step, tuple(np.rint(extent / step).astype(int).tolist())))
+    ((*turn, x, y, z),) = next(iter(prepared.motions.values()))
+    assert len(rows) == 1 and rows[0, 0] >= 48
+    images = positions @ np.reshape(turn, (3, 3)).T + (x, y, z)
+    assert (cKDTree(positions).query(images)[0] < 0.01 * step).mean() == 0.5
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 2**20 - 1))
+@settings(max_examples=50, deadline=None)
+def test_transforms_are_coded_as_near_as_they_can_be(seed, cells):
+    numbers = np.random.default_rng(seed)
+    turn = np.linalg.qr(numbers.normal(size=(3, 3)))[0]
+    middle = np.full(3, cells / 2.0)
+    (row,) = coded_transforms(turn[None], (middle - turn @ middle)[None], [cells] * 3)
+    assert (row >= 0).all()
+    if row[0] < 48:
+        return
+    fine = 1 << min(cells.bit_length() + 2, 19)
+    quaternion = np.insert((row[2:5] - fine).astype(float), row[1], fine)
+    a, b, c, d = quaternion / np.linalg.norm(quaternion)
+    coded = np.array([
+        [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)],
+        [2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)],
+        [2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d],
+    ]) * (-1.0 if row[0] == 49 else 1.0)  # fmt: skip
+    shift = (row[5:] - 12.0 * cells) / 4.0
+    assert np.abs(coded @ middle + shift - middle).max() <= 0.5
+    assert np.abs(coded - turn).max() <= 4.0 / fine
+
+
+def test_transforms_that_are_missing_are_refused():
+    data = encode(copies(bumpy(4), mirrors()[:1]), EncodeOptions(grid=11))
+    assert header_of(data).congruence == 2
+    for count in (1, 3, 17):
+        with pytest.raises((CorruptError, TruncatedError)):
+            decode(with_header(data, congruence=count))
+
+
+@pytest.mark.real
+@pytest.mark.parametrize("name", ["assets/1002_tray_bottom.STL", "assets/ADIS16480.STL"])
+def test_real_parts_take_fewer_bytes(meshes: Path, name):
+    mesh = read_mesh(str(meshes / name)).mesh
+    plain, both = (encode(mesh, EncodeOptions(congruence=congruent)) for congruent in (False, True))
+    assert len(both) < 0.95 * len(plain)

@@ -1,0 +1,116 @@
+"""Streams with grids that are predicted from congruent parts: of meshes that have some, and of noise."""
+
+from __future__ import annotations
+
+from random import Random
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.congruence import coded_transforms
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
+from tools.gridded import any_transforms, gridded
+from tools.surgery import stream_of, with_header
+from tools.vectors.bounds import Bad
+from tools.vectors.good import Good
+from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
+from tools.vectors.meshes import hub, patch, tangled, tent, tetrahedron, together, torus, triangle
+
+Ints = npt.NDArray[np.int32]
+
+
+def placed(mesh: TriangleMesh, cells: int, turns: npt.ArrayLike, *counts: int, **fields: object) -> bytes:
+    """A mesh around the origin on a grid of so many cells to each side, and turns about the middle."""
+    coded = encode_connectivity(mesh.faces, len(mesh.positions))
+    unit = cells / np.abs(mesh.positions).max()
+    values = np.rint(mesh.positions[coded.vertex_order] * unit).astype(np.int32) + cells
+    given = np.asarray(turns, float).reshape(-1, 3, 3)
+    shifts = cells - given.sum(axis=2) * cells
+    rows = coded_transforms(given, shifts, [2 * cells] * 3)
+    sizes = counts or (len(values),)
+    return stream_of(gridded(coded, values, sizes, rows, **{"grid": [2 * cells] * 3} | fields))
+
+
+def drawn(mesh: TriangleMesh, largest: tuple[int, int, int], count: int, ends: bool = False) -> bytes:
+    """Values and transforms that have nothing to do with each other."""
+    numbers, size = np.random.default_rng(count), len(mesh.positions)
+    values = numbers.integers(0, np.array(largest) + 1, (size, 3))
+    values = np.where(values * 2 > largest, largest, 0) if ends else values
+    coded = encode_connectivity(mesh.faces, size)
+    rows = any_transforms(Random(count), count, largest)
+    return stream_of(gridded(coded, values.astype(np.int32), [size], rows, grid=list(largest)))
+
+
+def about(axis: int, parts: int) -> npt.NDArray[np.float64]:
+    """A turn about an axis by a part of the circle."""
+    angle, (i, j) = 2.0 * np.pi / parts, ((1, 2), (2, 0), (0, 1))[axis]
+    turn = np.eye(3)
+    turn[i, i] = turn[j, j] = np.cos(angle)
+    turn[j, i], turn[i, j] = np.sin(angle), -np.sin(angle)
+    return turn
+
+
+def mirrors() -> npt.NDArray[np.float64]:
+    """Mirrors along each axis."""
+    return np.array([np.diag([-1.0, 1.0, 1.0]), np.diag([1.0, -1.0, 1.0]), np.diag([1.0, 1.0, -1.0])])
+
+
+def _staying(count: int) -> bytes:
+    """Everything at one place, and turns that leave it there."""
+    mesh = torus(12, 10)
+    coded = encode_connectivity(mesh.faces, 120)
+    rows = np.array([[48, 0, *[1 << 3] * 3, *[12] * 3]] * count, np.int32)
+    return stream_of(gridded(coded, np.zeros((120, 3), np.int32), [120], rows, grid=[1, 1, 1]))
+
+
+def _changed(**fields: object) -> bytes:
+    """Another header before a grid without transforms."""
+    coded = encode_connectivity(torus(5, 4).faces, 20)
+    return with_header(stream_of(gridded(coded, np.zeros((20, 3), np.int32), [20], grid=[1, 1, 1])), **fields)
+
+
+CONGRUENCE: dict[str, Good] = {
+    f"good-congruence-{name}": Good(f"congruent parts: {probes}", make)
+    for name, probes, make in (
+        ("echoes", "flaps alike, no transforms", lambda: placed(torus(16, 12), 500, [])),
+        ("mirrors", "mirrors along the axes", lambda: placed(torus(16, 12), 500, mirrors())),
+        (
+            "turned",
+            "turns about an axis, with inverses",
+            lambda: placed(torus(15, 12), 700, [about(2, 5), about(2, 3)]),
+        ),
+        ("turned-mirror", "a turned mirror", lambda: placed(torus(15, 12), 700, [about(2, 5) @ mirrors()[0]])),
+        ("half", "a turn that is its own inverse", lambda: placed(torus(16, 12), 300, [about(1, 2) @ about(0, 2)])),
+        ("fine", "a grid of 20 bits", lambda: placed(torus(15, 8), MOST_LARGEST // 2, [about(2, 5), *mirrors()])),
+        ("coarse", "many vertices in a cell", lambda: placed(torus(40, 30), 12, [about(2, 4), *mirrors()])),
+        ("chunks", "frames", lambda: placed(torus(16, 12), 500, [*mirrors(), about(2, 8)], 1, 90, 101)),
+        ("noise", "16 transforms without sense", lambda: drawn(torus(12, 10), (1000, 3, MOST_LARGEST), 16)),
+        ("ends", "ends of the range", lambda: drawn(tangled(), (MOST_LARGEST,) * 3, 9, ends=True)),
+        ("hub", "a vertex with very many neighbors", lambda: drawn(hub(), (99, 999, 9), 5)),
+        ("tent", "more neighbors and flaps than count", lambda: drawn(tent(), (255, 255, 255), 7)),
+        ("point", "a grid of one place", lambda: drawn(tetrahedron(), (0, 0, 0), 4)),
+        ("staying", "16 transforms that move nothing", lambda: _staying(16)),
+        ("components", "parts", lambda: placed(together(*[torus(7, 6)] * 3, patch(4, 4), triangle()), 200, mirrors())),
+        ("long", "more flaps than are remembered", lambda: placed(torus(64, 48), 300, [about(2, 16)])),
+        (
+            "attributes",
+            "attributes that lean on the grid",
+            lambda: encode(
+                with_attributes(torus(24, 20), charts, creases, colors, groups), EncodeOptions(grid=9, keep_order=True)
+            ),
+        ),
+    )
+}
+CONGRUENCE_BAD: dict[str, Bad] = {
+    "bad-congruence-light": Bad("congruent parts of a light grid", "corrupt", lambda: _changed(light=1, congruence=1)),
+    "bad-congruence-blocks": Bad(
+        "congruent parts without a grid", "corrupt", lambda: _changed(grid=None, congruence=1)
+    ),
+    "bad-congruence-more": Bad("17 transforms", "corrupt", lambda: _changed(congruence=18)),
+    "bad-congruence-none": Bad("a default that is stored", "corrupt", lambda: _changed(congruence=0)),
+    "bad-congruence-short": Bad("16 transforms, in a payload without", "truncated", lambda: _changed(congruence=17)),
+}
