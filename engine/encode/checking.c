@@ -122,6 +122,8 @@ static bool check_attribute(Encoder *encoder, const bsmenc_attribute *a) {
     for (int64_t i = 0; a->kind >= BSMDEC_FLOAT32 && i < a->rows * a->components; i++)
         if (!is_finite(load_number(a->values, i, a->kind)))
             return FAIL(context, MISUSED, "a value of row # is not finite", i / a->components);
+    if (a->quality == BSMENC_RECOMPUTE && a->domain == BSMDEC_FACE)
+        return FAIL(context, MISUSED, "normals of faces cannot be recomputed");
     bool bits = a->quality == BSMENC_BITS;
     bool bound = a->quality >= BSMENC_BOUND && a->quality <= BSMENC_ANGLE;
     if (a->quality < BSMENC_DEFAULT || a->quality > BSMENC_OMIT
@@ -193,8 +195,10 @@ static bool prove_shape(Proof *proof) {
     const bsmenc_stream *stream = &encoder->stream;
     const Rounded *rounded = &encoder->rounded;
     const double *given = encoder->given.positions.data;
-    /* A place is within half a step; single precision adds at most a 64th, and doubles their last digit. */
-    double step = rounded->exact ? 0.0 : rounded->step * (0.5 + 1.0 / 64.0), farthest = 0.0;
+    /* A place is within half a step. Coordinates in single precision add at most a 64th, and computing with them four
+     * roundings of the largest place; doubles add their last digit. */
+    double cells = largest(largest(rounded->largest[0], rounded->largest[1]), rounded->largest[2]) * 0x1p-22;
+    double step = rounded->exact ? 0.0 : rounded->step * (0.5 + 1.0 / 64.0 + cells), farthest = 0.0;
     if (proof->vertices != stream->vertices || proof->faces != stream->faces) return differs(proof, "sizes");
     for (int64_t i = 0; i < 3 * proof->faces; i++) {
         uint32_t own = encoder->given.corners[given_corner(proof, i / 3, i % 3)], decoded = proof->corners.data[i];

@@ -213,6 +213,8 @@ static bool round_floats(Context *context, const Table *t, bsmenc_quality qualit
         step = 2.0 * bound * SLACK;
     }
     if (!(step > 0.0)) step = bound = 1.0;
+    if (!(step >= 1e-300 && step <= 1e300))
+        return FAIL(context, MISUSED, "the step of values is beyond the range of numbers; keep them exact");
     for (int j = 0; j < t->components; j++) {
         if ((high[j] - low[j]) / step > MOST_LEVEL)
             return FAIL(context, MISUSED, "the bound is too fine for the range of values; keep them exact");
