@@ -688,5 +688,5 @@ def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
     stream = bsm.encode(str(tmp_path / "a.obj"), preset="lossless")
     assert bsm.decode(stream).metadata["image.0.data"] == data
     story = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * DEFAULT_LIMITS.metadata_bytes})
-    with pytest.raises(LimitError, match="metadata_bytes"):
+    with pytest.raises(bsm.OptionError, match="metadata_bytes"):
         bsm.encode(story)
