@@ -197,7 +197,7 @@ class EncodeOptions:
     effort: str = "normal"
     quick: bool = False
     exact: bool = False
-    congruence: bool = True
+    congruence: bool = False
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     normals: str = "look"

@@ -244,7 +244,7 @@ def prepare(
     keep_order: bool,
     splits: Splits | None = None,
     light: bool = False,
-    congruence: bool = True,
+    congruence: bool = False,
 ) -> Prepared:
     """Code the connectivity of a mesh whose vertices are all in faces."""
     connectivity = encode_connectivity(mesh.faces, len(mesh.positions))

@@ -33,6 +33,7 @@ class OptionKeywords(_Shared, total=False):
     contract: Contract | None
     doi: tuple[float, float] | None
     exact: bool
+    congruence: bool
     grid: int | None
     grid_cell: float | None
     grid_origin: tuple[float, float, float] | None

@@ -135,10 +135,11 @@ def test_seams_and_other_attributes_are_refused():
 
 
 def test_sequences_and_permutations_are_refused(tmp_path):
-    bsm.save(torus(), tmp_path / "a.ply")
+    for name in ("a.ply", "a_0.ply", "a_1.ply"):
+        bsm.save(torus(), tmp_path / name)
     order = program("encode", tmp_path / "a.ply", "--simplify", "--permutation", tmp_path / "p.npy", text=True)
     assert order.returncode == 2 and "--permutation orders all vertices" in order.stderr
-    many = ["encode", tmp_path / "a.ply", tmp_path / "a.ply", "-o", tmp_path / "b.bsm", "--simplify"]
+    many = ["encode", tmp_path / "a_0.ply", tmp_path / "a_1.ply", "-o", tmp_path / "b.bsm", "--simplify"]
     done = program(*many, text=True)
     assert done.returncode == 2 and "is for single meshes" in done.stderr
     with pytest.raises(bsm.ArgumentError, match="simplify is for single meshes"):

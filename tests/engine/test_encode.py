@@ -48,7 +48,7 @@ def dressed(mesh):
 def test_c_and_python_write_the_same_bytes(encoder, mesh, preset, keep):
     found = encode(encoder, mesh, positions=LOSSLESS * (preset == "lossless"), keep_order=keep)
     assert (found.status, found.message) == (0, "")
-    assert found.data == bsm.encode(mesh, preset=preset, keep_order=keep, congruence=False)
+    assert found.data == bsm.encode(mesh, preset=preset, keep_order=keep)
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_c_and_python_write_the_same_bytes(encoder, mesh, preset, keep):
 def test_qualities_are_those_of_python(encoder, name, word, amount, text):
     mesh = dressed(torus(20, 12))
     found = encode(encoder, mesh, {name: (word, amount)}, bits=11)
-    assert found.data == bsm.encode(mesh, grid=11, attributes={name: text}, congruence=False), found.message
+    assert found.data == bsm.encode(mesh, grid=11, attributes={name: text}), found.message
 
 
 def test_cells_fit_those_of_python(encoder):
@@ -109,7 +109,7 @@ def test_webassembly_writes_the_same_bytes(encoder, tmp_path):
 def test_real_meshes_give_the_same_bytes(encoder, name, meshes):
     mesh = bsm.load(meshes / name)
     for preset, positions in (("grid14", 0), ("lossless", LOSSLESS)):
-        assert encode(encoder, mesh, positions=positions).data == bsm.encode(mesh, preset=preset, congruence=False)
+        assert encode(encoder, mesh, positions=positions).data == bsm.encode(mesh, preset=preset)
 
 
 def test_orders_and_counts_say_what_became_of_the_mesh(encoder):

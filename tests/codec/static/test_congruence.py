@@ -57,7 +57,7 @@ def test_copies_cost_little(turn):
 
 def test_a_mesh_without_congruent_parts_is_coded_as_by_1_0():
     mesh = bumpy(2)
-    assert encode(mesh, EncodeOptions(grid=12)) == encode(mesh, EncodeOptions(grid=12, congruence=False))
+    assert encode(mesh, EncodeOptions(grid=12, congruence=True)) == encode(mesh, EncodeOptions(grid=12))
 
 
 def test_the_search_finds_a_turn():
@@ -96,7 +96,7 @@ def test_transforms_are_coded_as_near_as_they_can_be(seed, cells):
 
 
 def test_transforms_that_are_missing_are_refused():
-    data = encode(copies(bumpy(4), mirrors()[:1]), EncodeOptions(grid=11))
+    data = encode(copies(bumpy(4), mirrors()[:1]), EncodeOptions(grid=11, congruence=True))
     assert header_of(data).congruence == 2
     for count in (1, 3, 17):
         with pytest.raises((CorruptError, TruncatedError)):

@@ -54,7 +54,7 @@ def test_decimals_take_about_what_their_grid_does() -> None:
     mesh = torus(40, 30)
     decimals = TriangleMesh(np.round(mesh.positions, 4).astype(np.float32), mesh.faces)
     assert_exact(decimals.positions, mesh.faces)
-    on_grid = encode(decimals, EncodeOptions(grid_cell=1e-4, congruence=False))
+    on_grid = encode(decimals, EncodeOptions(grid_cell=1e-4))
     assert len(encode(decimals, LOSSLESS)) < 1.03 * len(on_grid)
     assert len(encode(TriangleMesh(mesh.positions.astype(np.float32), mesh.faces), LOSSLESS)) > 1.3 * len(on_grid)
 

@@ -56,7 +56,7 @@ def test_it_stays_within_what_there_is() -> None:
 def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "normal") -> tuple[int, list[int]]:
     """Bytes with all ways, and with each of them alone."""
     everything = Search._ways
-    options = EncodeOptions(threads=1, effort=effort, congruence=False)  # whose gain no guess of a size knows
+    options = EncodeOptions(threads=1, effort=effort)
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(everything(*_asked(mesh, options)))):
 
