@@ -22,8 +22,8 @@ BOUND = re.compile(r"m\.def\(\"(\w+)\", (?:&|checked<&?)(\w+)")
 """A kernel that Python may call, and its name in C."""
 
 LIMITS = {
-    "product in all languages, lines": 60_000,
-    "tuned constants of the search": 44,
+    "product in all languages, lines": 66_850,
+    "tuned constants of the search": 51,
     "kernels driven by both Python and the engine": 46,
 }
 

@@ -102,8 +102,7 @@ def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: bsm.TriangleMesh
 @pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])
 def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -> None:
     plain, light = (
-        bsm.Encoder(torus(80, 40), encode_options(quick=quick, **option)).draft()
-        for quick in (False, True)
+        bsm.Encoder(torus(80, 40), encode_options(quick=quick, **option)).draft() for quick in (False, True)
     )
     assert light.header == replace(plain.header, light=1) and not plain.header.light
     first, other = (bsm.decode(b"".join(draft.frames)) for draft in (plain, light))
