@@ -29,6 +29,9 @@ int64_t ISA(iteration_space)(int64_t n, int64_t c, int64_t apart);
 enum { DONE, NEEDS_CARE, LOST }; /* columns must be made orthonormal one by one; they cannot be */
 int64_t ISA(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t power,
                        int64_t iterations, int64_t apart, int64_t care, Singles scratch, Singles2 subspace);
+int64_t ISA(doubles_space)(int64_t n, int64_t c);
+int64_t ISA(onorm_in_doubles)(float *columns, int64_t rows, int64_t width, int64_t n, int64_t c, int64_t *care,
+    const uint32_t *order, float *scratch);
 int64_t ISA(completion_space)(int64_t h);
 int64_t ISA(complete_columns)(ConstSingles2 first, Singles scratch, Singles2 whole);
 void ISA(cosines)(Doubles table, Doubles2 columns);
