@@ -18,6 +18,7 @@ import signal
 import socket
 import subprocess
 import sys
+import sysconfig
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict
@@ -262,10 +263,15 @@ def _confine(asked: dict[str, Any]) -> None:
 
 @cache
 def _libraries() -> tuple[str, ...]:
-    """Folders of Python, of its packages and of libraries of the system."""
-    own = {str(Path(importlib.import_module(name).__file__ or "").resolve().parent) for name in ("bsm", "bsm.codec")}
+    """Folders of Python, of installed and loaded packages and of libraries of the system.
+
+    Not all of `sys.path`: an editable installation puts the folder there that holds the checkout.
+    """
+    installed = {path for path in sys.path if Path(path).name in ("site-packages", "dist-packages")}
+    python = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    loaded = {path for module in list(sys.modules.values()) for path in list(getattr(module, "__path__", ()))}
     system = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/dev/null", "/dev/urandom"}
-    return tuple(filter(os.path.exists, {*sys.path} | own | system))
+    return tuple(filter(os.path.exists, installed | python | loaded | system))
 
 
 def _described(found: MeshFile, arrays: list[npt.NDArray[Any]]) -> dict[str, Any]:
