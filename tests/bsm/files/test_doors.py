@@ -578,6 +578,110 @@ def test_polygons_of_a_dae_that_are_not_convex_are_cut_without_overlaps(kind, tm
     assert area(read.mesh) == pytest.approx(7) and "polygons were cut into triangles: 1" in read.notes
 
 
+def drawn_dae(drawn, effect="", points=""):
+    """A DAE whose geometry draws other elements, over other points and with an effect."""
+    bound = SHOWN.replace("/>", "><bind_material><technique_common><instance_material symbol='m' target='#mm'/>")
+    bound += "</technique_common></bind_material></instance_geometry>" if effect else ""
+    used = f'<library_effects><effect id="e"><profile_COMMON><technique sid="c"><phong>{effect}</phong></technique>'
+    used += '</profile_COMMON></effect></library_effects><library_materials><material id="mm" name="glass">'
+    used += '<instance_effect url="#e"/></material></library_materials>'
+    text = collada("", f'<node id="x">{bound if effect else SHOWN}</node>', used if effect else "").decode()
+    if points:
+        count = len(points.split())
+        text = text.replace("0 0 0 1 0 0 1 1 0", points).replace('count="9"', f'count="{count}"')
+        text = text.replace('count="3" stride', f'count="{count // 3}" stride')
+    before, _, after = text.partition("<triangles")
+    return f"{before}{drawn}</mesh></geometry>{after.partition('</geometry>')[2]}".encode()
+
+
+OF_POINTS = '<input semantic="VERTEX" source="#v" offset="0"/>'
+GRID = " ".join(f"{x} {y} 0" for y in range(5) for x in range(5))
+OUTER, INNER = "0 4 24 20", ["6 11 12 7", "13 18 17"]
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("holes", [0, 1, 2])
+def test_polygons_of_a_dae_are_cut_with_their_holes(holes, turned):
+    pytest.importorskip("collada")
+    pytest.importorskip("mapbox_earcut")
+    outer = " ".join(OUTER.split()[::-1]) if turned else OUTER
+    held = "".join(f"<h>{ring}</h>" for ring in INNER[:holes])
+    drawn = f'<polygons count="3">{OF_POINTS}<ph><p>{outer}</p>{held}</ph><p>0 1 5</p><ph><p>1 6 5</p></ph></polygons>'
+    read = read_mesh(drawn_dae(drawn, points=GRID), "dae")
+    assert area(read.mesh) == pytest.approx(16 - [0, 1, 1.5][holes] + 1) and read.dropped == ()
+    a, b, c = (read.mesh.positions[read.mesh.faces[:-2, corner]] for corner in range(3))
+    assert ((np.cross(b - a, c - a)[:, 2] < 0) == turned).all(), "faces look to the side of their polygon"
+
+
+def test_values_at_corners_of_holes_stay_theirs():
+    pytest.importorskip("collada")
+    pytest.importorskip("mapbox_earcut")
+    inputs = OF_POINTS + '<input semantic="TEXCOORD" source="#t" offset="1"/>'
+    values = "".join(f'<param name="{name}" type="float"/>' for name in "STP")
+    source = f'<source id="t"><float_array id="ta" count="75">{GRID}</float_array><technique_common>'
+    source += f'<accessor source="#ta" count="25" stride="3">{values}</accessor></technique_common></source>'
+    rings = [" ".join(f"{corner} {corner}" for corner in ring.split()) for ring in (OUTER, INNER[0])]
+    drawn = f'{source}<polygons count="1">{inputs}<ph><p>{rings[0]}</p><h>{rings[1]}</h></ph></polygons>'
+    mesh = read_mesh(drawn_dae(drawn, points=GRID), "dae").mesh
+    assert (
+        len(mesh.faces) == 8
+        and (at_corners(mesh, attribute(mesh, "texcoord")) == mesh.positions[mesh.faces][..., :2]).all()
+    )
+
+
+EMPTY = [
+    f'<{kind} count="0">{OF_POINTS}{p}</{kind}>' for kind in ("triangles", "lines") for p in ("", "<p></p>", "<p/>")
+]
+EMPTY += [f'<polylist count="0">{OF_POINTS}<vcount/><p/></polylist>', f'<polygons count="0">{OF_POINTS}</polygons>']
+EMPTY += [f'<{kind} count="0">{OF_POINTS}</{kind}>' for kind in ("tristrips", "trifans", "linestrips")]
+
+
+@pytest.mark.parametrize("empty", [*EMPTY, f'<linestrips count="1">{OF_POINTS}<p>0 1 2</p></linestrips>'])
+def test_an_empty_element_of_a_dae_costs_no_other(empty):
+    pytest.importorskip("collada")
+    drawn = f'{empty}<triangles count="1">{OF_POINTS}<p>0 1 2</p></triangles>{empty}'
+    read = read_mesh(drawn_dae(drawn), "dae")
+    assert len(read.mesh.faces) == 1 and read.dropped == (("lines",) if "<line" in empty else ())
+
+
+@pytest.mark.parametrize(
+    ("mode", "color", "transparency", "opacity"),
+    [
+        ("A_ONE", "1 1 1 0.3", None, 0.3),
+        (None, "0 0 0 0.5", 0.5, 0.25),
+        ("A_ZERO", "1 1 1 0.7", None, 0.3),
+        ("RGB_ZERO", "0.7 0.7 0.7 1", None, 0.3),
+        ("RGB_ZERO", "1 1 1 1", 0.0, 1.0),
+        ("RGB_ONE", "0.3 0.3 0.3 1", 1.0, 0.3),
+        (None, None, 0.4, 0.4),
+        ("A_ONE", "1 1 1 1", None, 1.0),
+    ],
+)
+def test_the_opacity_of_a_dae_is_its_color_and_its_number(mode, color, transparency, opacity):
+    pytest.importorskip("collada")
+    effect = "<diffuse><color>0 1 0 1</color></diffuse>"
+    effect += (
+        f"<transparent{f' opaque={chr(34)}{mode}{chr(34)}' if mode else ''}><color>{color}</color></transparent>"
+        * bool(color)
+    )
+    effect += f"<transparency><float>{transparency}</float></transparency>" if transparency is not None else ""
+    drawn = f'<triangles count="1" material="m">{OF_POINTS}<p>0 1 2</p></triangles>'
+    mesh = read_mesh(drawn_dae(drawn, effect), "dae").mesh
+    assert mesh.metadata.get("material.0.d", 1.0) == pytest.approx(opacity)
+    glb = read_mesh(written_mesh(mesh, "glb").data, "glb").mesh
+    assert glb.metadata.get("material.0.alphaMode") == ("BLEND" if opacity < 1 else None)
+
+
+def test_thousands_of_polygons_that_are_not_convex_are_cut_in_one_go():
+    pytest.importorskip("mapbox_earcut")
+    plates = [comb(1 + number % 2)[0] + [20 * number, 0, 0] for number in range(2000)]
+    sizes, points = np.array([len(plate) for plate in plates]), np.concatenate(plates)
+    text = "".join(f"v {x} {y} {z}\n" for x, y, z in points.tolist())
+    ends = np.cumsum(sizes)
+    text += "".join(f"f {' '.join(map(str, range(e - s + 1, e + 1)))}\n" for s, e in zip(sizes.tolist(), ends.tolist()))
+    assert area(read_mesh(text.encode(), "obj").mesh) == pytest.approx(1000 * (comb(1)[1] + comb(2)[1]))
+
+
 def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
     pytest.importorskip("collada")
     (tmp_path / "a b.png").write_bytes(png())

@@ -3,10 +3,11 @@
 import io
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import starmap
+from itertools import accumulate, chain, starmap
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -23,21 +24,25 @@ from bsm.files.formats.polygons import (
     Polygons,
     color_column,
     compact,
+    cut_holes,
     joined_parts,
 )
-from bsm.files.room import Doubles
+from bsm.files.room import Doubles, Ints
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
 _MOST_ERRORS = 8  # of pycollada that notes name
 _COLORS = {"diffuse": "Kd", "ambient": "Ka", "specular": "Ks", "emission": "Ke"}
 _NUMBERS = {"shininess": "Ns", "index_of_refraction": "Ni"}
 _IMAGES = {"diffuse": "map_Kd", "ambient": "map_Ka", "specular": "map_Ks", "emission": "map_Ke", "bumpmap": "map_Bump"}
+_IMAGES["transparent"] = "map_d"
 """Properties of effects, and what libraries of OBJ call them."""
 _LEFT_OUT = {
     "instance_controller": "skins and morphs with their meshes", "animation": "animations", "lines": "lines",
     "linestrips": "lines", "instance_camera": "cameras", "instance_light": "lights",
 }  # fmt: skip
 """Contents that are left out, by the tags."""
+_DRAWN = ("triangles", "tristrips", "trifans", "polylist", "polygons")
+_LUMINANCE = (0.212671, 0.715160, 0.072169)  # as COLLADA has it
 
 
 def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
@@ -45,8 +50,8 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     beside = Beside(Path(path).resolve().parent if path else None, limits)
     try:
         with np.errstate(all="ignore"):  # a later check refuses infinite values
-            document = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])
-            tags = [str(element.tag).rpartition("}")[2] for element in document.xmlnode.getroot().iter()]
+            prepared, tags = _prepared(data)
+            document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
             scene = _Scene(collada, beside)
             nodes = document.scene.nodes if document.scene is not None else ()
             placed = list(_placed(collada, nodes, FREE_PARTS + len(data) // BYTES_OF_PART))
@@ -65,6 +70,34 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
         raise FormatError(f"pycollada cannot read this file: {type(error).__name__}: {str(error)[:200]}") from error
+
+
+def _prepared(data: bytes) -> tuple[bytes, list[str]]:
+    """Return a document as pycollada can read it, and its tags.
+
+    Elements without corners, and lines, would make it leave out a whole geometry. A polygon with holes gets all corners
+    in one element, which says where its rings end.
+    """
+    root, changed = ElementTree.fromstring(data), False
+    tags = [_tag(element) for element in root.iter()]
+    for mesh in [element for element in root.iter() if _tag(element) == "mesh"]:
+        for drawn in list(mesh):
+            for place, holed in enumerate(drawn):
+                if _tag(holed) == "ph":
+                    rings = [(ring.text or "").split() for ring in holed]
+                    ends = " ".join(map(str, accumulate(map(len, rings))))
+                    drawn[place] = ElementTree.Element(holed.tag[:-1], {"ends": ends} if len(rings) > 1 else {})
+                    drawn[place].text = " ".join(chain.from_iterable(rings))
+                    changed = True
+            filled = any(_tag(element) == "p" and (element.text or "").strip() for element in drawn)
+            if _tag(drawn) in ("lines", "linestrips") or (_tag(drawn) in _DRAWN and not filled):
+                mesh.remove(drawn)
+                changed = True
+    return (ElementTree.tostring(root) if changed else data), tags
+
+
+def _tag(element: Any) -> str:
+    return str(element.tag).rpartition("}")[2]
 
 
 def _placed(collada: Any, nodes: Any, most: int) -> Iterator[tuple[Any, Doubles]]:
@@ -95,16 +128,16 @@ class _Scene:
 
     def surfaces(self, node: Any, matrix: Doubles) -> list[tuple[Any, Any, Doubles]]:
         """The primitives with polygons of a node, each with the node and its matrix."""
-        lines = self._collada.lineset.LineSet
-        held = (p for p in node.geometry.primitives if not isinstance(p, lines) and p.vertex is not None)
-        return [(primitive, node, matrix) for primitive in held]
+        return [(primitive, node, matrix) for primitive in node.geometry.primitives if primitive.vertex is not None]
 
     def shape(self, primitive: Any) -> Part:
         """The polygons of a primitive, which may stand in several places."""
         if id(primitive) not in self._shapes:
             sizes = np.asarray(getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64)
             index = np.asarray(primitive.index, np.int64).reshape(-1, primitive.index.shape[-1])
-            rows, corners = np.unique(primitive.vertex_index, return_inverse=True)
+            sizes, taken = _without_holes(primitive, sizes, index.shape[1])
+            index = index[taken]
+            rows, corners = np.unique(np.asarray(primitive.vertex_index).reshape(-1)[taken], return_inverse=True)
             points = np.asarray(primitive.vertex, np.float64)[rows]
             part = Part(points, sizes, corners.reshape(-1), _columns(primitive, index), np.zeros_like(sizes), "")
             self._shapes[id(primitive)] = part
@@ -140,11 +173,39 @@ class _Scene:
                     self.absent[
                         f"the image {name[:80]} ({image if isinstance(image, str) else 'it is not an image'})"
                     ] = None
-        if isinstance(effect.transparency, int | float) and effect.transparency != 1:
-            found["d"] = (
-                float(effect.transparency) if str(effect.opaque_mode) == "A_ONE" else 1 - float(effect.transparency)
-            )
+        if (opacity := _opacity(effect)) != 1:
+            found["d"] = opacity
         return found | ({"doubleSided": 1} if effect.double_sided else {})
+
+
+def _without_holes(primitive: Any, sizes: Ints, width: int) -> tuple[Ints, Any]:
+    """Return the sizes of polygons, and the places of their corners, where those with holes are cut into triangles."""
+    drawn = [element for element in primitive.xmlnode if _tag(element) == "p"]
+    if not any("ends" in element.attrib for element in drawn):
+        return sizes, slice(None)
+    points = np.asarray(primitive.vertex, np.float64)[np.asarray(primitive.vertex_index).reshape(-1)]
+    counts, places = [], []
+    for element, size, end in zip(drawn, sizes.tolist(), np.cumsum(sizes).tolist(), strict=True):
+        corners = np.arange(end - size, end)
+        ends = [int(number) // width for number in element.get("ends", "").split()]
+        if ends:
+            corners = corners[cut_holes(points[corners], ends).reshape(-1)]
+        counts += [3] * (len(corners) // 3) if ends else [size]
+        places.append(corners)
+    return np.array(counts, np.int64), np.concatenate(places)
+
+
+def _opacity(effect: Any) -> float:
+    """Return the opacity by the color of <transparent> and the number of <transparency>, which is 1 by default."""
+    marks = {_tag(element): element for element in effect.xmlnode.iter()}
+    mode = marks["transparent"].get("opaque") if "transparent" in marks else None
+    color = effect.transparent if isinstance(effect.transparent, tuple | list) else (1.0,) * 4
+    share = effect.transparency if "transparency" in marks and isinstance(effect.transparency, int | float) else 1.0
+    if str(mode).startswith("RGB"):
+        share *= sum(weight * number for weight, number in zip(_LUMINANCE, color))
+    else:
+        share *= color[3] if len(color) > 3 else 1.0
+    return float(1 - share if str(mode).endswith("ZERO") else share)
 
 
 def _columns(primitive: Any, index: Array) -> list[Column]:

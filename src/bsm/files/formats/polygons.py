@@ -449,7 +449,7 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
 
     places: Ints = fans(np.arange(len(owner)), 0)
     vectors = _area_vectors(scaled, corners[places])
-    normals = np.column_stack([np.bincount(owner, weights=axis, minlength=len(sizes)) for axis in vectors.T])
+    normals: Doubles = np.column_stack([np.bincount(owner, weights=axis, minlength=len(sizes)) for axis in vectors.T])
 
     def folded(rows: Ints, candidates: Ints) -> Ints:
         against = (_area_vectors(scaled, corners[candidates]) * normals[owner[rows]]).sum(axis=1) < 0
@@ -464,16 +464,16 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         good = ~np.isin(owner[rows], folded(rows, candidates))
         places[rows[good]] = candidates[good]
         bad = np.setdiff1d(bad, owner[rows[good]])
-    crossing = 0
+    if len(bad) == 0:
+        return places, owner, 0
+    rows = np.flatnonzero(np.isin(np.repeat(np.arange(len(sizes)), sizes), bad))
+    cuts = _ears(scaled[corners[rows]], sizes[bad], normals[bad])
     starts = np.cumsum(pieces) - pieces
-    for polygon in bad.tolist():
-        corner, size = first[polygon], sizes[polygon]
-        cut = _ears(scaled[corners[corner : corner + size]], normals[polygon])
-        if cut is None:
-            crossing += 1
-        else:
-            places[starts[polygon] : starts[polygon] + size - 2] = corner + cut
-    return places, owner, crossing
+    whole = [place for place, cut in enumerate(cuts) if len(cut) == pieces[bad[place]]]
+    for place in whole:
+        polygon = bad[place]
+        places[starts[polygon] : starts[polygon] + pieces[polygon]] = first[polygon] + cuts[place]
+    return places, owner, len(bad) - len(whole)
 
 
 Cut = Callable[[Doubles, Ints, Ints], tuple[Ints, Ints, int]]
@@ -493,29 +493,52 @@ class CutAlike:
         return self._cut
 
 
-def _ears(points: Doubles, normal: Doubles) -> Ints | None:
-    """Cut a polygon that is not convex into triangles by clipping ears; None: its sides cross."""
+def _ears(points: Doubles, sizes: Ints, normals: Doubles) -> list[Ints]:
+    """Cut polygons that are not convex into triangles by clipping ears; one whose sides cross gets too few or many."""
+    if sizes.max() > _MOST_CORNERS:
+        raise MeshError(f"a polygon that is not convex has {sizes.max()} corners; cut it into triangles before")
+    flat, clip = _flattened(points, np.repeat(normals, sizes, axis=0)), _clipper()
+    spans = zip((np.cumsum(sizes) - sizes).tolist(), sizes.tolist())
+    return [_filled(clip(flat[at : at + size], [size]), size) for at, size in spans]
+
+
+def cut_holes(points: Doubles, ends: Sequence[int]) -> Ints:
+    """Cut a polygon with holes into triangles: its corners, then those of each hole; `ends` of these."""
+    ring = np.arange(ends[0])
     if len(points) > _MOST_CORNERS:
-        raise MeshError(f"a polygon that is not convex has {len(points)} corners; cut it into triangles before")
+        raise MeshError(f"a polygon with holes has {len(points)} corners; cut it into triangles before")
+    normal = polygon_normals(points, np.array([ends[0]]), ring)
+    return _clipper()(_flattened(points, np.repeat(normal, len(points), axis=0)), ends)
+
+
+def _flattened(points: Doubles, normals: Doubles) -> Doubles:
+    """Return points without the axis along which their normals are longest, counterclockwise as seen from there."""
+    axis = np.argmax(np.abs(normals), axis=1)[:, None]
+    kept = np.array([[1, 2], [0, 2], [0, 1]])[axis[:, 0]]
+    sign = np.where((np.take_along_axis(normals, axis, 1) < 0) != (axis == 1), -1.0, 1.0)
+    return np.ascontiguousarray(np.take_along_axis(points, kept, 1) * np.column_stack([sign, np.ones_like(sign)]))
+
+
+def _clipper() -> Callable[[Doubles, Sequence[int]], Ints]:
+    """Return what makes triangles of a polygon and its holes, whose corners end at given places."""
     library = imported("mapbox_earcut", "polygons that are not convex are cut with mapbox-earcut", "formats")
-    axis = int(np.argmax(np.abs(normal)))
-    flat = np.ascontiguousarray(
-        np.delete(points, axis, axis=1) * (-1.0 if (normal[axis] < 0) != (axis == 1) else 1.0, 1.0)
+    return lambda flat, ends: (
+        library.triangulate_float64(flat, np.array(ends, np.uint32)).reshape(-1, 3).astype(np.int64)
     )
-    found = library.triangulate_float64(flat, np.array([len(points)], np.uint32)).reshape(-1, 3).astype(np.int64)
-    a, b, c = (flat[found[:, i]] for i in range(3))
-    areas = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-    found = found[:, ::-1] if areas.sum() < 0 else found
-    # It leaves out corners on a straight line between others: faces beside it may have them.
-    sides = {(int(i), int(j)) for triangle in found for i, j in zip(triangle, np.roll(triangle, -1))}
-    shortcuts = [(i, j) for i, j in sides if (j, i) not in sides and (j - i) % len(points) != 1]
-    filled = [
-        (i, (i + k) % len(points), (i + k + 1) % len(points))
-        for i, j in shortcuts
-        for k in range(1, (j - i) % len(points))
+
+
+def _filled(found: Ints, size: int) -> Ints:
+    """Add the corners on a straight line between others, which are left out: faces beside it may have them."""
+    if len(found) >= size - 2:
+        return found
+    sides = {side for i, j, k in found.tolist() for side in ((i, j), (j, k), (k, i))}
+    more = [
+        (i, (i + k) % size, (i + k + 1) % size)
+        for i, j in sides
+        if (j, i) not in sides
+        for k in range(1, (j - i) % size)
     ]
-    whole = np.concatenate([found, np.array(filled, np.int64).reshape(-1, 3)])
-    return whole if len(whole) == len(points) - 2 else None
+    return np.concatenate([found, np.array(more, np.int64).reshape(-1, 3)])
 
 
 def _area_vectors(positions: Doubles, triangles: Ints) -> Doubles:
