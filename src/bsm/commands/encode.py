@@ -36,8 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     formats = tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ)))
     known = "format of the input, as a suffix without the dot (default: by its name or content)"
     add("--format", "FORMAT", known, choices=formats)
-    apart = "read a mesh file from a stranger: in a process of its own, which ends at 1 GiB of memory or 10 s (Linux). "
-    add("--untrusted", "", f"{apart}Animations are read as single meshes")
+    add("--untrusted", "", "read files from strangers: in a process of its own, which ends at 1 GiB or 10 s (Linux)")
     add("--dry-run", "", "encode, check and report, but write no file")
     fewer = "try a half, a quarter, ... of the triangles, and keep the smallest file that keeps the promise to the "
     fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"

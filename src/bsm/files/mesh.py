@@ -11,20 +11,21 @@ import math
 import os
 import re
 import sys
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import FormatError, OptionError, UnsupportedError
+from bsm.bitstream.errors import DependencyError, FormatError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files import pipes
 from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
-from bsm.files.pipes import Source, as_input, file_beside, is_url
+from bsm.files.pipes import Input, Source, as_input, file_beside, is_url
 from bsm.files.room import gunzipped, plain_text, require_archive, require_counts_of_head, require_room
 
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
@@ -33,6 +34,7 @@ USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
 WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "om", "ply", "stl", "vtp")  # what we write, .om with openmesh
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
+_ALL = 1 << 62
 
 
 _ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
@@ -61,7 +63,8 @@ def read_mesh(
     isolated : bool, optional
         Read the file in a process of its own, which the system ends if it exceeds the memory or work of `limits`, and
         which can write no file and reach no other folder than the file's. None: if `limits.most_memory` is finite, as
-        for `Limits.service()`. Only Linux has this; elsewhere formats that other libraries read are then refused.
+        for `Limits.service()`. This needs Linux and landlockpy; elsewhere formats that other libraries read are then
+        refused, and True is refused for all.
 
     Returns
     -------
@@ -76,7 +79,7 @@ def read_mesh(
     UnsupportedError
         If the format must be read in a process of its own, and this system cannot.
     DependencyError
-        If a library is needed and missing.
+        If a library is needed and missing, such as landlockpy.
     OSError
         If the file cannot be read.
 
@@ -95,9 +98,9 @@ def read_cut(
 ) -> MeshFile:
     """Read a mesh file as `read_mesh` does, with a function that cuts its polygons."""
     given, limits = as_input(source), as_limits(limits)
-    apart = limits.most_memory < math.inf if isolated is None else isolated
-    if apart and sys.platform == "linux":
-        found: MeshFile = by_name("bsm.files.wall", "read_behind_wall")(given, file_format, limits)
+    kind = kind_of(given, file_format)
+    if is_apart((kind,), limits, isolated):
+        found: MeshFile = by_name("bsm.files.wall", "read_behind_wall")(given, file_format, limits, kind)
         return found
     path, name = (given.name if given.is_file else None), given.name
     folder = Path(path).parent if path else None
@@ -112,8 +115,6 @@ def read_cut(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
-    if apart and (isolated or kind not in (*MESH_FORMATS, *GLTF)):
-        raise UnsupportedError(f".{kind} files from strangers are read in a process of its own, which needs Linux")
     if kind in USD_FORMATS and path:
         usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
         return usd
@@ -141,6 +142,26 @@ def read_cut(
         metadata, notes = fetched(polygons.metadata, beside.read)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
     return polygons.checked(limits, len(data), cut)
+
+
+def kind_of(given: Input, file_format: str | None) -> str:
+    """The format of a file, by its name, or else by its first bytes; "" if they do not tell."""
+    head = given.peek(_HEAD if given.is_file else _ALL)
+    name = given.name.removesuffix(".gz") if head.startswith(b"\x1f\x8b") else given.name
+    return file_format or format_of_name(name) or format_of_bytes(plain_text(head)) or Path(name).suffix[1:].lower()
+
+
+def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> bool:
+    """Whether files of these formats are read in a process of its own; refused if they must be and cannot."""
+    if not (limits.most_memory < math.inf if isolated is None else isolated):
+        return False
+    lack = by_name("bsm.files.wall", "lack")() if sys.platform == "linux" else "Linux"
+    foreign = next((kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None)
+    if lack is not None and foreign is not None:
+        error = DependencyError if "pip" in lack else UnsupportedError
+        what = f".{foreign} files" if foreign else "files"
+        raise error(f"{what} from strangers are read in a process of its own, which needs {lack}")
+    return sys.platform == "linux"
 
 
 def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:

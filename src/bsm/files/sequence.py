@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from itertools import count as count_from
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,12 +22,22 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.runs import is_empty
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
-from bsm.files.mesh import GLTF, USD_FORMATS, WRITTEN_FORMATS, by_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import (
+    GLTF,
+    USD_FORMATS,
+    WRITTEN_FORMATS,
+    by_name,
+    is_apart,
+    kind_of,
+    read_mesh,
+    save_written,
+    written_mesh,
+)
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
 from bsm.files.motion.frames import START, STEP, TIMES, Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.pipes import Source, as_input, is_pipe, is_url
+from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
 
 ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
@@ -36,39 +47,65 @@ SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS)  # forms of a whol
 
 
 def open_sequence(
-    source: Source, file_format: str | None = None, wanted: Wanted | None = None, limits: Limits = DEFAULT_LIMITS
+    source: Source,
+    file_format: str | None = None,
+    wanted: Wanted | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+    *,
+    isolated: bool | None = None,
 ) -> Frames | None:
-    """The sequence that `source` names, or None if it is not one but perhaps a mesh."""
+    """The sequence that `source` names, or None if it is not one but perhaps a mesh; `isolated` as in `read_mesh`."""
     if is_pipe(source) and file_format != "npy":
         return None
     given = as_input(source)
     if not is_url(given.name) and names_many(given.name):
         runs = wanted is not None and wanted.runs
-        return read_files(frame_files(given.name), file_format, limits, runs=runs)
+        return open_frames(frame_files(given.name), file_format, limits, runs=runs, isolated=isolated)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
-    if kind in (*CACHES, *USD_FORMATS) or (kind in GLTF and wanted is not None):
-        if not given.is_file:
-            return None
-        if kind in CACHES:
-            return read_cache(given.name, kind, wanted or Wanted(), limits)
+    moves = kind in (*CACHES, *USD_FORMATS) or (kind in GLTF and wanted is not None)
+    if moves and not given.is_file:
+        return None
+    head = b"" if moves else given.peek(len(NPY))
+    piped = head == NPY or file_format == "npy"
+    if not moves and (
+        file_format not in (None, "npz", "npy")
+        # A 3MF is a ZIP, too.
+        or not (piped or (head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))))
+    ):
+        return None
+    if is_apart((kind if moves else "npz",), limits, isolated):
+        apart: Frames | None = _apart(given, file_format, limits, kind, wanted)
+        return apart
+    if kind in CACHES:
+        return read_cache(given.name, kind, wanted or Wanted(), limits)
+    if moves:
         room = ("bsm.gltf.scene", "read_gltf") if kind in GLTF else ("bsm.files.motion.usd", "read_usd")
         found: Frames | None = by_name(*room)(given.name, wanted or Wanted(), limits)
         return found
-    if file_format not in (None, "npz", "npy"):
-        return None
-    head = given.peek(len(NPY))
-    if head == NPY or file_format == "npy":
-        return read_pipe(given, limits)
-    if not head.startswith(ZIP) or (file_format is None and kind not in ("", "npz")):
-        return None  # a 3MF is a ZIP, too
-    return read_archive(given, limits)
+    return read_pipe(given, limits) if piped else read_archive(given, limits)
 
 
-def open_frames(names: Sequence[str], file_format: str | None = None, *, runs: bool = False) -> Frames:
+def open_frames(
+    names: Sequence[str],
+    file_format: str | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+    *,
+    runs: bool = False,
+    isolated: bool | None = None,
+) -> Frames:
     """The sequence of these mesh files, in the order of the numbers in their names; errors as of `open_sequence`."""
-    return read_files(in_order(names), file_format, DEFAULT_LIMITS, runs=runs)
+    ordered = in_order(names)
+    kinds = [kind_of(Input(name), file_format) for name in ordered]
+    if is_apart(kinds, limits, isolated):
+        apart: Frames = _apart(list(map(os.path.abspath, ordered)), file_format, limits, kinds[0], Wanted(runs=runs))
+        return apart
+    return read_files(ordered, file_format, limits, runs=runs)
+
+
+def _apart(*given: Any) -> Any:
+    return by_name("bsm.files.wall", "frames_behind_wall")(*given)
 
 
 @contextmanager

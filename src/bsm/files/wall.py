@@ -1,25 +1,29 @@
-"""A wall around readers of mesh files: a process of its own for each file, with limits that the kernel enforces.
+"""A wall around readers of files: a process of its own for each file, with limits that the kernel enforces.
 
-A server with all readers loaded is started once, and forks for each file. The child writes nothing, and ends where it
-exceeds its memory or processor time. If the kernel has Landlock and landlockpy is installed, it may only read the
-folder of the file and those of Python and its packages, and connect to nothing (TCP). Arrays, notes and errors come
-back as data in shared memory.
+A server with all readers loaded is started once, and forks for each file. The child opens no socket, starts no program,
+writes nothing, and ends where it exceeds its memory or time. With Landlock (landlockpy) it may only read the folder of
+the file and those of Python and its packages; without, only what our own readers read comes here. Arrays, notes and
+errors come back as data in shared memory.
 """
 
+import ctypes
 import fcntl
 import gc
 import importlib
 import io
+import itertools
 import math
 import mmap
 import os
+import platform
 import resource
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict
 from functools import cache
@@ -35,11 +39,11 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import KINDS, Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.polygons import MeshFile
+from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input
 
-AVAILABLE = sys.platform == "linux"
 _COMMAND = "from bsm.files.wall import serve; serve({number})"
-_KIND = 16  # bytes of the name of a format, as it is sent
+_KIND = struct.Struct("<16sI")  # the name of a format and seconds, as they are sent
 _HEAD = 8  # bytes of the length of what follows, in shared memory
 _ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
 _LIBRARIES = {
@@ -52,30 +56,64 @@ _LIBRARIES = {
     "other": ("bsm.files.formats.with_trimesh", "trimesh"),
 }
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
+_PATIENCE = 10  # times its processor time that a child may take, since the machine may be busy
+_CALLS = {  # of the kernel, by processor: its number in seccomp, and socket, execve, execveat, ptrace, io_uring_setup
+    "x86_64": (0xC000003E, (41, 59, 322, 101, 425)),
+    "aarch64": (0xC00000B7, (198, 221, 281, 117, 425)),
+}
 _QUIET = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PXR_WORK_THREAD_LIMIT": "1", "MALLOC_ARENA_MAX": "1"}
 
 
-def read_behind_wall(given: Input, file_format: str | None, limits: Limits) -> MeshFile:
+@cache
+def lack() -> str | None:
+    """What this system lacks to keep files of others from readers."""
+    try:
+        landlock: Any = importlib.import_module("landlockpy")
+    except ImportError:
+        return "landlockpy: pip install landlockpy"
+    if platform.machine() not in _CALLS:
+        return "a processor of x86-64 or ARM"
+    return None if landlock.supported() else "a kernel with Landlock"
+
+
+def read_behind_wall(given: Input, file_format: str | None, limits: Limits, kind: str) -> MeshFile:
     """Read a mesh file in a process of its own; errors as of `read_mesh`."""
+    found: MeshFile = _read_there(_asked(given, file_format, kind), limits, kind)
+    return found
+
+
+def frames_behind_wall(
+    given: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, wanted: Wanted | None
+) -> Frames | None:
+    """Read all frames of a sequence in a process of its own; errors as of `open_sequence`."""
+    asked = _asked(given, file_format, kind) if isinstance(given, Input) else {"names": list(given)}
+    mesh = os.path.abspath(wanted.mesh) if wanted and wanted.mesh else None
+    more = {"sequence": True, "wanted": {**asdict(wanted), "mesh": mesh} if wanted else None, "beside": mesh}
+    asked = {"format": file_format, **asked, **more}
+    found: Frames | None = _read_there(asked, limits, kind)
+    return found
+
+
+def _asked(given: Input, file_format: str | None, kind: str) -> dict[str, Any]:
     path = os.path.abspath(given.name) if given.is_file else None
-    data = b"" if path else given.read_all()
-    size = os.path.getsize(path) if path else len(data)
-    asked: dict[str, Any] = {
-        "path": path,
-        "name": given.name,
-        "format": file_format,
-        "limits": asdict(limits),
-        "data": data,
-    }
+    chosen = file_format if lack() is None else file_format or kind or None  # one that others read never comes here
+    return {"path": path, "name": given.name, "format": chosen, "data": b"" if path else given.read_all()}
+
+
+def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
+    names = asked.get("names") or [asked["path"]]
+    size = sum(map(os.path.getsize, names)) if names[0] else len(asked["data"])
+    asked["limits"] = asdict(limits)
     asked["memory"] = int(min(limits.memory_for(limits.vertices, size), 1 << 40))
     asked["seconds"] = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
+    asked["closed"] = lack() is None
     request = msgpack.packb(asked)
     with _shared(_ROOM + len(request) + asked["memory"]) as memory:
         os.pwrite(memory, len(request).to_bytes(_HEAD, "little") + request, 0)
-        status = _status_of(memory, _library(file_format or Path(given.name).suffix[1:].lower()))
+        status = _status_of(memory, _library(kind), _PATIENCE * asked["seconds"])
         if os.WIFSIGNALED(status):
             raise _end_of(os.WTERMSIG(status), asked)
-        return _mesh_in(memory, limits)
+        return _found_in(memory, limits)
 
 
 def _library(kind: str) -> str:
@@ -93,6 +131,8 @@ def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
         return LimitError(
             f"reading this file takes more than {asked['seconds']} s of processor time (Limits.work, most_work)"
         )
+    if number == signal.SIGALRM:
+        return LimitError(f"reading this file takes more than {_PATIENCE * asked['seconds']} s")
     if number == signal.SIGKILL:
         return LimitError("the process that read this file was ended: the system has too little memory")
     return FormatError(f"reading this file crashed the library that reads it ({signal.Signals(number).name})")
@@ -129,12 +169,12 @@ class _Server:
     def __del__(self) -> None:
         self._socket.close()
 
-    def read(self, memory: int, library: str) -> int:
+    def read(self, memory: int, library: str, seconds: int) -> int:
         """Let a child read the file that shared memory names; return its status."""
         here, there = socket.socketpair()
         with here:
             with there:
-                socket.send_fds(self._socket, [library.encode().ljust(_KIND)], [there.fileno(), memory])
+                socket.send_fds(self._socket, [_KIND.pack(library.encode(), seconds)], [there.fileno(), memory])
             status = b""
             while len(status) < 4:
                 piece = here.recv(4)
@@ -149,13 +189,13 @@ def _server() -> _Server:
     return _Server()
 
 
-def _status_of(memory: int, library: str) -> int:
+def _status_of(memory: int, library: str, seconds: int) -> int:
     try:
-        return _server().read(memory, library)
+        return _server().read(memory, library, seconds)
     except ConnectionError:  # somebody has ended it
         _server.cache_clear()
     try:
-        return _server().read(memory, library)
+        return _server().read(memory, library, seconds)
     except ConnectionError as error:
         raise UnsupportedError(
             f"a file from strangers is read in a process of its own, and that does not start: {error}"
@@ -166,20 +206,20 @@ def serve(number: int) -> None:
     """Fork for each file that is asked for, until the last process that can ask has ended."""
     _load("own")
     _libraries()
-    with suppress(ImportError, OSError):  # it looks for the C library when it is first used
-        importlib.import_module("landlockpy").supported()
+    lack()  # landlockpy looks for the C library when it is first used
     importlib.import_module("bsm.files.mesh").read_mesh(_SMALLEST, isolated=False)
     gc.freeze()
     with socket.socket(fileno=number) as asked:
         while True:
             signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # watchers end alone
-            library, files, _, _ = socket.recv_fds(asked, _KIND, 2)
-            if not library:
+            request, files, _, _ = socket.recv_fds(asked, _KIND.size, 2)
+            if not request:
                 return
-            _load(library.decode().strip())
+            library, seconds = _KIND.unpack(request)
+            _load(library.rstrip(b"\0").decode())
             if not os.fork():
                 asked.close()
-                _watch(*files)
+                _watch(files[0], files[1], seconds)
             for file in files:
                 os.close(file)
 
@@ -191,14 +231,16 @@ def _load(library: str) -> None:
             importlib.import_module(name)
 
 
-def _watch(answer: int, memory: int) -> None:
-    """Let a child read, and tell how it ended."""
+def _watch(answer: int, memory: int, seconds: int) -> None:
+    """Let a child read for so long, and tell how it ended."""
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         child = os.fork()
         if not child:
             os.close(answer)
             _read(memory)
+        signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGALRM))
+        signal.alarm(seconds)
         status = os.waitpid(child, 0)[1]
         os.write(answer, status.to_bytes(4, "little"))
     finally:
@@ -216,13 +258,7 @@ def _read(memory: int) -> None:
         arrays: list[npt.NDArray[Any]] = []
         try:
             _confine(asked)
-            source: Any = asked["path"]
-            if source is None:
-                source = io.BytesIO(asked["data"])
-                source.name = asked["name"]
-            # Not at the top: it imports this module.
-            read_mesh = importlib.import_module("bsm.files.mesh").read_mesh
-            found = _described(read_mesh(source, asked["format"], Limits(**asked["limits"]), isolated=False), arrays)
+            found = _described(_called(asked), arrays)
             _leave(memory, found, arrays)
         except MemoryError:
             taken = f"{asked['memory']:,} bytes of memory (Limits.memory, most_memory)"
@@ -230,7 +266,7 @@ def _read(memory: int) -> None:
         except BsmError as error:
             _leave(memory, {"error": [type(error).__name__, error.message, error.offset, error.frame, error.block]})
         except OSError as error:
-            name = asked["name"] if error.filename == asked["path"] else error.filename
+            name = asked["name"] if error.filename == asked.get("path", "") else error.filename
             _leave(memory, {"system": [error.errno, error.strerror, name and str(name)]})
         except Exception as error:
             words = f"reading this file failed: {type(error).__name__}: {str(error)[:200]}"
@@ -239,18 +275,34 @@ def _read(memory: int) -> None:
         os._exit(0)
 
 
+def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
+    """What is read without a wall, in here."""
+    given = (asked["format"], Limits(**asked["limits"]))
+    wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
+    # Not at the top: they import this module.
+    mesh, sequence = (importlib.import_module(f"bsm.files.{name}") for name in ("mesh", "sequence"))
+    if names := asked.get("names"):
+        frames: Frames = sequence.open_frames(names, *given, runs=bool(wanted and wanted.runs), isolated=False)
+        return frames
+    source: Any = asked["path"]
+    if source is None:
+        source = io.BytesIO(asked["data"])
+        source.name = asked["name"]
+    found: MeshFile | Frames | None
+    if asked.get("sequence"):
+        found = sequence.open_sequence(source, given[0], wanted, given[1], isolated=False)
+    else:
+        found = mesh.read_mesh(source, *given, isolated=False)
+    return found
+
+
 def _confine(asked: dict[str, Any]) -> None:
     """Take from this process what reading needs not: files of others, network, writing, memory and time beyond."""
     held = int(Path("/proc/self/statm").read_text().split()[0]) * mmap.PAGESIZE
-    with suppress(ImportError, OSError):
-        landlock: Any = importlib.import_module("landlockpy")
-        known = landlock.AccessFS.READ_FILE | landlock.AccessFS.READ_DIR
-        with landlock.Ruleset() as rules:
-            path = asked["path"]
-            beside = () if path is None else {os.path.dirname(path), os.path.dirname(os.path.realpath(path))}
-            for folder in (*_libraries(), *filter(os.path.exists, beside)):
-                rules.allow_path(folder, known if os.path.isdir(folder) else landlock.AccessFS.READ_FILE)
-            rules.restrict()
+    if asked["closed"]:
+        paths = filter(None, [*(asked.get("names") or [asked["path"]]), asked.get("beside")])
+        _close_files({os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)})
+    _close_calls()
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     for limit, most in (
         (resource.RLIMIT_CORE, 0),
@@ -259,6 +311,36 @@ def _confine(asked: dict[str, Any]) -> None:
         (resource.RLIMIT_CPU, asked["seconds"]),
     ):
         resource.setrlimit(limit, (most, most + (limit == resource.RLIMIT_CPU)))
+
+
+def _close_files(beside: set[str]) -> None:
+    landlock: Any = importlib.import_module("landlockpy")
+    known = landlock.AccessFS.READ_FILE | landlock.AccessFS.READ_DIR
+    scope = landlock.Scope.SIGNAL | landlock.Scope.ABSTRACT_UNIX_SOCKET
+    with landlock.Ruleset(scoped=scope) as rules:
+        for path in itertools.chain(_libraries(), beside):
+            with suppress(OSError):  # what has gone is not read
+                rules.allow_path(path, known if os.path.isdir(path) else landlock.AccessFS.READ_FILE)
+        rules.restrict()
+
+
+def _close_calls() -> None:
+    """Let the kernel refuse sockets, programs and the memory of other processes, by a filter of its calls."""
+    architecture, refused = _CALLS.get(platform.machine(), (0, ()))
+    if not refused:
+        return  # `lack` says so
+    load, equal, at_least, end = 0x20, 0x15, 0x35, 0x06  # the processor is at 4 of what it looks at, the call at 0
+    program = [(load, 0, 0, 4), (equal, 1, 0, architecture), (end, 0, 0, 0x80000000), (load, 0, 0, 0)]
+    program += [(at_least, len(refused) + 1, 0, 0x40000000)]
+    program += [(equal, len(refused) - place, 0, number) for place, number in enumerate(refused)]
+    program += [(end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x50001)]  # allowed; not permitted
+    code = ctypes.create_string_buffer(b"".join(struct.pack("<HBBI", *step) for step in program))
+    known = ctypes.create_string_buffer(struct.pack("@HP", len(program), ctypes.addressof(code)))
+    control = ctypes.CDLL(None, use_errno=True).prctl
+    control.argtypes = (ctypes.c_int, *4 * (ctypes.c_ulong,))
+    for call in ((38, 1, 0, 0, 0), (22, 2, ctypes.addressof(known), 0, 0)):  # no new privileges; the filter
+        if control(*call):
+            raise UnsupportedError(f"the kernel does not filter calls: {os.strerror(ctypes.get_errno())}")
 
 
 @cache
@@ -274,23 +356,36 @@ def _libraries() -> tuple[str, ...]:
     return tuple(filter(os.path.exists, installed | python | loaded | system))
 
 
-def _described(found: MeshFile, arrays: list[npt.NDArray[Any]]) -> dict[str, Any]:
-    """A mesh as data, but for its arrays, which are appended."""
+def _described(found: MeshFile | Frames | None, arrays: list[npt.NDArray[Any]]) -> dict[str, Any]:
+    """What was read as data, but for arrays, which are appended, each once."""
+    known: dict[int, int] = {}
 
     def number(array: npt.NDArray[Any] | None) -> int | None:
         if array is None:
             return None
-        arrays.append(array)
-        return len(arrays) - 1
+        if id(array) not in known:
+            known[id(array)] = len(arrays)
+            arrays.append(array)
+        return known[id(array)]
 
-    mesh = found.mesh
+    def of(attributes: tuple[Attribute, ...]) -> list[Any]:
+        return [[a.name, number(a.values), a.domain, a.semantic, number(a.indices)] for a in attributes]
+
+    def mesh_of(mesh: TriangleMesh) -> list[Any]:
+        return [number(mesh.positions), number(mesh.faces), of(mesh.attributes), dict(mesh.metadata)]
+
+    if found is None:
+        return {"nothing": True}
+    if isinstance(found, MeshFile):
+        return {"mesh": mesh_of(found.mesh), "notes": found.notes, "dropped": found.dropped}
+    meshes = None if found.meshes is None else list(map(mesh_of, found.meshes))
     return {
-        "positions": number(mesh.positions),
-        "faces": number(mesh.faces),
-        "attributes": [[a.name, number(a.values), a.domain, a.semantic, number(a.indices)] for a in mesh.attributes],
-        "metadata": dict(mesh.metadata),
+        "frames": [number(frame) for frame in found.frames] if meshes is None else [],
+        "meshes": meshes,
+        "faces": number(found.faces),
+        "attributes": of(found.attributes),
+        "more": [found.count, found.frame_rate, dict(found.metadata), found.rigged],
         "notes": found.notes,
-        "dropped": found.dropped,
     }
 
 
@@ -327,8 +422,8 @@ def _kinds() -> dict[str, type[BsmError]]:
     return found
 
 
-def _mesh_in(memory: int, limits: Limits) -> MeshFile:
-    """The mesh or the error that a child has left, which a hostile file may have taken over."""
+def _found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
+    """The mesh, frames or error that a child has left, which a hostile file may have taken over."""
     try:
         found = _message(memory, 2 * limits.metadata_bytes + 5 * limits.frame_bytes + _ROOM)
         if "system" in found:
@@ -336,23 +431,55 @@ def _mesh_in(memory: int, limits: Limits) -> MeshFile:
         if "error" in found:
             kind, message, *places = found["error"]
             raise _kinds()[kind](message, **dict(zip(("offset", "frame", "block"), places)))
-        place = _HEAD + int.from_bytes(os.pread(memory, _HEAD, 0), "little")
-        arrays: list[Any] = []
-        for kind, shape in found["arrays"]:
-            if kind not in KINDS or min(shape, default=0) < 0:
-                raise ValueError("an array of another kind")
-            size = math.prod(shape) * np.dtype(kind).itemsize
-            if place + size > os.fstat(memory).st_size:
-                raise ValueError("an array that is not there")
-            arrays.append(np.frombuffer(os.pread(memory, size, place), kind).reshape(shape))
-            place += size
-        attributes = [
-            Attribute(name, arrays[values], domain, semantic, None if indices is None else arrays[indices])
-            for name, values, domain, semantic, indices in found["attributes"]
-        ]
-        mesh = TriangleMesh(arrays[found["positions"]], arrays[found["faces"]], tuple(attributes), found["metadata"])
-        return MeshFile(mesh, tuple(map(str, found["notes"])), tuple(map(str, found["dropped"])))
+        return None if "nothing" in found else _rebuilt(found, _arrays_in(memory, found["arrays"]))
     except (BsmError, OSError):
         raise
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
+
+
+def _arrays_in(memory: int, described: list[Any]) -> list[Any]:
+    place = _HEAD + int.from_bytes(os.pread(memory, _HEAD, 0), "little")
+    arrays: list[Any] = []
+    for kind, shape in described:
+        if kind not in KINDS or min(shape, default=0) < 0:
+            raise ValueError("an array of another kind")
+        size = math.prod(shape) * np.dtype(kind).itemsize
+        if place + size > os.fstat(memory).st_size:
+            raise ValueError("an array that is not there")
+        arrays.append(np.frombuffer(os.pread(memory, size, place), kind).reshape(shape))
+        place += size
+    return arrays
+
+
+def _rebuilt(found: dict[str, Any], arrays: list[Any]) -> MeshFile | Frames:
+    def attributes_of(described: list[Any]) -> tuple[Attribute, ...]:
+        return tuple(
+            Attribute(name, arrays[values], domain, semantic, None if indices is None else arrays[indices])
+            for name, values, domain, semantic, indices in described
+        )
+
+    def mesh_of(positions: int, faces: int, attributes: list[Any], metadata: dict[str, Any]) -> TriangleMesh:
+        return TriangleMesh(arrays[positions], arrays[faces], attributes_of(attributes), metadata)
+
+    notes = tuple(map(str, found["notes"]))
+    if "mesh" in found:
+        return MeshFile(mesh_of(*found["mesh"]), notes, tuple(map(str, found["dropped"])))
+    frames = [arrays[number] for number in found["frames"]]
+    meshes = None if found["meshes"] is None else [mesh_of(*mesh) for mesh in found["meshes"]]
+    shapes = {frame.shape[1:] for frame in frames}
+    count, rate, metadata, rigged = found["more"]
+    faces = TriangleMesh(np.zeros((int(arrays[found["faces"]].max(initial=-1)) + 1, 3)), arrays[found["faces"]]).faces
+    if shapes - {(3,)} or len(frames or meshes or ()) != count > 0:
+        raise ValueError("frames of another kind")
+    return Frames(
+        faces,
+        int(count),
+        iter(frames if meshes is None else [mesh.positions for mesh in meshes]),
+        attributes_of(found["attributes"]),
+        notes,
+        float(rate),
+        metadata,
+        None if meshes is None else iter(meshes),
+        int(rigged),
+    )

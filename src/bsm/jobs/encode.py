@@ -64,14 +64,12 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     runs = bool(job.options.get("runs"))
     asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     plain = all(choice is None for choice in asked)
-    if job.untrusted:
-        if job.members or not plain:
-            raise OptionError("--untrusted reads single meshes; leave out the options for sequences")
-        return _encode_mesh(job, console)
+    limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
     if job.members:
-        return _encode_sequence(job, console, open_frames(job.members, job.format, runs=runs))
+        frames = open_frames(job.members, job.format, limits, runs=runs, isolated=apart)
+        return _encode_sequence(job, console, frames)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
-    sequence = open_sequence(job.input, job.format, None if plain else wanted)
+    sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
     return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console)
 
 

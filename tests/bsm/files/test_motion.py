@@ -339,7 +339,7 @@ def test_instances_that_multiply_are_refused_before_they_are_made(tmp_path, way)
             primvar.Set([0.0] * (3 + 10 * loose))
     stage.Save()
     with pytest.raises(LimitError):
-        read_mesh(tmp_path / "a.usda", limits=Limits.service())
+        read_mesh(tmp_path / "a.usda", limits=Limits.service(), isolated=False)
 
 
 def test_stages_that_are_no_sequence(tmp_path, capsys):

@@ -48,7 +48,7 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
     require_count("frames", cache.frames, limits)
     beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
     with about(beside):
-        mesh = read_mesh(beside, limits=limits).mesh
+        mesh = read_mesh(beside, limits=limits, isolated=False).mesh
     if len(mesh.positions) != cache.points:
         raise MeshError(
             f"the cache has {cache.points} points and the mesh {beside} has {len(mesh.positions)} vertices; name the "

@@ -157,7 +157,7 @@ def read_files(names: Sequence[str], file_format: str | None, limits: Limits, *,
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
             try:
-                return read_cut(names[number], file_format, limits, cut).mesh
+                return read_cut(names[number], file_format, limits, cut, isolated=False).mesh
             except NoFacesError as error:
                 if runs:
                     return empty_frame()
