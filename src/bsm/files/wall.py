@@ -276,7 +276,7 @@ def _read(memory: int) -> None:
 
 
 def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
-    """What is read without a wall, in here."""
+    """Read as without a wall, in here."""
     given = (asked["format"], Limits(**asked["limits"]))
     wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
     # Not at the top: they import this module.
@@ -357,7 +357,7 @@ def _libraries() -> tuple[str, ...]:
 
 
 def _described(found: MeshFile | Frames | None, arrays: list[npt.NDArray[Any]]) -> dict[str, Any]:
-    """What was read as data, but for arrays, which are appended, each once."""
+    """A mesh or frames as data, but for arrays, which are appended, each once."""
     known: dict[int, int] = {}
 
     def number(array: npt.NDArray[Any] | None) -> int | None:
