@@ -70,6 +70,22 @@ def test_a_grid_too_coarse_makes_tiles_that_are_read(mesh, tmp_path):
     assert program("verify", tmp_path / "out").returncode == 0
 
 
+@pytest.mark.parametrize("near", [0, 7])
+def test_vertices_that_the_grid_joins_are_counted(near, mesh, tmp_path):
+    inside = np.flatnonzero((np.abs(mesh.positions / CELL - np.rint(mesh.positions / CELL)) < 0.25).all(axis=1))[:near]
+    assert len(inside) == near
+    points = np.concatenate([mesh.positions, mesh.positions[inside] + 0.125 * CELL, mesh.positions[:5]])
+    first = len(mesh.positions)
+    faces = [[first + place, *mesh.faces[(mesh.faces == row).any(axis=1)][0][1:]] for place, row in enumerate(inside)]
+    equal = np.arange(5)[:, None] + [first + near, 0, 1]  # repeated positions, as an STL has them, are not counted
+    write_mesh(tmp_path / "a.ply", bsm.TriangleMesh(points.astype(np.float32), np.vstack([mesh.faces, *faces, equal])))
+    done = tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", CELL, "--triangles", 10**6)
+    assert ("are joined: 7 (fewer with --grid-cell 3.05176e-05)" in done.stderr) == bool(near)
+    assert ("are joined" in done.stderr) == bool(near)
+    again = bsm.open_tiles(str(tmp_path / "out")).manifest
+    assert again["vertices"] - len(np.unique(Lattice(CELL).places(points), axis=0)) == near + 5
+
+
 def test_vertices_that_no_face_uses_say_nothing_of_the_grid(mesh, tmp_path):
     far = 1e4 + np.random.default_rng(0).random((20_000, 3))
     write_mesh(tmp_path / "mesh.ply", bsm.TriangleMesh(np.concatenate([mesh.positions, far]), mesh.faces))

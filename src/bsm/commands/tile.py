@@ -122,6 +122,11 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
         f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
         f"{counted(levels=len(manifest['levels']))}, on a grid of {plan.lattice.cell:g}, {came_to(taken, given)}"
     )
+    if joined := sum(facts.get("joined", 0) for facts in done):
+        console.note(
+            f"vertices that share a grid point with another and are joined: {joined} "
+            f"(fewer with --grid-cell {plan.lattice.cell / 2:g})"
+        )
     remove_made(work)
     if args.tileset:
         write_tileset(open_tiles(args.output), args.output, console, content=args.content, overwrite=over)

@@ -4,7 +4,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -26,6 +26,7 @@ DEPTH = 10  # levels below the first that has to be cut
 COARSEST = 1 << 13  # triangles of the coarsest level at most, about: ten kilobytes until a first picture
 _COUNTED = 7  # levels all of whose nodes are counted
 _SAMPLE = 40_000
+_ODD = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)
 _FARTHEST = 1 << 30  # from the origin, in cells
 _SPREAD = (0x1F00000000FFFF, 0x1F0000FF0000FF, 0x100F00F00F00F00F, 0x10C30C30C30C30C3, 0x1249249249249249)
 """How 21 bits come to stand three apart."""
@@ -185,14 +186,17 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     bits = max(1, int((high - low).max()).bit_length()) + above
     depth = min(DEPTH + above, bits)
     kinds = {what: kind for what, kind in raw.kinds.items() if what not in ("positions", "faces")}
-    kinds |= {"places": ("<i4", 3), "cut": ("<u4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
+    kinds |= {"own": ("<u4", 1), "places": ("<i4", 3), "cut": ("<u4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
     plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {}, raw.about)
-    with table_file(folder / "places") as file, table_file(folder / "codes") as coded:
+    names = ("places", "codes", "own")
+    with ExitStack() as opened:
+        file, coded, own = (opened.enter_context(table_file(folder / name)) for name in names)
         for piece in raw.pieces("positions"):
             places = lattice.places(piece)
             with by_its_own_name(folder / "places"):
                 file.write(places.data)
             coded.write(plan.codes(places).data)
+            own.write(_hashes(piece).data)
     (folder / "positions").unlink()
     # All nodes down to a level that a table has room for, and below it those alone that have to be cut there.
     coarse = 3 * max(0, depth - max(above, _COUNTED))
@@ -220,6 +224,12 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     plan = replace(plan, leaves=dict(leaves("r")))
     _sort_faces(plan, raw)
     return plan
+
+
+def _hashes(positions: npt.NDArray[Any]) -> npt.NDArray[np.uint32]:
+    """A number for each position, which tells two at one place apart."""
+    words = (positions.astype(np.float64) + 0.0).view(np.uint64) * np.array(_ODD, np.uint64)
+    return np.asarray((words[:, 0] ^ words[:, 1] ^ words[:, 2]) >> np.uint64(32), np.uint32)
 
 
 def _first_codes(raw: Raw, kinds: Kinds) -> Iterator[Ints]:

@@ -40,9 +40,9 @@ def tile_one(job: TileJob, console: Console) -> Facts:
     name, folder = Path(job.output).stem, Path(job.input).parent
     plan = load_plan(folder / "plan.json")
     if name in plan.leaves:
-        mesh, error = _leaf(plan, name, folder), 0.0
+        (mesh, joined), error = _leaf(plan, name, folder), 0.0
     else:
-        mesh, error = _coarser(plan, name, folder, job.most)
+        (mesh, error), joined = _coarser(plan, name, folder, job.most), 0
     places = np.asarray(mesh.positions, np.int32)
     if not job.finest:
         with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
@@ -52,16 +52,22 @@ def tile_one(job: TileJob, console: Console) -> Facts:
     data = Encoder(replace(mesh, positions=plan.lattice.positions(places)), options).encode()
     write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
-    counts = {"vertices": len(places), "faces": len(mesh.faces), "apart": error}
+    counts = {"vertices": len(places), "faces": len(mesh.faces), "apart": error, "joined": joined}
     return {"input": job.input, "output": job.output, "output_bytes": len(data), **counts, **ends}
 
 
-def _leaf(plan: Plan, name: str, folder: Path) -> TriangleMesh:
-    """A tile in cells of the lattice; where vertices at one place differ in color or normal, so do corners."""
+def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, int]:
+    """A tile in cells of the lattice, and how many of its positions share a place with another.
+
+    Where vertices at one place differ in color or normal, so do corners.
+    """
     begin, count = plan.leaves[name]
     used, corners = np.unique(mapped(folder, "cut", plan.kinds)[begin : begin + count], return_inverse=True)
     corners = corners.reshape(-1, 3)
     places, numbers, some = welded(mapped(folder, "places", plan.kinds)[used])
+    inside = ~plan.outside(name, places)
+    own = mapped(folder, "own", plan.kinds)[used, 0].astype(np.int64) | numbers.astype(np.int64) << 32
+    joined = len(np.unique(own[inside[numbers]])) - int(inside.sum())
 
     def carried(what: Any) -> Attribute:
         values = mapped(folder, what, plan.kinds)[used]
@@ -70,7 +76,7 @@ def _leaf(plan: Plan, name: str, folder: Path) -> TriangleMesh:
         different, rows = np.unique(values, axis=0, return_inverse=True)
         return Attribute(what, different, "corner", what, rows.reshape(-1)[corners].astype(np.int32))
 
-    return TriangleMesh(places.astype(np.float64), numbers[corners], tuple(map(carried, plan.carried)))
+    return TriangleMesh(places.astype(np.float64), numbers[corners], tuple(map(carried, plan.carried))), joined
 
 
 def _of_vertices(attribute: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
