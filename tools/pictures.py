@@ -132,7 +132,7 @@ def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
     they stand in the table of the README, for the text of the picture."""
     mesh = bsm.load(path)
     data = bsm.encode(mesh)
-    theirs = max((encode_draco(mesh, bits, 10) for bits in range(4, 15)), key=lambda file: _fits(file, len(data)))
+    theirs = _draco_within(mesh, len(data))
     bounds = bounds_of(mesh.positions @ UPRIGHT.T, VIEW)
     figures = {"file": f"{path.stat().st_size / 1000:,.0f} kB", "balanced": f"{len(data) / 1000:.1f} kB"}
     rows = ((f"scan: {figures['file']}", mesh), (f"BSM, default: {figures['balanced']}", bsm.decode(data)))
@@ -140,8 +140,12 @@ def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
     return [(name, _drawn(f.positions, f.faces, bounds)) for name, f in (*rows, last)], figures
 
 
-def _fits(file: bytes, size: int) -> int:
-    return len(file) if len(file) <= size else -len(file)
+def _draco_within(mesh: TriangleMesh, size: int) -> bytes:
+    """Draco's largest file of at most so many bytes: a wider range of positions makes steps between those of bits."""
+    extent = float(np.ptp(mesh.positions, axis=0).max())
+    bits = next(bits for bits in range(4, 31) if len(encode_draco(mesh, bits, 10)) > size)
+    wider = (encode_draco(mesh, bits, 10, quantization_range=extent * by) for by in np.geomspace(1, 2, 25))
+    return max((file for file in wider if len(file) <= size), key=len)
 
 
 def part(folder: Path) -> list[tuple[str, Image]]:
