@@ -16,18 +16,17 @@ extern "C" {
 BSM_STRUCT(Coder, Longs, Bytes)
 BSM_STRUCT(Bank, Words, Ints2, Longs)
 BSM_STRUCT(Past, Ints2, Ints2, Ints2, Longs)
-BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 
 using namespace nb::literals;
 
-static const std::map<std::string_view, BankPlan> PLANS = {{"code_steps", STEP_BANK}, {"code_turns", TURN_BANK},
-    {"code_labels", LABEL_BANK}, {"code_block", BLOCK_BANK}, {"code_matrix", MATRIX_BANK}, {"code_edges", EDGE_BANK}};
+static const std::map<std::string_view, BankPlan> PLANS = {{"code_labels", LABEL_BANK}, {"code_block", BLOCK_BANK},
+    {"code_matrix", MATRIX_BANK}};
 
 #define CONSTANT(name) {#name, name}
 static const std::map<std::string_view, int> CONSTANTS = {CONSTANT(ABOVE), CONSTANT(BEYOND), CONSTANT(NEIGHBORS),
     CONSTANT(MAX_LEVEL), CONSTANT(PRICED), CONSTANT(TARGET_UNIT), CONSTANT(TRELLIS_STATES), CONSTANT(CODER_POSITION),
-    CONSTANT(SEAM), CONSTANT(OPEN), CONSTANT(MOST_COMPONENTS), CONSTANT(MOST_WHOLE),
-    CONSTANT(PIECE_BITS), CONSTANT(MAJOR), CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_NAME), CONSTANT(MOST_GIVEN),
+    CONSTANT(MOST_COMPONENTS), CONSTANT(MOST_WHOLE),
+    CONSTANT(PIECE_BITS), CONSTANT(MAJOR), CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_NAME),
     CONSTANT(MOST_COPIES), CONSTANT(FREE_COPIES), CONSTANT(METHODS), CONSTANT(RUNS), CONSTANT(WITH_ATTRIBUTES)};
 
 NB_MODULE(_kernels, m) {
@@ -49,8 +48,6 @@ NB_MODULE(_kernels, m) {
         return nb::make_tuple(plan.slots, plan.selectors, plan.inputs, plan.limit, plan.rate);
     }, "kernel"_a, nb::sig("def bank_plan(kernel: str) -> tuple[int, int, int, int, int]"));
 
-    m.def("code_steps", checked<code_steps>, "coder"_a, "bank"_a, "values"_a, "tree"_a, Unlocked());
-    m.def("code_turns", checked<code_turns>, "coder"_a, "bank"_a, "values"_a, Unlocked());
     m.def("code_labels", checked<code_labels>, "coder"_a, "bank"_a, "offsets"_a, "neighbors"_a, "labels"_a, "parts"_a,
         Unlocked());
 
@@ -65,9 +62,4 @@ NB_MODULE(_kernels, m) {
         "stair"_a, "turn"_a, "few"_a, "slow"_a, Unlocked());
     m.def("price_matrix", checked<price_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a,
         "stair"_a, "turn"_a, "few"_a, "slow"_a, "costs"_a, "prices"_a, Unlocked());
-
-    m.def("link_corners", checked<link_corners>, "corners"_a, "scratch"_a, Unlocked());
-    m.def("code_edges", checked<code_edges>, "coder"_a, "bank"_a, "corners"_a, "seams"_a, "others"_a, "ends"_a,
-        Unlocked());
-    m.def("join_corners", checked<join_corners>, "corners"_a, "seams"_a, "joined"_a, "first"_a, Unlocked());
 }

@@ -90,7 +90,7 @@ FLOORS = {
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # Of these, only numpy is there wherever a mesh or a sequence is encoded.
 # What encoders call of the engine.
-OF_ENCODERS = ("Field", "quantized", "rounded")
+OF_ENCODERS = ("Corners", "Field", "quantized", "rounded")
 CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
 
 

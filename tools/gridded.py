@@ -10,16 +10,15 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
-from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.header import HEADER_FIELDS, MOST_GRID
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
-from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.ways.grid import Grid, grid_field
 from tools.payloads import decode_connectivity
 from tools.surgery import Frames, frames_of, header_entries, header_frame, parse_packet, stream_of
 
 Ints = npt.NDArray[np.int32]
-LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_LARGEST)
+LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_GRID)
 """Largest values of an axis that random grids have."""
 
 

@@ -54,15 +54,6 @@ def price_levels(bank: entropy.Bank, matrix: Levels, reference: Levels, lead: Le
     return prices
 
 
-def write_column(coder: entropy.Coder, values: Levels) -> entropy.Coder:
-    """Write whole numbers, shape (n,), by a model of their own."""
-    column, coder = values.reshape(-1, 1), entropy.make_room(coder, 16 * len(values) + 8)
-    used = np.flatnonzero(values)
-    rows = int(used[-1]) + 1 if len(used) else 0
-    code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, extent_of(column, (1, 0)))
-    return coder
-
-
 def _occupied(matrix: Levels) -> int:
     occupied = np.flatnonzero(matrix.any(axis=1))
     return int(occupied[-1]) + 1 if len(occupied) else 0

@@ -9,12 +9,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from bsm.bitstream._kernels import constant
-from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.connectivity.faces import Splits, encode_connectivity, encode_order
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Packet, Writer
-from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions

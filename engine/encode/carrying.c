@@ -40,8 +40,7 @@ static bool take_used(Writer *writer, const CodedMesh *coded, const bsmenc_attri
     return true;
 }
 
-/* The seams of corner values that are numbered: where they differ on the two sides of an edge, at either end. */
-static void find_seams(Corners corners, const int32_t *number, Bytes seams) {
+int64_t join_values(Corners corners, const int32_t *number, Bytes seams, Ints joined, Ints first) {
     const int32_t *vertex = corners.faces.data;
     for (int32_t k = 0; k < (int32_t)seams.size; k++) {
         int32_t beyond = corners.opposite.data[k];
@@ -55,6 +54,7 @@ static void find_seams(Corners corners, const int32_t *number, Bytes seams) {
         }
         seams.data[k] = number[a] != number[d] || number[b] != number[c];
     }
+    return join_corners(corners, const_bytes(seams), joined, first);
 }
 
 /* The values as vertices of a mesh of their own: of vertices if all corners of each have one, otherwise joined. */
@@ -82,7 +82,7 @@ static bool lay_out(Writer *writer, const CodedMesh *coded, const bsmenc_attribu
         || !take_bytes(arena, size, &carried->seams) || !take_ints2(arena, coded->faces.rows, 3, &carried->faces))
         return false;
     for (int64_t i = 0; i < size; i++) corner_number.data[i] = number[carried->rows.data[i]];
-    find_seams(coded->corners, corner_number.data, carried->seams);
+    *count = join_values(coded->corners, corner_number.data, carried->seams, (Ints){carried->faces.data, size}, first);
     carried->joins = index;
     for (int k = 0; k < index; k++) {
         if (all[k].seams.size == 0 || memcmp(all[k].seams.data, carried->seams.data, (size_t)size) != 0) continue;
@@ -91,8 +91,6 @@ static bool lay_out(Writer *writer, const CodedMesh *coded, const bsmenc_attribu
         d->seams_of = k + 1;
         break;
     }
-    ConstBytes seams = {carried->seams.data, size};
-    *count = join_corners(coded->corners, seams, (Ints){carried->faces.data, size}, first);
     if (!take_ints(arena, *count + coded->given->vertices, &carried->vertices)) return false;
     for (int64_t r = 0; r < *count; r++) {
         chosen.data[r] = carried->rows.data[first.data[r]];
@@ -163,43 +161,41 @@ bool carry_attribute(Writer *writer, const CodedMesh *coded, const bsmenc_attrib
     return done || name_attribute(&writer->context, d->name);
 }
 
-/* What the last two attributes with seams have at each edge (D 2.5). */
-static void look_at_others(const Carried *all, int index, Bytes others) {
-    int factor = 3;
-    for (int k = index - 1; k >= 0 && factor > 0; k--) {
-        if (all[k].seams.size == 0) continue;
-        for (int64_t i = 0; i < others.size; i++)
-            others.data[i] += (uint8_t)(factor * (1 + (all[k].seams.data[i] == SEAM)));
-        factor = factor == 3 ? 1 : 0;
-    }
-}
-
-static bool write_seams(Writer *writer, const CodedMesh *coded, int index, const Carried *all, Writing *writing) {
+bool write_seams(Writer *writer, Corners corners, ConstBytes own, const uint8_t *last, const uint8_t *before_last,
+    Writing *writing) {
     Context *context = &writer->context;
     Arena *scratch = &writer->scratch;
-    Bytes others, seams, own = all[index].seams;
+    Bytes others, seams;
     Ints2 ends;
     Bank bank;
     Coding coding;
+    Mark mark = mark_of(scratch);
     context->writing = writing;
-    if (!zero_bytes(scratch, own.size, &others) || !take_bytes(scratch, own.size, &seams)
-        || !take_ints2(scratch, coded->vertex_order.size, 3, &ends) || !make_bank(scratch, EDGE_BANK, &bank)
-        || !begin_coding(context, (Span){0}, &coding))
-        return false;
-    memcpy(seams.data, own.data, (size_t)own.size);
-    look_at_others(all, index, others);
-    code_edges(coding.coder, bank, coded->corners, seams, const_bytes(others), ends);
-    return finish_coding(&coding);
+    bool done = take_bytes(scratch, own.size, &others) && take_bytes(scratch, own.size, &seams)
+        && take_ints2(scratch, corners.rank.size, 3, &ends) && make_bank(scratch, EDGE_BANK, &bank)
+        && begin_coding(context, (Span){0}, &coding);
+    for (int64_t i = 0; done && i < own.size; i++) {
+        others.data[i] = (uint8_t)((last == NULL ? 0 : 3 * (1 + (last[i] == SEAM)))
+            + (before_last == NULL ? 0 : 1 + (before_last[i] == SEAM)));
+        seams.data[i] = own.data[i];
+    }
+    if (done) code_edges(coding.coder, bank, corners, seams, const_bytes(others), ends);
+    done = done && finish_coding(&coding);
+    context->writing = NULL;
+    release_to(scratch, mark);
+    return done;
 }
 
 bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream) {
     Context *context = &writer->context;
     Buffer entries = {.context = context};
+    ConstBytes own = const_bytes(all[index].seams);
+    const uint8_t *last[2] = {NULL, NULL}; /* seams of attributes before it (D 2.5) */
     Writing seams;
-    Mark mark = mark_of(&writer->scratch);
-    bool done = begin_payloads(context, all[index].seams.size + 64, &seams)
-        && (all[index].seams.size == 0 || write_seams(writer, coded, index, all, &seams));
-    context->writing = NULL;
+    for (int k = 0; k < index; k++)
+        if (all[k].seams.size > 0) last[1] = last[0], last[0] = all[k].seams.data;
+    bool done = begin_payloads(context, own.size + 64, &seams)
+        && (own.size == 0 || write_seams(writer, coded->corners, own, last[0], last[1], &seams));
     if (done) {
         put_declaration(&entries, &all[index].quantized.declaration);
         put_varint(&stream->payload, index);
@@ -210,7 +206,6 @@ bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Ca
     }
     give_buffer(&entries);
     end_payloads(context, &seams);
-    release_to(&writer->scratch, mark);
     return !failed(context);
 }
 

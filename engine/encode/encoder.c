@@ -140,40 +140,26 @@ static bool find_turns(Encoder *encoder) {
 }
 
 static bool write_order_section(Encoder *encoder) {
-    Writer *writer = &encoder->writer;
-    Context *context = &writer->context;
+    Arena *scratch = &encoder->writer.scratch;
     const CodedMesh *coded = &encoder->coded;
     const JoinedMesh *joined = &encoder->joined;
-    int64_t n = encoder->given.vertices, copies = 0, loose = 0;
-    Buffer *payload = &encoder->out.payload;
+    Mark mark = mark_of(scratch);
     Ints2 corners;
-    Writing writing;
-    Mark mark = mark_of(&writer->scratch);
-    if (!take_ints2(&writer->scratch, encoder->given.faces, 3, &corners)) return false;
+    Doubles2 loose;
+    if (!take_ints2(scratch, encoder->given.faces, 3, &corners)
+        || !take_doubles2(scratch, joined->loose, 3, &loose))
+        return false;
+    loose.rows = 0;
     for (int64_t i = 0; i < 3 * corners.rows; i++) corners.data[i] = (int32_t)encoder->given.corners[i];
-    for (int64_t v = 0; v < n; v++) {
-        loose += joined->index.data[v] < 0;
-        copies += joined->index.data[v] >= 0 && joined->first.data[joined->index.data[v]] != v;
-    }
+    for (int64_t v = 0; v < encoder->given.vertices; v++)
+        if (joined->index.data[v] < 0)
+            memcpy(loose.data + 3 * loose.rows++, encoder->given.positions.data + 3 * v, 3 * sizeof(double));
     Arrangement arrangement = {const_ints2(joined->faces), const_ints2(coded->faces), const_ints(coded->vertex_order),
-        const_ints(coded->face_order), const_ints(joined->index), const_ints2(corners), copies, loose};
-    bool done = begin_payloads(context, 1 << 12, &writing) && write_order(context, &arrangement, &writer->scratch,
-        &writing);
-    if (done) {
-        put_varint(payload, copies);
-        put_varint(payload, loose);
-        for (int64_t i = 0; i < 3 * n; i++) {
-            uint64_t bits;
-            if (joined->index.data[i / 3] >= 0) continue;
-            memcpy(&bits, encoder->given.positions.data + i, sizeof bits);
-            put_little(payload, bits, 8);
-        }
-        put_bytes(payload, (Span){writing.data, writing.size});
-        put_section(&encoder->out, ORDER_FRAME);
-    }
-    end_payloads(context, &writing);
-    release_to(&writer->scratch, mark);
-    return done;
+        const_ints(coded->face_order), const_ints(joined->index), const_ints2(corners), 0, 0};
+    put_order(&encoder->out.payload, &arrangement, const_doubles2(loose), scratch);
+    put_section(&encoder->out, ORDER_FRAME);
+    release_to(scratch, mark);
+    return !failed(&encoder->writer.context);
 }
 
 /* CONNECTIVITY stays in `writing` until the header is known. */

@@ -167,6 +167,24 @@ void put_metadata(Buffer *buffer, const bsmdec_metadata *const *entries, int cou
     }
 }
 
+void put_order(Buffer *buffer, Arrangement *a, ConstDoubles2 loose, Arena *scratch) {
+    Context *context = buffer->context;
+    Writing writing;
+    for (int64_t v = 0; v < a->source.size; v++) a->loose += a->source.data[v] < 0;
+    a->copies = a->source.size > 0 ? a->source.size - a->loose - a->vertices.size : 0;
+    if (begin_payloads(context, 1 << 12, &writing) && write_order(context, a, scratch, &writing)) {
+        put_varint(buffer, a->copies);
+        put_varint(buffer, a->loose);
+        for (int64_t i = 0; i < 3 * a->loose; i++) {
+            uint64_t bits;
+            memcpy(&bits, loose.data + i, sizeof bits);
+            put_little(buffer, bits, 8);
+        }
+        put_bytes(buffer, (Span){writing.data, writing.size});
+    }
+    end_payloads(context, &writing);
+}
+
 void start_stream(StreamWriter *writer, Context *context) {
     static const uint8_t PREAMBLE[] = {0x89, 'B', 'S', 'M', 16 * MAJOR};
     writer->bytes = writer->payload = (Buffer){.context = context};

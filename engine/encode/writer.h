@@ -3,7 +3,9 @@
 #define BSMDEC_WRITER_H
 
 #include "engine/header.h"
+#include "engine/order.h"
 #include "engine/packet.h"
+#include "engine/writing.h"
 
 /* Bytes that grow with what is put behind them; nothing is put where the context has failed. */
 typedef struct {
@@ -21,6 +23,9 @@ void put_header(Buffer *buffer, const Header *header);
 void put_declaration(Buffer *buffer, const Declaration *declaration);
 /* A map of entries in the order of their names, at most MOST_ENTRIES. */
 void put_metadata(Buffer *buffer, const bsmdec_metadata *const *entries, int count);
+
+/* The payload of ORDER; the numbers of copies and of loose vertices are counted here. `loose`: positions of these. */
+void put_order(Buffer *buffer, Arrangement *arrangement, ConstDoubles2 loose, Arena *scratch);
 
 /* A stream as far as it is written, and the payload of its next section. */
 typedef struct {

@@ -323,6 +323,57 @@ nb::tuple faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional
     return nb::make_tuple(output.payloads()[0], order.numpy, face_order.numpy, coded.numpy);
 }
 
+// The payload of ORDER (see inside.h); a mesh whose vertices are several given ones, or none, has `source`.
+nb::object order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<int32_t> vertices,
+    Row<int32_t> face_places, std::optional<Row<int32_t>> source, std::optional<Rows<int32_t, 3>> corners,
+    std::optional<Rows<double, 3>> loose) {
+    size_t count = faces.shape(0);
+    if (coded.shape(0) != count || face_places.size() != count || !source != !corners || !source != !loose
+        || (corners && corners->shape(0) != count))
+        throw nb::value_error("vertices and faces do not fit together");
+    Output output;
+    Written given = {faces.data(), coded.data(), (int64_t)count, (int64_t)vertices.size(), 3};
+    output.run([&] {
+        return encode_order(output.encoding, given, vertices.data(), face_places.data(),
+            source ? source->data() : nullptr, source ? (int64_t)source->size() : 0,
+            corners ? corners->data() : nullptr, loose ? loose->data() : nullptr,
+            loose ? (int64_t)loose->shape(0) : 0);
+    });
+    return output.payloads()[0];
+}
+
+// The corners of faces, whose values are joined between seams.
+class Corners : public Shared, Output {
+  public:
+    Corners(Rows<int32_t, 3> faces, int64_t vertices) : faces(faces) {
+        run([&] { return encode_corners(encoding, faces.data(), (int64_t)faces.shape(0), vertices); });
+    }
+    // Seams of the numbers of corners, the value of each corner, and the first corner of each value.
+    nb::tuple join(Rows<int32_t, 3> numbers) {
+        size_t size = 3 * faces.shape(0);
+        if (3 * numbers.shape(0) != size) throw nb::value_error("each corner has a number");
+        Array seams = array_of("uint8", size), joined = array_of("int32", size / 3, 3), first = array_of("int32", size);
+        int64_t count = unlocked([&] {
+            return encode_joins(encoding, numbers.data(), (uint8_t *)seams.data, (int32_t *)joined.data,
+                (int32_t *)first.data);
+        });
+        return nb::make_tuple(seams.numpy, joined.numpy, copy_of(first.data, "int32", (size_t)count));
+    }
+    nb::object seams(Row<uint8_t> own, std::optional<Row<uint8_t>> last, std::optional<Row<uint8_t>> before_last) {
+        size_t size = 3 * faces.shape(0);
+        if (own.size() != size || (last && last->size() != size) || (before_last && before_last->size() != size))
+            throw nb::value_error("each corner has a seam or none");
+        run([&] {
+            return encode_seams(encoding, own.data(), last ? last->data() : nullptr,
+                before_last ? before_last->data() : nullptr);
+        });
+        return payloads()[0];
+    }
+
+  private:
+    Rows<int32_t, 3> faces;
+};
+
 // An attribute's values as whole numbers: coding, largest levels, offsets, step, levels, and the outcome: error, step
 // of integers, bits, normals without length, whether others had another length than 1.
 nb::tuple quantized(nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int semantic,
@@ -449,6 +500,13 @@ NB_MODULE(_engine, m) {
                 "merged: numpy.typing.NDArray[numpy.int32] | None = None) -> tuple[bytes, "
                 "numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], "
                 "numpy.typing.NDArray[numpy.int32]]"));
+    m.def("write_order", order_to_bytes, "faces"_a, "coded"_a, "vertices"_a, "face_places"_a,
+        "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none(),
+        nb::sig("def write_order(faces: numpy.typing.NDArray[numpy.int32], coded: numpy.typing.NDArray[numpy.int32], "
+                "vertices: numpy.typing.NDArray[numpy.int32], face_places: numpy.typing.NDArray[numpy.int32], "
+                "source: numpy.typing.NDArray[numpy.int32] | None = None, "
+                "corners: numpy.typing.NDArray[numpy.int32] | None = None, "
+                "loose: numpy.typing.NDArray[numpy.float64] | None = None) -> bytes"));
     m.def("quantized", quantized, "values"_a, "kind"_a, "semantic"_a, "quality"_a, "amount"_a,
         nb::sig("def quantized(values: typing.Any, kind: int, semantic: int, quality: int, amount: float) -> "
                 "tuple[int, list[int], list[float], float, numpy.typing.NDArray[numpy.int64], "
@@ -457,6 +515,17 @@ NB_MODULE(_engine, m) {
         nb::sig("def rounded(positions: numpy.typing.NDArray[numpy.float64], bits: int, cell: float, "
                 "origin: numpy.typing.NDArray[numpy.float64]) -> tuple[tuple[float, float, float], float, "
                 "tuple[int, int, int], numpy.typing.NDArray[numpy.int32]]"));
+    nb::class_<Corners>(m, "Corners")
+        .def(nb::init<Rows<int32_t, 3>, int64_t>(), "faces"_a, "vertices"_a)
+        .def("join", in_turn(&Corners::join), "numbers"_a,
+            nb::sig("def join(self, numbers: numpy.typing.NDArray[numpy.int32]) -> "
+                    "tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.int32], "
+                    "numpy.typing.NDArray[numpy.int32]]"))
+        .def("seams", in_turn(&Corners::seams), "own"_a, "last"_a.none() = nb::none(),
+            "before_last"_a.none() = nb::none(),
+            nb::sig("def seams(self, own: numpy.typing.NDArray[numpy.uint8], "
+                    "last: numpy.typing.NDArray[numpy.uint8] | None = None, "
+                    "before_last: numpy.typing.NDArray[numpy.uint8] | None = None) -> bytes"));
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),

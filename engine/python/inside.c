@@ -4,7 +4,8 @@
 #include <stdlib.h>
 
 #include "engine/decoder.h"
-#include "engine/encode/quantizing.h"
+#include "engine/corners.h"
+#include "engine/encode/carrying.h"
 #include "engine/encode/rounding.h"
 #include "engine/writing.h"
 
@@ -43,6 +44,7 @@ const char *decoder_skim(bsmdec *decoder, int64_t *numbers) {
 struct Encoding {
     Writer writer;
     CodedField field;
+    Corners corners;
     Writing payloads;
 };
 
@@ -72,6 +74,62 @@ bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *
     int32_t *faces) {
     return begin_again(encoding, 1 << 16)
         && write_faces(&encoding->writer, given, vertices, &encoding->payloads, order, face_order, faces);
+}
+
+static bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bound) {
+    for (int64_t i = 0; i < count; i++)
+        if (numbers[i] < least || numbers[i] >= bound) return false;
+    return true;
+}
+
+/* Whether each number below `bound` is there. */
+static bool are_all_there(Arena *scratch, const int32_t *numbers, int64_t count, int64_t bound) {
+    Bytes there;
+    int64_t missing = bound;
+    if (!zero_bytes(scratch, bound, &there)) return false;
+    for (int64_t i = 0; i < count; i++)
+        if (numbers[i] >= 0 && !there.data[numbers[i]]) there.data[numbers[i]] = 1, missing--;
+    return missing == 0;
+}
+
+bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
+    const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count) {
+    Writer *writer = &encoding->writer;
+    int64_t m = given.faces_count, n = given.rows, unused = 0;
+    Arrangement arrangement = {{given.faces, m, 3}, {given.values, m, 3}, {vertices, n}, {face_places, m},
+        {source, sources}, {corners, m, 3}, 0, 0};
+    for (int64_t v = 0; v < sources; v++) unused += source[v] < 0;
+    bool fits = are_below(given.faces, 3 * m, 0, n) && are_below(given.values, 3 * m, 0, n)
+        && are_below(vertices, n, 0, n) && are_below(face_places, m, 0, m) && are_below(source, sources, -1, n)
+        && unused == loose_count && (sources == 0 || are_below(corners, 3 * m, 0, sources))
+        && are_all_there(&writer->scratch, vertices, n, n) && are_all_there(&writer->scratch, face_places, m, m)
+        && (sources == 0 || are_all_there(&writer->scratch, source, sources, n));
+    for (int64_t i = 0; fits && sources > 0 && i < 3 * m; i++) fits = source[corners[i]] >= 0;
+    if (!fits) return FAIL(&writer->context, MISUSED, "orders of vertices and faces do not fit together");
+    Buffer section = {.context = &writer->context};
+    put_order(&section, &arrangement, (ConstDoubles2){loose, loose_count, 3}, &writer->scratch);
+    encoding->payloads = (Writing){section.data, section.room, section.size, {section.size}, 1};
+    return !failed(&writer->context);
+}
+
+bool encode_corners(Encoding *encoding, const int32_t *faces, int64_t faces_count, int64_t vertices) {
+    Writer *writer = &encoding->writer;
+    if (!are_below(faces, 3 * faces_count, 0, vertices))
+        return FAIL(&writer->context, MISUSED, "a face has a vertex beyond the last");
+    return link_mesh(&writer->context, (ConstInts2){faces, faces_count, 3}, vertices, &writer->arena, &writer->scratch,
+        &encoding->corners);
+}
+
+int64_t encode_joins(const Encoding *encoding, const int32_t *numbers, uint8_t *seams, int32_t *joined,
+    int32_t *first) {
+    int64_t size = encoding->corners.corners.size;
+    return join_values(encoding->corners, numbers, (Bytes){seams, size}, (Ints){joined, size}, (Ints){first, size});
+}
+
+bool encode_seams(Encoding *encoding, const uint8_t *own, const uint8_t *last, const uint8_t *before_last) {
+    ConstBytes seams = {own, encoding->corners.corners.size};
+    return begin_again(encoding, seams.size + 64)
+        && write_seams(&encoding->writer, encoding->corners, seams, last, before_last, &encoding->payloads);
 }
 
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,

@@ -31,6 +31,13 @@ const Writing *encoding_payloads(const Encoding *encoding);
 bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
     int32_t *faces);
 /* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
+/* ORDER of joined faces, which `values` has as they are coded, and of given vertices and faces, or NULL. */
+bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
+    const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count);
+/* Link the corners of faces; see engine/encode/carrying.h for what they are joined and written with. */
+bool encode_corners(Encoding *encoding, const int32_t *faces, int64_t faces_count, int64_t vertices);
+int64_t encode_joins(const Encoding *encoding, const int32_t *numbers, uint8_t *seams, int32_t *joined, int32_t *first);
+bool encode_seams(Encoding *encoding, const uint8_t *own, const uint8_t *last, const uint8_t *before_last);
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
     double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
 bool encode_levels(Encoding *encoding, Written given);

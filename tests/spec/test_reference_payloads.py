@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 from bsm import BsmError
 from bsm.bitstream._kernels import code_uniform, code_unsigned
 from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.container.header import MOST_GRID
 from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing
-from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import compact
@@ -207,7 +207,7 @@ def check_field(field, given, chunk, data, reader):
 
 
 @quick
-@given(SOUPS, st.tuples(*[st.sampled_from([0, 1, 100, MOST_LARGEST])] * 3), KINDS, SEEDS, CHUNKS, st.data())
+@given(SOUPS, st.tuples(*[st.sampled_from([0, 1, 100, MOST_GRID])] * 3), KINDS, SEEDS, CHUNKS, st.data())
 def test_grids(mesh, largest, kind, seed, chunk, data):
     faces, vertices = mesh
     if not vertices:

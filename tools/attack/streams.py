@@ -10,19 +10,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._engine import write_faces
-from bsm.bitstream.attributes.seams import OPEN, encode_seams
+from bsm._engine import Corners, write_faces
 from bsm.bitstream.coefficients.matrices import Levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
 from bsm.bitstream.container.header import AS_CODED, CORNER, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
 from bsm.bitstream.container.packets import WRITERS
-from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
-from bsm.bitstream.fields.corners import corners_of
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.attributes.levels import field_of, surface_of, write_values
@@ -338,7 +335,7 @@ def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fi
         declared.append(_written(packets.Attribute(index, declaration, b"")))
         if declaration.rows == 0:
             continue
-        surface = surface_of(declaration.domain, shape.faces, rows * columns, 0, None)
+        surface = surface_of(declaration.domain, shape.faces, np.arange(rows * columns, dtype=np.int32))
         encoder = field_of(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None)
         for first in range(0, size, chunk):
             some = min(chunk, size - first)
@@ -364,9 +361,10 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     size = rows * columns
     blocks = {"blocks": 1 + size // 4000, "block_size": min(size, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
-    corners = corners_of(_coded("torus", rows, columns).faces, size)
-    none = np.where(corners.opposite < 0, OPEN, 0).astype(np.uint8)
-    seams = [encode_seams(corners, none, (none,) * earlier) for earlier in range(3)]
+    faces = _coded("torus", rows, columns).faces
+    corners = Corners(faces, size)
+    none, *_ = corners.join(np.zeros_like(faces))
+    seams = [corners.seams(none, *[none] * earlier) for earlier in range(3)]
     values: dict[str, Any] = {"rows": size, "largest": (1,), "kind": 0, "domain": CORNER}
     declared = [
         _written(packets.Attribute(index, Declaration(name=f"{index}", **values), seams[min(index, 2)]))

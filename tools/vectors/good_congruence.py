@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.bitstream.container.header import MOST_GRID
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.congruence import coded_transforms
 from bsm.codec.static.encoder import encode
@@ -85,11 +85,11 @@ CONGRUENCE: dict[str, Good] = {
         ),
         ("turned-mirror", "a turned mirror", lambda: placed(torus(15, 12), 700, [about(2, 5) @ mirrors()[0]])),
         ("half", "a turn that is its own inverse", lambda: placed(torus(16, 12), 300, [about(1, 2) @ about(0, 2)])),
-        ("fine", "a grid of 20 bits", lambda: placed(torus(15, 8), MOST_LARGEST // 2, [about(2, 5), *mirrors()])),
+        ("fine", "a grid of 20 bits", lambda: placed(torus(15, 8), MOST_GRID // 2, [about(2, 5), *mirrors()])),
         ("coarse", "many vertices in a cell", lambda: placed(torus(40, 30), 12, [about(2, 4), *mirrors()])),
         ("chunks", "frames", lambda: placed(torus(16, 12), 500, [*mirrors(), about(2, 8)], 1, 90, 101)),
-        ("noise", "16 transforms without sense", lambda: drawn(torus(12, 10), (1000, 3, MOST_LARGEST), 16)),
-        ("ends", "ends of the range", lambda: drawn(tangled(), (MOST_LARGEST,) * 3, 9, ends=True)),
+        ("noise", "16 transforms without sense", lambda: drawn(torus(12, 10), (1000, 3, MOST_GRID), 16)),
+        ("ends", "ends of the range", lambda: drawn(tangled(), (MOST_GRID,) * 3, 9, ends=True)),
         ("hub", "a vertex with very many neighbors", lambda: drawn(hub(), (99, 999, 9), 5)),
         ("tent", "more neighbors and flaps than count", lambda: drawn(tent(), (255, 255, 255), 7)),
         ("point", "a grid of one place", lambda: drawn(tetrahedron(), (0, 0, 0), 4)),

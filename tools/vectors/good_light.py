@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.bitstream.container.header import MOST_GRID
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
@@ -74,11 +74,11 @@ LIGHT: dict[str, Good] = {
     "good-light-point": _good("a grid of one place", lambda: drawn(small().faces, (0, 0, 0))),
     "good-light-noise": _good(
         "values without relation on axes of 1,001, 4 and 2^20 values",
-        lambda: drawn(small().faces, (1000, 3, MOST_LARGEST)),
+        lambda: drawn(small().faces, (1000, 3, MOST_GRID)),
     ),
     "good-light-ends": _good(
         "only ends of the longest axes, predictions far outside",
-        lambda: drawn(tangled().faces.astype(np.int32), (MOST_LARGEST,) * 3, "ends"),
+        lambda: drawn(tangled().faces.astype(np.int32), (MOST_GRID,) * 3, "ends"),
     ),
     "good-light-lattice": _good("a lattice under the grid", lambda: lightened(exact_lattice())),
     "good-light-corner": _good(

@@ -4,8 +4,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
-from bsm.bitstream.attributes.seams import Joins, encode_seams, find_seams
+from bsm._engine import Corners
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import (
     AS_CODED,
@@ -19,9 +20,8 @@ from bsm.bitstream.container.header import (
 )
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.errors import OptionError
-from bsm.bitstream.fields.corners import Corners, corners_of
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Levels, Matrix, Order
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
 from bsm.codec.geometry.attributes import KINDS, Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
@@ -42,6 +42,7 @@ from bsm.codec.static.attributes.levels import (
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
+Flags = npt.NDArray[np.uint8]
 CHUNK = 1 << 15  # values of a frame
 AGAIN = Quality("bits", 8)  # normals that are the same so are made as one
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
@@ -52,10 +53,15 @@ class Place:
     """Where a given mesh's vertices, faces and corners are in the order of coding."""
 
     given: TriangleMesh
-    corners: Corners
+    coded: Faces
+    vertices: int
     faces: Order
     turns: Order
     loose: Order
+
+    @cached_property
+    def corners(self) -> Corners:
+        return Corners(self.coded, self.vertices)
 
     def of_corners(self, rows: Indices) -> Indices:
         """What corners of the given faces have, shape (m', 3), in the order of coding, shape (m, 3)."""
@@ -67,8 +73,8 @@ def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Pla
     """Where values of a mesh lie that was joined and prepared."""
     held = joined.splits is not None and len(joined.splits.loose)
     loose = np.flatnonzero(joined.index < 0) if held else np.zeros(0, np.int64)
-    corners = corners_of(prepared.mesh.faces, len(prepared.mesh.positions))
-    return Place(given, corners, joined.kept[prepared.coding_faces], prepared.turns, loose)
+    vertices, kept = len(prepared.mesh.positions), joined.kept[prepared.coding_faces]
+    return Place(given, prepared.mesh.faces, vertices, kept, prepared.turns, loose)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,41 +123,41 @@ def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Pr
     if len(wanted) > MOST_ATTRIBUTES:
         raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(wanted)}: leave some out")
     carried: list[PreparedAttribute] = []
-    known: list[tuple[int, Joins]] = []
+    known: dict[int, Flags] = {}
     for attribute, quality in wanted:
-        prepared, joins = _carry(place, attribute, quality, known)
-        if prepared.declaration.domain == CORNER and not prepared.declaration.seams_of and joins is not None:
-            known.append((len(carried), joins))
-        carried.append(prepared)
+        carried.append(_carry(place, attribute, quality, known, len(carried)))
     return tuple(carried)
 
 
 def _carry(
-    place: Place, attribute: Attribute, quality: Quality, known: list[tuple[int, Joins]]
-) -> tuple[PreparedAttribute, Joins | None]:
+    place: Place, attribute: Attribute, quality: Quality, known: dict[int, Flags], number: int
+) -> PreparedAttribute:
+    """The attribute of a number; `known` has the seams of those before it, and gets its own."""
     used, rows, loose = _rows(place, attribute)
     values = attribute.values[used]
     result = quantized(values, attribute.semantic, quality, attribute.name)
     recompute = result.fields["coding"] == RECOMPUTED
-    vertices = len(place.corners.rank)
-    domain, origin, seams, joins, seams_of = FACE, AS_CODED, b"", None, 0
+    domain, origin, seams, seams_of = FACE, AS_CODED, b"", 0
+    faces, at = place.coded, np.arange(place.vertices, dtype=np.int32)
     chosen: Order
     if attribute.domain == "face":
         chosen = rows.astype(np.int64)
     else:
         apart = quantized(values, "normal", AGAIN, attribute.name).levels if recompute else result.levels
         numbers = row_numbers(apart)[rows]
-        chosen = np.zeros(vertices, np.int64)
-        chosen[place.corners.faces.ravel()] = rows.ravel()
-        differ = numbers != row_numbers(apart)[chosen][place.corners.faces]
+        chosen = np.zeros(place.vertices, np.int64)
+        chosen[faces.ravel()] = rows.ravel()
+        differ = numbers != row_numbers(apart)[chosen][faces]
         domain = CORNER if differ.any() else VERTEX
         origin = AS_CODED if domain == {"vertex": VERTEX, "corner": CORNER}[attribute.domain] else OTHERWISE
         if domain == CORNER:
-            joins = Joins(place.corners, find_seams(place.corners, numbers))
-            same = [index for index, other in known if (other.seams == joins.seams).all()]
+            own, faces, first = place.corners.join(np.ascontiguousarray(numbers))
+            same = [index for index, other in known.items() if (other == own).all()]
             seams_of = same[0] + 1 if same else 0
-            seams = b"" if same else encode_seams(place.corners, joins.seams, tuple(each.seams for _, each in known))
-            chosen = rows.ravel()[joins.first]
+            if not same:
+                seams = place.corners.seams(own, *list(known.values())[:-3:-1])
+                known[number] = own
+            chosen, at = rows.ravel()[first], place.coded.ravel()[first]
         chosen = np.concatenate([chosen, loose])
     levels = result.levels[:0] if recompute else result.levels[chosen]
     declaration = Declaration(
@@ -165,10 +171,10 @@ def _carry(
         seams_of=seams_of,
         **result.fields,
     )
-    surface = surface_of(domain, place.corners.faces, vertices, len(loose), joins)
+    surface = surface_of(domain, faces, at, len(loose))
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     note = f"{attribute.name}: {what}per {attribute.domain}, {result.note}"
-    return PreparedAttribute(declaration, seams, surface, levels, note), joins
+    return PreparedAttribute(declaration, seams, surface, levels, note)
 
 
 def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:

@@ -10,7 +10,6 @@ from bsm._engine import Field
 from bsm._engine import quantized as whole_numbers
 from bsm.bitstream._kernels import constant
 from bsm.bitstream.attributes import values as coders
-from bsm.bitstream.attributes.seams import Joins
 from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration, entries_of
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError, TargetError
@@ -30,13 +29,11 @@ class Surface:
     vertices: Indices
 
 
-def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Joins | None) -> Surface:
-    """The surface on which values of a domain lie."""
+def surface_of(domain: int, faces: Faces, at: Indices, loose: int = 0) -> Surface:
+    """The surface on which values of a domain lie, of which each is `at` a vertex."""
     if domain == FACE:
         return Surface(faces, np.zeros(0, np.int32))
-    at = np.arange(vertices, dtype=np.int32) if joins is None else joins.vertices
-    corners = faces if joins is None else joins.faces
-    return Surface(corners, np.concatenate([at, np.full(loose, -1, np.int32)]).astype(np.int32))
+    return Surface(faces, np.concatenate([at, np.full(loose, -1, np.int32)]).astype(np.int32))
 
 
 def recomputed(surface: Surface, positions: Matrix) -> Matrix:

@@ -19,7 +19,7 @@ from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import AttributeLook, has_look, own_normals
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
-from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, place_of, with_attributes
+from bsm.codec.static.attributes.encoding import Place, PreparedAttribute, carry, cheaper, place_of, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.search import Search
@@ -65,7 +65,11 @@ class Input:
         return self.carry(self.wanted)
 
     def carry(self, wanted: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-        return carry(place_of(self.given, self.joined, self.prepared), wanted) if wanted else ()
+        return carry(self._place, wanted) if wanted else ()
+
+    @cached_property
+    def _place(self) -> Place:
+        return place_of(self.given, self.joined, self.prepared)
 
     def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
         """All attributes, one of them with another quality."""
@@ -78,9 +82,7 @@ class Input:
         own = own_normals(self.given) if sent else None
         if own is None:
             return None
-        corners = place_of(self.given, self.joined, self.prepared).of_corners(
-            np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3)
-        )
+        corners = self._place.of_corners(np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3))
         return own.reshape(-1, 3)[corners].reshape(-1, 9)
 
     def dressed(self, draft: Draft) -> Draft:

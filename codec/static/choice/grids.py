@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from bsm._engine import rounded as places_on
-from bsm.bitstream.container.header import Header
-from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.geometry.mesh import box_around, extent_of
@@ -134,7 +133,7 @@ class Gridded:
         self._origin = below if fine else low
         self._low = prepared.units.into(self._origin)
         smallest = float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
-        self.least = max(float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4), smallest)
+        self.least = max(float((prepared.positions - self._low).max()) / (MOST_GRID - 4), smallest)
         self.most = COARSEST
         self._bounds = bounds
         self.at = lru_cache(1)(self._made)

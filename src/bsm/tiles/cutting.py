@@ -12,8 +12,8 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.container.header import MOST_GRID
 from bsm.bitstream.errors import MeshError, OptionError
-from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.threads import ordered_map
@@ -68,7 +68,7 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
     reach = max(abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
     farthest = reach / lattice.cell
     exact = math.frexp(lattice.cell)[0] == 0.5 and not any(at % lattice.cell for at in lattice.origin)
-    if not farthest < (_FARTHEST if exact else MOST_LARGEST // 2):
+    if not farthest < (_FARTHEST if exact else MOST_GRID // 2):
         least = math.ceil(math.log2(2 * max(reach, *map(abs, (*raw.low, *raw.high))) / _FARTHEST))
         better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
         message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "

@@ -7,8 +7,8 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.container.header import MOST_GRID
 from bsm.bitstream.errors import TargetError
-from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import farthest_from_surface
@@ -97,9 +97,9 @@ def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces, Ints]:
 def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
     """A number for each place of a tile, different for different places."""
     shifted = places.astype(np.int64) - (places.min(axis=0) if low is None else low)
-    if shifted.max(initial=0) > MOST_LARGEST:
+    if shifted.max(initial=0) > MOST_GRID:
         raise TargetError(
-            f"a tile is larger than {MOST_LARGEST} cells, for it has long triangles; choose a larger --grid-cell"
+            f"a tile is larger than {MOST_GRID} cells, for it has long triangles; choose a larger --grid-cell"
         )
     return along_curve(shifted)
 

@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.seams import encode_seams, find_seams
+from bsm._engine import Corners
 from bsm.bitstream.attributes.values import octahedral_normals
-from bsm.bitstream.fields.corners import corners_of
 from bsm.codec.static.attributes.levels import quantized
 from bsm.codec.static.attributes.quality import Quality
 from tests.bitstream.fields.fields import decode, encode, field_of
@@ -52,8 +51,8 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
 
 def test_seams_of_an_attribute_before_cost_next_to_nothing():
     random = np.random.default_rng(3)
-    faces = np.array([[i, i + 1, i + 2] for i in range(2000)])
-    corners = corners_of(faces, 2002)
-    seams = find_seams(corners, random.integers(0, 2, faces.shape))
-    alone, known = encode_seams(corners, seams), encode_seams(corners, seams, (seams,))
+    faces = np.array([[i, i + 1, i + 2] for i in range(2000)], np.int32)
+    corners = Corners(faces, 2002)
+    seams, *_ = corners.join(random.integers(0, 2, faces.shape, np.int32))
+    alone, known = corners.seams(seams), corners.seams(seams, seams)
     assert len(known) < len(alone) / 8

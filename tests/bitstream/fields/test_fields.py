@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from bsm import BsmError, CorruptError, NumericError, TruncatedError
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.bitstream.container.header import MOST_GRID
 from tests.bitstream.fields.fields import (
     COLUMNS,
     KINDS,
@@ -37,7 +37,7 @@ named = pytest.mark.parametrize("name", NAMES)
 
 def largest_of(name: str, draw) -> list[int]:
     """Largest values that the field with this name may have."""
-    most = st.sampled_from([0, 1, 2, 63, 64, 1000, MOST_LARGEST])
+    most = st.sampled_from([0, 1, 2, 63, 64, 1000, MOST_GRID])
     if name == "normal":
         return [2 * draw(st.sampled_from([1, 2, 127, 32767]))] * 2
     return [draw(most) for _ in range(COLUMNS.get(name) or draw(st.integers(1, 4)))]
@@ -131,8 +131,8 @@ def test_extremes_stay_within_their_types(vertices: int, count: int, seed: int):
     """Every value at one end of the largest range, around one vertex: sums and normals at their greatest."""
     faces = np.random.default_rng(seed).integers(0, vertices, (count, 3))
     faces[:, 0] = vertices - 1
-    field = field_of("light", faces, vertices, (MOST_LARGEST,) * 3)
-    positions = values(vertices, (0, 0, 0), (MOST_LARGEST,) * 3, "extremes", seed)
+    field = field_of("light", faces, vertices, (MOST_GRID,) * 3)
+    positions = values(vertices, (0, 0, 0), (MOST_GRID,) * 3, "extremes", seed)
     np.testing.assert_array_equal(decode(field, encode(field, positions)), positions)
 
 
