@@ -4270,7 +4270,7 @@ void main() {
 .bsm-seg { display: flex; margin: 0; padding: 4px; min-width: 0; gap: 2px; }
 .bsm-seg legend { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }
 .bsm-seg label { min-height: 36px; padding: 4px 13px; border-radius: 10px; display: grid; align-content: center; text-align: center; line-height: 1.15; cursor: pointer; position: relative; white-space: nowrap; }
-.bsm-seg label small { display: block; font-size: 11.5px; opacity: .75; }
+.bsm-seg label small { display: block; font-size: 11.5px; opacity: .9; }
 .bsm-seg label:has(:checked) { background: var(--hot); color: var(--on-hot); }
 .bsm-seg label:has(:disabled) { opacity: .4; cursor: default; }
 .bsm-seg select { border: 0; background: none; min-height: 36px; }
@@ -4312,7 +4312,7 @@ void main() {
   .bsm-seg label { min-height: 30px; padding: 2px 9px; } .bsm-seg select { min-height: 30px; } .bsm-tag { bottom: 62px; }
 }
 </style>
-<div class="bsm-stage"><canvas tabindex="0" role="img" aria-label="The mesh. Arrow keys turn it, plus and minus zoom."></canvas></div>
+<div class="bsm-stage" role="region" aria-label="Mesh"><canvas tabindex="0" role="img" aria-label="The mesh. Arrow keys turn it, plus and minus zoom."></canvas></div>
 <form class="bsm-ui" aria-label="Viewer">
 <input class="bsm-wipe" name="wipe" type="range" min="0" max="1000" value="500" aria-label="Wipe between the two meshes" hidden>
 <span class="bsm-tag" data-part="left" aria-hidden="true"></span><span class="bsm-tag" data-part="right" aria-hidden="true"></span>
@@ -4332,7 +4332,7 @@ void main() {
 <button name="panel" type="button" aria-expanded="false" aria-label="Settings" title="Settings"><svg viewBox="0 0 24 24" aria-hidden="true"><path d="M4 7h9m5 0h2M4 17h2m5 0h9"/><circle cx="15.5" cy="7" r="2.5"/><circle cx="8.5" cy="17" r="2.5"/></svg></button>
 </div>
 <p data-part="problem" role="alert"></p>
-<div class="bsm-ruler" data-part="ruler" role="img" hidden><span data-part="length"></span><div></div></div>
+<div class="bsm-ruler" data-part="ruler" hidden><span data-part="length"></span><div></div></div>
 <div class="bsm-scale" data-part="scale" hidden><span data-part="legend"></span><div></div><ol></ol></div>
 <div class="bsm-panel" data-part="panel" role="region" aria-label="Settings" hidden>
 <section><h2>View</h2>
@@ -4349,7 +4349,7 @@ void main() {
 </section>
 <details><summary>Licenses</summary><pre data-part="licenses"></pre></details>
 </div>
-<div class="bsm-panel" data-part="keys" role="region" aria-label="Keys" hidden>
+<div class="bsm-panel" data-part="keys" role="region" aria-label="Keys" tabindex="0" hidden>
 <section><h2>Keys</h2><dl>
 <dt><kbd>1</kbd> <kbd>2</kbd> <kbd>3</kbd></dt><dd>choose a mesh</dd><dt><kbd>W</kbd></dt><dd>wipe, or one mesh</dd><dt><kbd>S</kbd></dt><dd>side by side, or one mesh</dd>
 <dt><kbd>F</kbd></dt><dd>fit the mesh to the page; double click does, too</dd><dt><kbd>M</kbd></dt><dd>full screen</dd><dt><kbd>D</kbd></dt><dd>smooth, flat, wireframe</dd><dt><kbd>,</kbd> <kbd>.</kbd></dt><dd>one frame back or on; space plays</dd><dt><kbd>E</kbd></dt><dd>error colors</dd><dt><kbd>L</kbd></dt><dd>move the light</dd><dt><kbd>T</kbd></dt><dd>auto-rotate</dd>
