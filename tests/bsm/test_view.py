@@ -18,6 +18,9 @@ import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
 
@@ -427,6 +430,39 @@ def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monk
                     pass
             assert page.recv(1) == b""
             page.close()
+
+
+@pytest.mark.slow
+@needs_packages
+def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
+    mesh, folder = torus(), tmp_path / "dropped"
+    folder.mkdir()
+    name = "<img src=x onerror=alert(1)>.bsm"
+    (tmp_path / name).write_bytes(bsm.encode(mesh))
+    assert main(["view", str(tmp_path / name), "--static", str(tmp_path / "site")]) == 0
+    assert main(["view", str(tmp_path / name), "--static", str(tmp_path / "site")]) == 9, "nothing is replaced"
+    red = np.repeat(np.array([[255, 100, 7]], np.uint8), len(mesh.positions), 0)
+    colored = replace(mesh, attributes=(bsm.Attribute("color", red, semantic="color"),))
+    files = [tmp_path / f"{suffix}.{suffix}" for suffix in ("ply", "obj", "stl", "glb")]
+    for path in files:
+        bsm.save(colored if path.suffix in (".ply", ".glb") else mesh, path)
+    serve = partial(SimpleHTTPRequestHandler, directory=tmp_path / "site")
+    with ThreadingHTTPServer(("127.0.0.1", 0), serve) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        address = f"http://127.0.0.1:{server.server_port}/"
+        given = {"address": address, "name": name, "files": list(map(str, files)), "folder": str(folder)}
+        javascript("static", BSM_STATIC=json.dumps(given))
+        server.shutdown()
+    for path in files:
+        decoded = bsm.decode(folder / f"{path.name}.bsm")
+        there = bsm.compare(path, decoded)
+        assert len(decoded.positions) == len(mesh.positions) and 0.0 < there.max_error_relative < 1e-4, path.name
+        if path.suffix in (".ply", ".glb"):
+            (ours, theirs) = (
+                next(attribute.values[:, :3] for attribute in each.attributes if attribute.name == "color")
+                for each in (decoded, bsm.decode(bsm.encode(path)))
+            )
+            assert {*map(tuple, ours)} == {*map(tuple, theirs)} and (path.suffix == ".glb" or (ours == red[0]).all())
 
 
 @pytest.mark.slow

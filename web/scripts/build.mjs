@@ -122,6 +122,7 @@ async function products() {
         ...(await Promise.all(Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]))),
         [join(WEB, "built/LICENSES.txt"), `${licenses(BUNDLED)}\n`],
         [join(VIEWER, "viewer.js"), script],
+        [join(VIEWER, "encoder.js"), await bundle(join(SOURCES, "viewer/encoder.ts"))],
     ];
 }
 

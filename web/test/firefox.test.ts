@@ -8,9 +8,8 @@ import { setTimeout as delay } from "node:timers/promises";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import { decode } from "../src/index";
 import { serveSite, POLICY, type Site } from "./server";
-import { BUILDS, compile, PATIENCE, savedPage, VECTORS } from "./shared";
+import { BUILDS, compile, FIREFOX, PATIENCE, savedPage, VECTORS } from "./shared";
 
-const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
 const NAMES = ["good-labels", "good-grid", "good-refined", "good-sequence-learnt", "good-attribute-uv-blocks"];
 
 describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, timeout: 5 * PATIENCE }, () => {

@@ -16,6 +16,7 @@ export const VIEWER = join(WEB, "../src/bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
 
 export const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
+export const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
 export const FLAGS = [
     "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
     "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",

@@ -22,7 +22,7 @@ from bsm.files.sequence import open_sequence
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.shards import is_tiles, open_tiles
 from bsm.viewer.contents import PRESETS, Content, alone, compared, made
-from bsm.viewer.page import Growing, PageServer, Ranged, Tiled, page_with, written_to
+from bsm.viewer.page import Growing, PageServer, Ranged, Tiled, page_with, site_with, written_to
 
 _NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o - | ..."
 
@@ -36,23 +36,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--follow", "", "keep reading files that are still being written")
     add_limits_flag(parser)
     add("--save", "PAGE.html", "write a page that contains the streams and needs no server")
+    add("--static", "FOLDER", "write the page as files for any web server; it encodes meshes that are dropped on it")
     add("--port", "N", "port of the server (default: a free one)", type=within(0, 65535), default=0)
     add("--no-open", "", "print the address; do not open a browser")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    if args.follow and (args.save or args.original):
-        raise OptionError(f"{'--save' if args.save else '--original'} needs complete streams; leave out --follow")
-    if (args.save or args.original or args.follow) and any(map(is_tiles, args.inputs)):
-        raise OptionError("tiles are loaded on demand; leave out --save, --original and --follow")
+    whole = [name for name in ("save", "static", "original") if getattr(args, name)]
+    if args.follow and whole:
+        raise OptionError(f"--{whole[0]} needs complete streams; leave out --follow")
+    if (args.follow or whole) and any(map(is_tiles, args.inputs)):
+        raise OptionError("tiles are loaded on demand; leave out --save, --static, --original and --follow")
     if args.original and len(args.inputs) != 1:
         raise OptionError("--original is for one input")
     with console.progress("reading and comparing") as progress:
         served = [_opened(name, path, args, console, progress) for name, path in _named(args.inputs).items()]
+    contents = [content for content in served if isinstance(content, Content)]
     if args.save:
-        contents = [content for content in served if isinstance(content, Content)]
         write_output(args.save, page_with(contents).encode(), overwrite=args.force)
         console.note(f"{args.save}: open it in a browser")
+    if args.static:
+        Path(args.static).mkdir(parents=True, exist_ok=True)
+        for name, data in site_with(contents).items():
+            write_output(Path(args.static, name), data, overwrite=args.force)
+        console.note(f"{args.static}: a page for any web server, for example: python -m http.server -d {args.static}")
+    if args.save or args.static:
         return 0
     with PageServer(served, args.port) as server:
         print(server.address, flush=True)
@@ -74,14 +82,14 @@ def _opened(
         manifest = open_tiles(path, limits_of(args.limits)).manifest
         shards = {shard["file"]: Ranged(path, shard["file"], shard["size"]) for shard in manifest["shards"]}
         return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
-    if args.follow or (path == "-" and not args.save and not args.original):
+    if args.follow or (path == "-" and not (args.save or args.static or args.original)):
         return _growing(name, path)
     with about(path):
         source: MeshFile | Frames | None = open_sequence(path)
         if source is None:
             data = b"".join(read_chunks(path))
             if data.startswith(MAGIC[: len(data)]):
-                if args.save:
+                if args.save or args.static:
                     inspect_stream(iter([data]), limits_of(args.limits))
                 if args.original is None:
                     return alone(name, data)

@@ -17,6 +17,7 @@ from functools import lru_cache
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
+from pathlib import PurePath
 from threading import Condition, Lock
 from typing import Any, BinaryIO
 from urllib.parse import parse_qs, urlsplit
@@ -183,14 +184,32 @@ def embedded(_: str, data: bytes) -> dict[str, str]:
 
 
 def script(place: Place, *more: str) -> str:
-    """Return the module of the page with the addresses of the full kernels, and of `more` for smaller decoders."""
-    kernels = {name: place(f"/{name}.wasm", _built(f"{name}.wasm")) for name in ("kernels", "kernels-scalar", *more)}
+    """Return the module of the page with the addresses of the full kernels, and of `more` smaller ones or scripts."""
+    names = {"kernels": "kernels.wasm", "kernels-scalar": "kernels-scalar.wasm"} | {
+        PurePath(it).stem: it for it in more
+    }
+    kernels = {key: place(f"/{name}", _built(name)) for key, name in names.items()}
     return f"const KERNELS={json.dumps(kernels)};{_built('viewer.js').decode()}"
 
 
 def page_with(contents: Sequence[Content]) -> str:
     """Return a page of one file, with all streams inside."""
     return _page([listed(content, "", embedded) for content in contents], script(embedded))
+
+
+def site_with(contents: Sequence[Content]) -> dict[str, bytes]:
+    """Return the files of a page that encodes by itself, by their names; any web server can send them."""
+    built: dict[str, bytes] = {"encode.wasm": _built("encode.wasm")}
+
+    def place(path: str, data: bytes) -> dict[str, str]:
+        name = path.removeprefix("/").replace("/", "-")
+        name += "" if PurePath(name).suffix else ".bin"
+        built[name] = data
+        return {"url": name}
+
+    entries = [listed(content, f"/{number}", place) for number, content in enumerate(contents)]
+    built["index.html"] = _page(entries, script(place, "small.wasm", "encoder.js")).encode()
+    return built
 
 
 def listed(content: Content, path: str, place: Place) -> dict[str, Any]:
@@ -232,7 +251,7 @@ class PageServer(ThreadingHTTPServer):
                 entries.append({"name": content.name, "main": 0, "facts": {}, "tiles": path[1:], "layers": []})
             else:
                 entries.append(listed(content, path, self.place))
-        module = script(self.place, "small")
+        module = script(self.place, "small.wasm")
         self.content["/"] = ("text/html; charset=utf-8", _page(entries, module).encode())
         self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
 

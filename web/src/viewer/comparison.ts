@@ -1,9 +1,9 @@
 /** The compared meshes (original, stream, Draco's file): which are shown, how, and in which colors. */
-import { BufferAttribute } from "three";
+import { BufferAttribute, Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
 import { imagesOf, materialsOf, turnOf } from "../materials";
 import type { Pool } from "../pool";
-import { colorsOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
+import { colorsOf, distances, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
 import { element, percent, sized, type Content } from "./facts";
 import type { Form } from "./form";
 import { bytesOf } from "./inlined";
@@ -38,6 +38,7 @@ export class Comparison {
         const { layers, main } = (this.content = content);
         [this.geometries, this.offs, this.accompanied] = [[], [], false];
         this.dressed.clear();
+        delete form.root.dataset.layers;
         this.stage.clear();
         const part = form.part("layers");
         part.hidden = form.part("modes").hidden = layers.length < 2;
@@ -94,7 +95,20 @@ export class Comparison {
             wipe.value = String(Math.round(stage.wipe * Number(wipe.max)));
             form.pick("mode", "wipe");
         }
+        this.measure();
         form.root.dataset.layers = String(layers.length);
+    }
+
+    /** Compare a stream with its original, where nobody else has done so. */
+    private measure(): void {
+        const { content: { facts, main }, geometries: { 0: original, [main]: stream }, offs } = this;
+        if (main === 0 || facts.diagonal !== undefined || !original || !stream) return;
+        offs[main] = distances(stream, original);
+        if (!offs[main]) return;
+        facts.diagonal = original.boundingBox!.getSize(new Vector3()).length() || 1;
+        facts.farthest = offs[main].reduce((most, far) => Math.max(most, far), 0) / facts.diagonal;
+        this.allow("error", true);
+        this.stale = true;
     }
 
     /** Make materials from the metadata and images; offer them and the colors. */

@@ -62,11 +62,13 @@ export class View {
         private readonly pool: Pool,
         licenses: string,
         encode?: Encode,
+        presets: string[] = [],
     ) {
         root.classList.add("bsm");
         root.innerHTML = template;
         this.form = new Form(root);
         this.form.say("licenses", licenses);
+        if (presets.length > 0) this.form.control("preset").replaceChildren(...presets.map((name) => new Option(name)));
         try {
             this.stage = new Stage(root.querySelector("canvas")!);
         } catch (error) {
@@ -119,6 +121,7 @@ export class View {
         form.say("name", content.name);
         form.part("invite").hidden = true;
         form.part("arrival").hidden = form.part("colors").hidden = content.tiles !== undefined;
+        form.control("keep").hidden = content.facts.seconds === undefined; // there is a file of it already
         this.content = content;
         this.alone = undefined;
         this.arrival.clear();
@@ -171,14 +174,15 @@ export class View {
         });
         for (const part of ["panel", "keys"]) form.on(part, "click", () => form.unfold(part));
         form.on("full", "click", () => void (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen()));
-        form.on("picture", "click", () => pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob)));
+        form.on("picture", "click", () => pictureOf(stage, meshes.captions).toBlob((blob) => blob && this.save(blob, "png")));
+        form.on("keep", "click", () => this.save(new Blob([this.arrival.bytes as BlobPart]), "bsm"));
         root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
         listenToKeys(form, stage, meshes);
         if (matchMedia("(min-width: 45rem) and (min-height: 30rem)").matches) form.part("more").setAttribute("open", "");
     }
 
-    private save(blob: Blob): void {
-        const download = `${this.content.name.replace(/\.\w+$/, "") || "mesh"}.png`;
+    private save(blob: Blob, suffix: string): void {
+        const download = `${this.content.name.replace(/\.\w+$/, "") || "mesh"}.${suffix}`;
         const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download });
         link.click();
         setTimeout(() => URL.revokeObjectURL(link.href), 60_000);

@@ -1,13 +1,15 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { Pool } from "../pool";
-import { bytesOf, fetched, inlined, served } from "./inlined";
+import type { Job, Report } from "./encoder";
 import type { Content } from "./facts";
+import { bytesOf, encoder, fetched, inlined, served } from "./inlined";
 import type { Encode } from "./upload";
 import { View } from "./view";
 
 declare const LICENSES: string;
 
 const MOST_BYTES = 2 ** 26;
+const BITS = ["14 bits", "12 bits", "16 bits", "lossless"]; // what the encoder of pages offers
 
 /** What a widget knows of its other half in Python (https://anywidget.dev/en/afm). */
 interface Model {
@@ -43,10 +45,28 @@ const encode: Encode = async (file, preset, report, signal) => {
     throw new Error("The server has stopped.");
 };
 
+/** Encode a file in a thread of the page; it ends when nobody listens. */
+const encodeHere: Encode = (file, preset, report, signal) => {
+    const [worker, begin] = [new Worker(encoder!, { type: "module", name: "BSM encoder" }), performance.now()];
+    return new Promise<Content>((resolve, fail) => {
+        signal.addEventListener("abort", () => fail(signal.reason), { once: true });
+        worker.onerror = ({ message }) => fail(new Error(message || "The encoder cannot be loaded."));
+        worker.onmessage = ({ data }: MessageEvent<Report>) => {
+            if ("error" in data) return fail(new Error(data.error));
+            if ("stage" in data) return report(data.stage, data.share);
+            const { original, stream, notes, less } = data;
+            const layers = [{ title: "Original", detail: "", size: file.size, bytes: original }, { title: "BSM", detail: preset, size: stream.length, bytes: stream }];
+            resolve({ name: file.name, main: 1, layers, facts: { notes, less, seconds: (performance.now() - begin) / 1000 } });
+        };
+        const job: Job = { file, preset };
+        worker.postMessage(job);
+    }).finally(() => worker.terminate());
+};
+
 async function fillPage(list: HTMLElement): Promise<void> {
     const contents = JSON.parse(list.textContent!) as Content[];
     const pool = new Pool(inlined);
-    const view = new View(document.body, pool, LICENSES, served ? encode : undefined);
+    const view = new View(document.body, pool, LICENSES, encoder ? encodeHere : served ? encode : undefined, encoder ? BITS : undefined);
     const open = async (index: number): Promise<void> => {
         const mine = view.turn();
         const content = contents[index];
