@@ -400,11 +400,11 @@ def dot(a, b):  # M 1.3: scalar products of rows
 
 
 class Solver:  # M 7.5 to M 7.7: (L + S + shift I)^-1 in single precision
-    def __init__(self, laplacian, springs):
+    def __init__(self, laplacian, springs, shift=2.0**-7):  # M 1.1
         size, matrix = len(laplacian), laplacian.copy()
         farthest = [max(np.flatnonzero(row), default=0) for row in laplacian]
         self.order = elimination_order(list(range(size)), 0, size, farthest)
-        matrix[range(size), range(size)] += springs + 2.0**-7  # M 1.1
+        matrix[range(size), range(size)] += springs + shift
         self.c, self.d = matrix[np.ix_(self.order, self.order)].astype(np.float32), np.zeros(size, np.float32)
         for k in range(size):  # M 7.6
             own = self.c[k, k + 1 :].copy()
