@@ -25,8 +25,8 @@ FIRST_CARE = 16
 """Columns that may be made orthonormal one by one where some have to be; then four times as many, and so on."""
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
-"""Settings of an exact basis: the sum of the Rayleigh quotients of any first columns is within a thousandth of the sum
-of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues need not be told apart."""
+"""Settings of an exact basis: the sum of the Rayleigh quotients of any first columns is within two thousandths of the
+sum of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues need not be told apart."""
 START_NOISE = 0.25
 FOLLOWING_NOISE = 2.0**-8
 """How much of the hash columns is added to cosines, and to a predecessor's orthonormal columns, for blocks of several
