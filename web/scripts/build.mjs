@@ -29,7 +29,7 @@ const BARE = {
 };
 
 /** Modules that are files of their own beside the one that asks for them. */
-const BESIDE = { errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
+const BESIDE = { encode: "encode.js", errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
 const beside = (...names) => ({
     name: "beside",
     setup({ onResolve }) {
@@ -111,7 +111,7 @@ async function products() {
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
         "three.js": await open("three.ts", beside("errors", "index", "pool")),
         "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
-        "gltf-transform.js": await open("transform.ts", beside("errors", "index", "pool")),
+        "gltf-transform.js": await open("transform.ts", beside("encode", "errors", "index", "pool")),
         "babylon.js": await open("babylon.ts", beside("errors", "index", "pool")),
         "encode.js": await open("encode.ts", beside("errors")),
         "encode-worker.js": thread("encode.js"),

@@ -1,5 +1,6 @@
-/** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in glTF-Transform: read as plain geometry. */
-import { BufferUtils, Extension, GLB_BUFFER, PropertyType, type Buffer, type GLTF, type ReaderContext } from "@gltf-transform/core";
+/** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in glTF-Transform: read as plain geometry, and written. */
+import { Accessor, BufferUtils, Extension, GLB_BUFFER, Primitive, PropertyType, Root, type Buffer, type GLTF, type ReaderContext, type WriterContext } from "@gltf-transform/core";
+import { EncodeError, encodeWith, loadEncoder, type AttributeInput, type EncodeOptions, type MeshInput } from "./encode";
 import { errorLike, openDesk, type Shape } from "./index";
 import { here } from "./pool";
 import { bytesOf, EXTENSION, type Coded } from "./views";
@@ -26,9 +27,25 @@ export async function loadSceneDecoder(): Promise<SceneDecoder> {
     };
 }
 
+/** Makes a stream of a mesh. */
+export type SceneEncoder = (mesh: MeshInput, keepOrder: boolean) => Uint8Array;
+
+/** What is needed to write, too: `io.registerDependencies({ "bsm.encoder": await loadSceneEncoder({ bits: 12 }) })`. */
+export async function loadSceneEncoder(options: EncodeOptions = {}): Promise<SceneEncoder> {
+    const module = await loadEncoder(options.wasm);
+    return (mesh, keepOrder) => encodeWith(module, mesh, keepOrder ? { ...options, keepOrder } : options);
+}
+
+/** A primitive whose geometry a stream holds: the accessors of what the stream has, and what each of them is called. */
+interface CodedPrimitive {
+    stream: Uint8Array;
+    accessors: Record<string, number>;
+}
+
 /**
- * An extension for `io.registerExtensions([EXTBSMCompression])`. What it reads is decoded, and no longer compressed: a document is written
- * plain, and `bsm glb` compresses that again. Of meshes that move the first frame is read.
+ * An extension for `io.registerExtensions([EXTBSMCompression])`. What it reads is decoded, and no longer compressed. To compress what is
+ * written, call `document.createExtension(EXTBSMCompression)`: triangles without morph targets become streams, one for each primitive.
+ * What cannot stays as it is, with a warning. Of meshes that move the first frame is read.
  */
 export class EXTBSMCompression extends Extension {
     static override readonly EXTENSION_NAME = EXTENSION;
@@ -36,12 +53,21 @@ export class EXTBSMCompression extends Extension {
     /** @hidden */
     override readonly prereadTypes = [PropertyType.BUFFER];
     /** @hidden */
+    override readonly prewriteTypes = [PropertyType.ACCESSOR];
+    /** @hidden */
     override readonly readDependencies = ["bsm.decoder"];
+    /** @hidden */
+    override readonly writeDependencies = ["bsm.decoder", "bsm.encoder"];
+    /** Without plain geometry beside the streams. */
+    protected override required = true;
     private decoder?: SceneDecoder;
+    private encoder?: SceneEncoder;
+    private readonly coded = new Map<Primitive, CodedPrimitive>();
 
     /** @hidden */
     override install(key: string, dependency: unknown): this {
         if (key === "bsm.decoder") this.decoder = dependency as SceneDecoder;
+        if (key === "bsm.encoder") this.encoder = dependency as SceneEncoder;
         return this;
     }
 
@@ -82,9 +108,111 @@ export class EXTBSMCompression extends Extension {
     }
 
     /** @hidden */
-    override write(): this {
+    override prewrite(context: WriterContext): this {
+        const { decoder, encoder, coded } = this;
+        if (!decoder || !encoder) throw new Error(`[${EXTENSION}] needs two dependencies, "bsm.decoder" and "bsm.encoder": await loadSceneEncoder()`);
+        coded.clear();
+        for (const primitive of this.document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives())) {
+            try {
+                if (!coded.has(primitive)) coded.set(primitive, this.codePrimitive(primitive, encoder, decoder, context));
+            } catch (error) {
+                if (!(error instanceof EncodeError)) throw error;
+                context.logger.warn(`[${EXTENSION}] a primitive stays as it is: ${error.message}`);
+            }
+        }
+        for (const [primitive, { accessors }] of coded)
+            for (const [name, accessor] of [...arraysOf(primitive), ["indices", primitive.getIndices()] as const])
+                if (accessor?.listParents().every((parent) => parent instanceof Root || (parent instanceof Primitive && coded.has(parent)))) context.accessorIndexMap.set(accessor, accessors[name]);
         return this;
     }
+
+    /** Encode a primitive, and declare the accessors of what a decoder makes of it. */
+    private codePrimitive(primitive: Primitive, encoder: SceneEncoder, decoder: SceneDecoder, context: WriterContext): CodedPrimitive {
+        const stream = encoder(meshOf(primitive), primitive.getAttribute("JOINTS_0") !== null); // joints open faces without area
+        const shape = decoder(stream);
+        const { json } = context.jsonDoc;
+        const accessors: Record<string, number> = {};
+        const declare = (name: string, accessor: GLTF.IAccessor): void => {
+            accessors[name] = json.accessors!.push(accessor) - 1;
+        };
+        for (const [name, accessor] of arraysOf(primitive)) {
+            const count = shape.positions.length / 3;
+            const { componentType, normalized, type } = context.createAccessorDef(accessor);
+            const bounds = name === "POSITION" ? { min: shape.low.map(Math.fround), max: shape.high.map(Math.fround) } : {};
+            declare(name, { type, count, ...bounds, ...(isFloat(name, accessor) ? { componentType: Accessor.ComponentType.FLOAT } : { componentType, normalized }) });
+        }
+        declare("indices", { type: "SCALAR", count: shape.index.length, componentType: Accessor.ComponentType.UNSIGNED_INT });
+        const buffer = primitive.getAttribute("POSITION")!.getBuffer() ?? this.document.getRoot().listBuffers()[0];
+        context.otherBufferViews.set(buffer, [...(context.otherBufferViews.get(buffer) ?? []), stream]);
+        return { stream, accessors };
+    }
+
+    /** @hidden */
+    override write({ jsonDoc: { json }, otherBufferViewsIndexMap }: WriterContext): this {
+        const views = json.bufferViews!;
+        let size = 0;
+        this.document.getRoot().listMeshes().forEach((mesh, at) => mesh.listPrimitives().forEach((primitive, index) => {
+            const coded = this.coded.get(primitive);
+            if (!coded) return;
+            const { indices, ...attributes } = coded.accessors;
+            Object.assign(json.meshes![at].primitives[index], { attributes, indices });
+            const stream = otherBufferViewsIndexMap.get(coded.stream)!;
+            for (const [attribute, number] of Object.entries(coded.accessors)) {
+                const accessor = json.accessors![number];
+                if (accessor.bufferView !== undefined) continue; // a mesh's that stands in the scene twice
+                const { componentType, count, type } = accessor;
+                const byteLength = count * Accessor.getElementSize(type) * Accessor.getComponentSize(componentType);
+                accessor.bufferView = views.length;
+                views.push({ buffer: json.buffers!.length, byteOffset: size, byteLength, extensions: { [EXTENSION]: { stream, attribute, componentType } } });
+                size += Math.ceil(byteLength / 4) * 4;
+            }
+        }));
+        if (size > 0) json.buffers!.push({ byteLength: size, extensions: { [EXTENSION]: { fallback: true } } });
+        return this;
+    }
+}
+
+/** What a primitive has of its vertices. */
+function arraysOf(primitive: Primitive): [string, Accessor][] {
+    return primitive.listSemantics().sort().map((name) => [name, primitive.getAttribute(name)!]);
+}
+
+/** Names whose arrays decoders return in single precision. */
+const FLOATS = /^(POSITION|NORMAL|TEXCOORD_[01]|COLOR_0)$/;
+
+/** Whether an array is coded in single precision; integers that take no multiple of four bytes are, too. */
+function isFloat(name: string, accessor: Accessor): boolean {
+    return FLOATS.test(name) || accessor.getComponentType() === Accessor.ComponentType.FLOAT || (accessor.getElementSize() * accessor.getComponentSize()) % 4 !== 0;
+}
+
+/** Qualities, as `bsm glb` has them. */
+const QUALITIES: Record<string, AttributeInput["quality"]> = { NORMAL: { bits: 10 }, TANGENT: { bits: 9 }, COLOR_0: { bits: 8 } };
+
+/** A primitive as a mesh; why it is none, is an `EncodeError`. */
+function meshOf(primitive: Primitive): MeshInput {
+    const positions = primitive.getAttribute("POSITION");
+    const indices = primitive.getIndices()?.getArray();
+    const refused = (why: string): never => {
+        throw new EncodeError(why, 2);
+    };
+    if (primitive.getMode() !== Primitive.Mode.TRIANGLES || !positions) return refused("no triangles");
+    if (primitive.listTargets().length > 0) refused("morph targets");
+    const attributes = arraysOf(primitive).filter(([name]) => name !== "POSITION").map(([name, accessor]): AttributeInput => ({
+        name,
+        values: isFloat(name, accessor) ? floatsOf(accessor) : (accessor.getArray() as AttributeInput["values"]),
+        components: accessor.getElementSize(),
+        semantic: name === "NORMAL" ? "normal" : name === "COLOR_0" ? "color" : /^TEXCOORD_[01]$/.test(name) ? "texcoord" : "generic",
+        quality: isFloat(name, accessor) ? QUALITIES[name] : "exact",
+    }));
+    return { positions: floatsOf(positions), faces: indices ? Uint32Array.from(indices) : Uint32Array.from({ length: positions.getCount() }, (_, i) => i), attributes };
+}
+
+/** The numbers of an accessor, of normalized integers those that they stand for. */
+function floatsOf(accessor: Accessor): Float32Array {
+    const [size, element] = [accessor.getElementSize(), [] as number[]];
+    const floats = new Float32Array(size * accessor.getCount());
+    for (let i = 0; i < accessor.getCount(); i++) floats.set(accessor.getElement(i, element), size * i);
+    return floats;
 }
 
 function codedOf(view: GLTF.IBufferView): Coded | undefined {

@@ -1,13 +1,17 @@
 /** The encoder for pages: streams that the decoder reads, errors, progress. tests/engine/test_encode.py compares their bytes with those of C. */
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { execFileSync, spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test, { describe } from "node:test";
 import { brotliCompressSync } from "node:zlib";
+import { chromium } from "playwright-core";
 import { BufferAttribute, BufferGeometry, Mesh, TorusKnotGeometry } from "three";
 import { BSMExporter, encodeHere, encodeWith, meshOf, type MeshInput } from "../src/encode";
 import { decode } from "../src/index";
-import { BUILDS, compile, WEB } from "./shared";
+import { POLICY, serveSite } from "./server";
+import { BUILDS, CHROMIUM, compile, FLAGS, PATIENCE, WEB } from "./shared";
 
 const wasm = readFileSync(join(WEB, "built/encode.wasm"));
 const module = await WebAssembly.compile(wasm);
@@ -26,6 +30,46 @@ function dressed(): MeshInput {
     ];
     return { ...mesh, attributes, metadata: { unit: "mm", count: 3, scale: 0.5, "image.0.data": Uint8Array.from([1, 2, 3]) } };
 }
+
+/** A page that encodes in a worker, and aborts; and how long it could not do anything else. */
+const PAGE = `
+    import { encode } from "/bsm/encode.js";
+    const knot = await (await fetch("/knot.json")).json();
+    const mesh = { positions: Float32Array.from(knot.positions), faces: Uint32Array.from(knot.faces) };
+    const tasks = [];
+    new PerformanceObserver((list) => tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: "longtask" });
+    await new Promise((next) => setTimeout(next, 200));
+    tasks.length = 0;
+    const [parts, stop] = [[], new AbortController()];
+    const bytes = await encode(mesh, { onProgress: (part) => parts.push(part) });
+    await new Promise((next) => setTimeout(next, 200));
+    const blocked = Math.max(0, ...tasks);
+    const failure = async (options, given = mesh) => encode(given, options).then(() => "", (error) => error.name + ": " + error.message);
+    const aborted = await failure({ signal: stop.signal, onProgress: () => stop.abort() });
+    const refused = await failure({ bits: 21 });
+    window.found = { bytes: [...bytes], parts, blocked, aborted, refused, again: (await encode(mesh)).length };
+`;
+
+describe("encoding in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, () => {
+    test("a worker writes the same bytes, reports, and can be stopped", async (context) => {
+        const [browser, site] = [await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS }), await serveSite()];
+        context.after(async () => (await browser.close(), site.close()));
+        const mesh = meshOf(new TorusKnotGeometry(1, 0.3, 1000, 50));
+        site.extra.set("/knot.json", JSON.stringify({ positions: [...mesh.positions], faces: [...mesh.faces] }));
+        site.extra.set("/script.js", PAGE);
+        site.headers["Content-Security-Policy"] = POLICY;
+        const page = await browser.newPage();
+        await page.goto(site.address);
+        type Found = { bytes: number[]; parts: number[]; blocked: number; aborted: string; refused: string; again: number };
+        const found = (await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: PATIENCE })).jsonValue()) as Found;
+        assert.deepEqual(Buffer.from(found.bytes), Buffer.from(encodeWith(module, { positions: mesh.positions, faces: mesh.faces })));
+        assert.equal(found.again, found.bytes.length);
+        assert.ok(found.parts.length > 3 && found.parts.at(-1) === 1);
+        assert.match(found.aborted, /^AbortError/);
+        assert.match(found.refused, /^EncodeError: .*bits/);
+        context.diagnostic(`longest task of the page: ${found.blocked} ms`);
+    });
+});
 
 describe("encoding", () => {
     test("what is encoded comes back", () => {
@@ -64,6 +108,21 @@ describe("encoding", () => {
             assert.equal(faces.length, geometry.index?.count ?? 3);
             assert.ok(positions.length > 0);
         }
+    });
+
+    test("the command reads what three.js reads", (context) => {
+        const folder = mkdtempSync(join(tmpdir(), "bsm-encode-"));
+        context.after(() => rmSync(folder, { recursive: true }));
+        const [source, target] = [join(folder, "two.obj"), join(folder, "two.bsm")];
+        const run = (...given: string[]): ReturnType<typeof spawnSync> => spawnSync(process.execPath, [join(WEB, "mesh.js"), ...given], { encoding: "utf8" });
+        writeFileSync(source, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no one\nf 1 2 3\nf 1 3 4\no other\nf 2 3 4\n");
+        execFileSync(process.execPath, [join(WEB, "mesh.js"), source, target, "lossless"]);
+        const { positions, faces } = decode(kernels, new Uint8Array(readFileSync(target)));
+        assert.deepEqual([positions.length, faces.length], [12, 9]);
+        writeFileSync(source, "v 0 0 0\n");
+        assert.match(String(run(source, target).stderr), /two\.obj: no triangles/);
+        assert.equal(run(join(folder, "a.step"), target).status, 2);
+        assert.equal(run(join(folder, "none.ply"), target).status, 1);
     });
 
     test("the download is small", () => assert.ok(brotliCompressSync(wasm).length <= 82_000));

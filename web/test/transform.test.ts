@@ -4,7 +4,10 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { describe } from "node:test";
 import { pathToFileURL } from "node:url";
-import { WebIO } from "@gltf-transform/core";
+import { Document, WebIO, type Primitive } from "@gltf-transform/core";
+// @ts-expect-error the package has no types
+import { validateBytes } from "gltf-validator";
+import { TorusKnotGeometry } from "three";
 import type * as Transform from "../src/transform";
 import { decode } from "../src/index";
 import { sceneOf } from "./scene";
@@ -12,7 +15,7 @@ import { BUILDS, compile, VECTORS, WEB } from "./shared";
 
 describe("glTF-Transform", async () => {
     // The built module finds its kernels beside itself.
-    const { EXTBSMCompression, loadSceneDecoder } = (await import(pathToFileURL(join(WEB, "built/gltf-transform.js")).href)) as typeof Transform;
+    const { EXTBSMCompression, loadSceneDecoder, loadSceneEncoder } = (await import(pathToFileURL(join(WEB, "built/gltf-transform.js")).href)) as typeof Transform;
     const decoder = await loadSceneDecoder();
     const stream = new Uint8Array(readFileSync(join(VECTORS, "good-attribute-uv-plain.bsm")));
     const shape = decoder(stream);
@@ -32,6 +35,59 @@ describe("glTF-Transform", async () => {
         assert.ok(drawn.every((value, k) => Math.abs(value - positions[3 * faces[0] + k]) < 1e-5));
         assert.deepEqual(written.getRoot().listExtensionsUsed(), []);
         assert.equal(written.getRoot().listBuffers().length, 1);
+    });
+
+    /** A document of a knot with normals, texture coordinates, a number of each vertex, and another primitive of its lower half. */
+    function knotted(): Document {
+        const [document, knot] = [new Document(), new TorusKnotGeometry(1, 0.3, 120, 12)];
+        const buffer = document.createBuffer();
+        const accessor = (type: "VEC3" | "VEC2" | "SCALAR", array: ArrayLike<number>, Kind: typeof Float32Array | typeof Uint16Array | typeof Uint8Array) => document.createAccessor().setType(type).setArray(Kind.from(array)).setBuffer(buffer);
+        const { position, normal, uv } = knot.attributes;
+        const places = accessor("VEC3", position.array, Float32Array);
+        const mesh = document.createMesh();
+        for (const [first, end] of [[0, knot.index!.count], [0, knot.index!.count / 2]]) {
+            const indices = accessor("SCALAR", knot.index!.array.slice(first, end), Uint16Array);
+            mesh.addPrimitive(document.createPrimitive().setIndices(indices).setAttribute("POSITION", places));
+        }
+        mesh.listPrimitives()[0].setAttribute("NORMAL", accessor("VEC3", normal.array, Float32Array)).setAttribute("TEXCOORD_0", accessor("VEC2", uv.array, Float32Array))
+            .setAttribute("_PART", accessor("SCALAR", Uint8Array.from({ length: position.count }, (_, i) => i & 3), Uint8Array));
+        document.createScene().addChild(document.createNode().setMesh(mesh));
+        return document;
+    }
+
+    /** How far corners of two primitives that are sorted alike lie apart. */
+    function apart(a: Primitive, b: Primitive): number {
+        const sorted = (primitive: Primitive): number[][] => {
+            const [index, places] = [primitive.getIndices()!.getArray()!, primitive.getAttribute("POSITION")!];
+            return [...index].map((vertex) => places.getElement(vertex, [] as number[])).sort((p, q) => Math.round(64 * (p[0] - q[0])) || Math.round(64 * (p[1] - q[1])) || p[2] - q[2]);
+        };
+        const [given, found] = [sorted(a), sorted(b)];
+        assert.equal(found.length, given.length);
+        const sum = (points: number[][]): number[] => [0, 1, 2].map((d) => points.reduce((total, point) => total + point[d], 0) / points.length);
+        const [from, to] = [sum(given), sum(found)];
+        return Math.hypot(...from.map((value, d) => value - to[d]));
+    }
+
+    test("writes streams, which are read again", { skip: !loadSceneEncoder && "built/ is of older sources" }, async () => {
+        const encoder = await loadSceneEncoder();
+        const [given, plain] = [knotted(), await new WebIO().writeBinary(knotted())];
+        given.createExtension(EXTBSMCompression);
+        const line = given.createPrimitive().setMode(1).setAttribute("POSITION", given.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute("POSITION"));
+        given.getRoot().listMeshes()[0].addPrimitive(line);
+        const packed = await io().registerDependencies({ "bsm.encoder": encoder }).writeBinary(given);
+        const { issues } = (await validateBytes(packed)) as { issues: { messages: { severity: number }[] } };
+        assert.deepEqual(issues.messages.filter(({ severity }) => severity === 0), []);
+        const found = await io().readBinary(packed);
+        const [[whole, half, kept], [all, lower]] = [found, given].map((document) => document.getRoot().listMeshes()[0].listPrimitives());
+        assert.ok(apart(all, whole) < 1e-4 && apart(lower, half) < 1e-4);
+        assert.deepEqual(kept.getAttribute("POSITION")?.getArray(), line.getAttribute("POSITION")?.getArray());
+        assert.deepEqual(whole.listSemantics().sort(), all.listSemantics().sort());
+        assert.deepEqual(new Set(whole.getAttribute("_PART")!.getArray()), new Set([0, 1, 2, 3]));
+        given.getRoot().listMeshes()[0].removePrimitive(line);
+        line.dispose();
+        const smaller = await io().registerDependencies({ "bsm.encoder": encoder }).writeBinary(given);
+        assert.ok(smaller.length < plain.length / 4, `${smaller.length} of ${plain.length}`);
+        await assert.rejects(io().writeBinary(given), /bsm\.encoder/);
     });
 
     test("says what is wrong", async () => {
