@@ -205,7 +205,8 @@ def _measured(work: Work) -> Taken:
         taken = work()
     except BaseException as error:
         taken = Taken(f"escaped: {type(error).__name__}: {error}"[:1000])
-    return replace(taken, seconds=seconds_of_cpu() - seconds, memory=resident("VmHWM") - memory)
+    own_seconds, own_memory = seconds_of_cpu() - seconds, resident("VmHWM") - memory
+    return replace(taken, seconds=taken.seconds + own_seconds, memory=max(taken.memory, own_memory))
 
 
 def seconds_of_cpu() -> float:

@@ -368,7 +368,7 @@ def main() -> int:
     sizes, splits = (args.bytes[:1], SPLITS[:1]) if args.short else (args.bytes, SPLITS)
     found = [case for size in sizes for case in cases(size, splits) if case.name.startswith(args.only)]
     count = 0
-    for limits in ("default",) if args.short else ("default", "service"):
+    for limits in ("default", "service"):
         for problem in problems(found, limits, MOST):
             count += 1
             print(problem, flush=True)

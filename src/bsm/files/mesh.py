@@ -26,7 +26,7 @@ from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, file_beside, is_url
-from bsm.files.room import gunzipped, plain_text, require_archive, require_counts_of_head, require_room
+from bsm.files.room import gunzipped, plain_text, require_counts_of_head, require_room
 
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
@@ -123,8 +123,6 @@ def read_cut(
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
     polygons: Polygons
-    if data.startswith(b"PK\x03\x04") and kind not in MESH_FORMATS:
-        require_archive(data, limits)
     if kind == "dae":
         polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
     elif kind == "3mf":

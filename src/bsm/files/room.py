@@ -11,7 +11,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
-from zipfile import BadZipFile, ZipFile
+from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -179,21 +179,6 @@ def as_format_error(kind: str) -> Iterator[None]:
     except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError, BadZipFile) as error:
         words = " ".join(str(error).split())
         raise FormatError(f"this {kind} makes no sense: {type(error).__name__}: {words}") from error
-
-
-def require_archive(data: bytes, limits: Limits) -> None:
-    """Raise `LimitError` if a zip archive becomes too much: as it says, or as a tree of the tags that are in it."""
-    try:
-        with ZipFile(io.BytesIO(data)) as archive:
-            size = sum(entry.file_size for entry in archive.infolist())
-            require_inflated(size, len(data), limits)
-            for name in archive.namelist():
-                with archive.open(name) as entry:
-                    while piece := entry.read(_PIECE):
-                        size += TAG * piece.count(b"<")
-                        require_inflated(size, len(data), limits)
-    except (BadZipFile, NotImplementedError, ValueError, RuntimeError, EOFError, zlib.error) as error:
-        raise FormatError(f"cannot read this archive: {error}") from error
 
 
 def gunzipped(data: bytes, limits: Limits) -> bytes:

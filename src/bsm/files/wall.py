@@ -44,6 +44,7 @@ from bsm.files.pipes import Input
 
 _COMMAND = "from bsm.files.wall import serve; serve({number})"
 _KIND = struct.Struct("<16sI")  # the name of a format and seconds, as they are sent
+_END = struct.Struct("<iQd")  # a status, the most memory in bytes and seconds of processor time, as they come back
 _HEAD = 8  # bytes of the length of what follows, in shared memory
 _ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
 _LIBRARIES = {
@@ -110,7 +111,7 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
     request = msgpack.packb(asked)
     with _shared(_ROOM + len(request) + asked["memory"]) as memory:
         os.pwrite(memory, len(request).to_bytes(_HEAD, "little") + request, 0)
-        status = _status_of(memory, _library(kind), _PATIENCE * asked["seconds"])
+        status = end_of_child(memory, _library(kind), _PATIENCE * asked["seconds"])[0]
         if os.WIFSIGNALED(status):
             raise _end_of(os.WTERMSIG(status), asked)
         return _found_in(memory, limits)
@@ -169,19 +170,17 @@ class _Server:
     def __del__(self) -> None:
         self._socket.close()
 
-    def read(self, memory: int, library: str, seconds: int) -> int:
-        """Let a child read the file that shared memory names; return its status."""
+    def read(self, memory: int, library: str, seconds: int) -> tuple[int, int, float]:
+        """Let a child read the file that shared memory names; return its status, memory and time."""
         here, there = socket.socketpair()
         with here:
             with there:
                 socket.send_fds(self._socket, [_KIND.pack(library.encode(), seconds)], [there.fileno(), memory])
-            status = b""
-            while len(status) < 4:
-                piece = here.recv(4)
-                if not piece:
-                    raise ConnectionError("the process that reads files has died")
-                status += piece
-            return int.from_bytes(status, "little")
+            end = here.recv(_END.size, socket.MSG_WAITALL)
+            if len(end) < _END.size:
+                raise ConnectionError("the process that reads files has died")
+            status, most, taken = _END.unpack(end)
+            return status, most, taken
 
 
 @cache
@@ -189,7 +188,7 @@ def _server() -> _Server:
     return _Server()
 
 
-def _status_of(memory: int, library: str, seconds: int) -> int:
+def end_of_child(memory: int, library: str, seconds: int) -> tuple[int, int, float]:
     try:
         return _server().read(memory, library, seconds)
     except ConnectionError:  # somebody has ended it
@@ -241,8 +240,8 @@ def _watch(answer: int, memory: int, seconds: int) -> None:
             _read(memory)
         signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGALRM))
         signal.alarm(seconds)
-        status = os.waitpid(child, 0)[1]
-        os.write(answer, status.to_bytes(4, "little"))
+        _, status, used = os.wait4(child, 0)
+        os.write(answer, _END.pack(status, used.ru_maxrss << 10, used.ru_utime + used.ru_stime))
     finally:
         os._exit(0)
 

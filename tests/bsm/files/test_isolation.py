@@ -19,6 +19,8 @@ from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.wall import lack
 from tests.shapes import torus
+from tools.attack.readers import chained_objects, three_mf
+from tools.attack.uses import of_size, uses
 
 pytestmark = pytest.mark.skipif(lack() is not None, reason=f"no wall here: it needs {lack()}")
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -102,11 +104,30 @@ def _fresh():
 )
 def test_the_parent_goes_on(act, error, words, monkeypatch, tmp_path):
     acting(monkeypatch, tmp_path, act)
-    if "pause" in act:
-        monkeypatch.setattr(wall, "_PATIENCE", 1)
+    monkeypatch.setattr(wall, "_PATIENCE", 1 if "pause" in act else 1000)
     for _ in range(2):
         with pytest.raises(error, match=words):
             read_mesh(TRIANGLE, limits=replace(Limits.service(), most_work=1e8))
+
+
+def multiplied(kind):
+    """A file of a few bytes that its library makes much of."""
+    if kind == "3mf":
+        return three_mf(chained_objects(39), '<item objectid="39"/>')
+    if kind == "dae":  # each node has the one before it twice
+        return of_size(dict(uses())["dae, nodes of nodes"], 4000).data
+    level = 'def "a{0}" {{\ndef "l" (references = </a{1}>) {{}}\ndef "r" (references = </a{1}>) {{}}\n}}\n'.format
+    return ("#usda 1.0\n" + 'def "a0" {}\n' + "".join(level(n, n - 1) for n in range(1, 20))).encode()
+
+
+@pytest.mark.parametrize(("kind", "library"), [("3mf", "lib3mf"), ("dae", "collada"), ("usda", "pxr")])
+def test_what_a_library_multiplies_is_ended(kind, library, tmp_path):
+    pytest.importorskip(library)
+    (tmp_path / f"a.{kind}").write_bytes(multiplied(kind))
+    little = replace(Limits.service(), most_work=5e8, most_memory=200 << 20)
+    with pytest.raises((LimitError, FormatError)) as refused:  # usd-core ends itself where memory ends
+        read_mesh(tmp_path / f"a.{kind}", limits=little)
+    assert any(words in str(refused.value) for words in ("takes more than", "SIG")), refused.value
 
 
 SOCKETS = (("AF_INET", "STREAM"), ("AF_INET6", "DGRAM"), ("AF_UNIX", "STREAM"), ("AF_NETLINK", "RAW"))

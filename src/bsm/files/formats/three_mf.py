@@ -1,35 +1,26 @@
 """3MF, read with lib3mf, the library of the 3MF Consortium: its objects where the build places them, as one mesh."""
 
 import ctypes
-import io
-import zipfile
-from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
-from graphlib import CycleError, TopologicalSorter
-from typing import IO, Any, Literal
-from xml.parsers import expat
+from typing import Any, Literal
 
 import numpy as np
 
-from bsm.bitstream.errors import FormatError, LimitError, MeshError, imported
+from bsm.bitstream.errors import FormatError, MeshError, imported
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image
-from bsm.files.formats.polygons import BYTES_OF_PART, FREE_PARTS, Array, Column, Part, Polygons, joined_parts
-from bsm.files.room import Doubles, Ints, require_count
+from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
+from bsm.files.room import Doubles, Ints
 
 _UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
 _OTHERS = {"Composite": "composite materials", "Multi": "layers of materials"}
 _UUID, _MOST_WARNINGS = 32944, 4  # a warning of each file by most slicers; warnings that notes name
-_MOST, _PIECE, _DEEPEST = 1 << 62, 1 << 16, 1000
 _Painted = Literal["color", "texcoord"]
-_Key = tuple[str, str]  # a file and an object in it
-_ROOT: _Key = ("", "")
 
 
 def read_3mf(data: bytes, limits: Limits) -> Polygons:
     library = imported("lib3mf", "3MF is read with lib3mf", "formats")
-    require_placeable(data, limits)
     model = library.get_wrapper().CreateModel()
     reader = model.QueryReader("3mf")
     try:
@@ -42,68 +33,6 @@ def read_3mf(data: bytes, limits: Limits) -> Polygons:
         return _Model(library, model, limits).joined(reader, len(data))
     except library.ELib3MFException as error:
         raise FormatError(f"lib3mf cannot read this 3MF file: {str(error)[:200]}") from error
-
-
-class _Uses:
-    """The contents of the XML files of an archive: the vertices and triangles of each object, and which uses which."""
-
-    def __init__(self) -> None:
-        self.size: defaultdict[_Key, list[int]] = defaultdict(lambda: [0, 0, 1])
-        self.uses: defaultdict[_Key, Counter[_Key]] = defaultdict(Counter)
-        self._file, self._object = "", ("", "")
-
-    def read(self, name: str, file: IO[bytes]) -> None:
-        parser = expat.ParserCreate(namespace_separator=" ")
-        parser.StartElementHandler = self._begin
-        parser.StartDoctypeDeclHandler = self._refuse
-        self._file = name.strip("/")
-        try:
-            while piece := file.read(_PIECE):
-                parser.Parse(piece)
-            parser.Parse(b"", True)
-        except (expat.ExpatError, LookupError, ValueError) as error:
-            raise FormatError(f"this is not a 3MF file: its XML is broken: {error}") from error
-
-    def _refuse(self, *_: object) -> None:
-        raise FormatError("a 3MF file has no DOCTYPE")
-
-    def _begin(self, name: str, attrs: Mapping[str, str]) -> None:
-        match name.rpartition(" ")[2]:
-            case "object":
-                self._object = (self._file, attrs.get("id", ""))
-            case "vertex" | "triangle" as what:
-                self.size[self._object][what == "triangle"] += 1
-            case "component" | "item" as what:
-                path = next((path for key, path in attrs.items() if key.endswith(" path")), self._file).strip("/")
-                self.uses[self._object if what == "component" else _ROOT][path, attrs.get("objectid", "")] += 1
-
-
-def require_placeable(data: bytes, limits: Limits) -> None:
-    """Raise `LimitError` if a 3MF file places too much: lib3mf follows each component as often as it is used."""
-    found = _Uses()
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        for name in archive.namelist():
-            if name.lower().endswith(".model"):
-                with archive.open(name) as file:
-                    found.read(name, file)
-    if not found.uses[_ROOT]:
-        raise MeshError("this 3MF file places no object: its build has no item")
-    totals: dict[_Key, list[int]] = {}
-    depths: dict[_Key, int] = {}
-    try:
-        for key in TopologicalSorter(found.uses).static_order():
-            depths[key] = 1 + max((depths[other] for other in found.uses[key]), default=0)
-            used = [(times, totals[other]) for other, times in found.uses[key].items()]
-            totals[key] = [min(_MOST, n + sum(t * o[i] for t, o in used)) for i, n in enumerate(found.size[key])]
-    except CycleError:
-        raise MeshError("an object of this 3MF file is a component of itself") from None
-    vertices, triangles, parts = totals[_ROOT]
-    require_count("vertices", vertices, limits)
-    require_count("faces", triangles, limits)
-    if depths[_ROOT] > _DEEPEST:
-        raise LimitError(f"components of this 3MF file are nested {depths[_ROOT]} deep; the limit is {_DEEPEST}")
-    if parts > (most := FREE_PARTS + len(data) // BYTES_OF_PART):
-        raise LimitError(f"this 3MF file places {parts:,} parts, over the limit of {most:,} for its bytes")
 
 
 def _call(owner: Any, name: str, *arguments: Any) -> None:
@@ -152,6 +81,8 @@ class _Model:
             for root, item in placed
             for number, matrix, name in self._below(root, _matrix(item.GetObjectTransform()))
         ]
+        if not placed:
+            raise MeshError("this 3MF file places no object: its build has no item")
         meshes = (self._objects[number] for number, *_ in shown)
         counts = [(mesh.GetVertexCount(), mesh.GetTriangleCount()) for mesh in meshes]
         parts = (self._part(number, name).placed(matrix) for number, matrix, name in shown)
