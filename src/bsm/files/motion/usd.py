@@ -248,7 +248,7 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
 
 
 PER_PART, PER_VALUE = 4000.0, 24.0  # bytes of a mesh or an instance, and of each number of its attributes
-MOST_NAMED = 12
+MOST_PRIMS, MOST_NAMED = 1 << 16, 12
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
 _OPENING, _CLOSING = ([ord(bracket) for bracket in brackets] for brackets in ("([{", ")]}"))
 _PIECE = 1 << 18
@@ -559,7 +559,11 @@ class _Stage:
         pxr, left = self.pxr, dict[str, list[str]]()
         self.blinking: list[str] = []
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
-        for prim in every:
+        for count, prim in enumerate(every):
+            if count == MOST_PRIMS:
+                raise LimitError(
+                    f"the stage has more than {MOST_PRIMS:,} prims with those of instances; export a part of it"
+                )
             if hidden := self._hidden(prim):
                 left.setdefault(hidden, []).append(str(prim.GetPath()))
             elif prim.IsA(pxr.UsdGeom.PointInstancer):
