@@ -182,7 +182,7 @@ def _cure(name: str, enough: Callable[[Limits], bool]) -> str:
     if named is None:
         return f"if you trust the source, decode it in Python with a higher Limits.{name}"
     call = "Limits()" if named == "default" else f"Limits.{named}()"
-    return f"if you trust the source, allow more: --limits {named}, in Python {call}"
+    return f"if you trust the source, allow more: --limits {named} (commands that decode), in Python {call}"
 
 
 def _worded(value: float) -> str:

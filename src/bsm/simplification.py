@@ -37,12 +37,12 @@ ENOUGH = 1.2  # times the triangles that were asked for, above which simplifying
 
 @dataclass(frozen=True, eq=False)
 class Simplified:
-    """The chosen stream; how many triangles the original had, and how far the surfaces are apart at most."""
+    """The chosen stream; how many triangles the original had, and how far the surfaces are apart, if it has fewer."""
 
     encoder: Encoder
     attempt: Attempt
     before: int
-    apart: float = 0.0
+    apart: float | None = None
     notes: tuple[str, ...] = ()  # about the original
 
 
@@ -100,15 +100,15 @@ class Source:
         return max(found, default=0.0) / self.promise.look
 
     def apart(self, other: TriangleMesh, reach: Matrix) -> tuple[float, float]:
-        """The largest distance of both surfaces as a share of the bound, and in the unit of the mesh: at vertices of
-        the original, and at vertices (whose bounds are `reach`) and middles of edges and faces of the other mesh."""
-        whole, corners, of_corners = self.whole, other.positions[other.faces], reach[other.faces]
-        sides = [(0, 1), (1, 2), (2, 0), (0, 1, 2)]
-        points = np.concatenate([other.positions, *(corners[:, side].mean(axis=1) for side in sides)])
-        allowed = np.concatenate([reach, *(of_corners[:, side].min(axis=1) for side in sides)])
-        there = distances_to_surface(whole.positions, other.positions, other.faces)
+        """The largest distance of both surfaces as a share of the bound, and in the unit of the mesh: at vertices
+        (those of the other mesh have the bounds `reach`) and middles of edges and faces."""
+        whole = self.whole
+        points, allowed = _samples(whole, self._reach)
+        there = distances_to_surface(points, other.positions, other.faces)
+        share = float((there / allowed).max())
+        points, allowed = _samples(other, reach)
         back = distances_to_surface(points, whole.positions, whole.faces)
-        share = max(float((there / self._reach).max()), float((back / allowed).max()))
+        share = max(share, float((back / allowed).max()))
         return share, max(float(there.max()), float(back.max()))
 
     def simplified(self, target: int) -> tuple[TriangleMesh, Matrix]:
@@ -197,3 +197,11 @@ def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Fac
     used[faces] = True
     numbers = np.where(used, np.cumsum(used, dtype=np.int32) - 1, -1).astype(np.int32)
     return rows[used], numbers[faces], numbers
+
+
+def _samples(mesh: TriangleMesh, reach: Matrix) -> tuple[Matrix, Matrix]:
+    """The vertices and the middles of edges and faces, and the bound of each."""
+    corners, of_corners = mesh.positions[mesh.faces], reach[mesh.faces]
+    sides = [(0, 1), (1, 2), (2, 0), (0, 1, 2)]
+    points = np.concatenate([mesh.positions, *(corners[:, side].mean(axis=1) for side in sides)])
+    return points, np.concatenate([reach, *(of_corners[:, side].min(axis=1) for side in sides)])

@@ -9,7 +9,7 @@ from bsm.commands.flags import IMAGES, adder, within
 from bsm.console import Console
 from bsm.files.images import ImageRule
 from bsm.files.mesh import GLTF, read_mesh, size_with_parts, written_mesh
-from bsm.files.output import write_output
+from bsm.files.output import refuse_collisions, write_output
 from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import decode_whole, is_stream, peek_header
@@ -64,6 +64,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         raise OptionError(f"--one-grid shares the grid of --preset {PRESETS[-1]}; leave out the preset")
     options = {"preset": args.preset, "quick": quick and args.preset != "lossless", "attributes": _qualities(args)}
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
+    refuse_collisions((args.input, *document.files), filter(None, (args.output, str(beside or ""))))
     with console.progress("encoding") as progress:
         name = beside.name if beside else None
         found = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)

@@ -7,6 +7,7 @@ import json
 import shutil
 import struct
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 from typing import IO, Any
@@ -299,6 +300,16 @@ class Document:
             except FormatError as error:
                 raise FormatError(f"this glTF refers to {uri[:80]}, but {error}") from error
         return self._resources.setdefault(uri, data)
+
+    @property
+    def files(self) -> list[str]:
+        """The files that the document refers to."""
+        uris = [str(part.get("uri", "data:")) for kind in ("buffers", "images") for part in self.items(kind)]
+        found = []
+        for uri in uris:
+            with suppress(FormatError):
+                found += [] if uri.startswith("data:") else [str(self.file(uri))]
+        return found
 
     def file(self, uri: str) -> Path:
         """The regular file in the folder of the document, or below, that is meant."""

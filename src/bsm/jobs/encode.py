@@ -55,6 +55,7 @@ class EncodeJob(Task):
     provenance: bool | None = None
     simplify: bool = False
     untrusted: bool = False
+    dry_run: bool = False
     images: str | None = None
 
 
@@ -121,7 +122,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     taken, bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
-    other = encoder.binding not in ("", "look") and not (found and found.apart)
+    other = encoder.binding not in ("", "look") and not (found and found.apart is not None)
     binds = f"the {encoder.binding} binds, " if other else ""
     _finish(
         job,
@@ -135,29 +136,25 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     counts = {"vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
     ends = {"look": encoder.look, "binding": encoder.binding, "seconds": seconds, "notes": notes}
-    return {"input": job.input, "output": job.output, **counts, **sizes, **numbers, **ends}
+    return {"input": job.input, "output": None if job.dry_run else job.output, **counts, **sizes, **numbers, **ends}
 
 
 def _errors(result: Attempt, found: Simplified | None, diagonal: float, unit: str, per_own: float) -> tuple[str, Facts]:
     """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
-
-    def farthest(relative: float) -> tuple[str, Facts]:
-        share, value = f"{100 * relative:.3g} % of the diagonal", relative * diagonal * per_own
-        facts = {"max_error_relative": relative, **({"max_error": value, "unit": unit} if unit else {})}
-        return (f"{value:.3g} {unit} ({share})" if unit else share), facts
-
-    if found is not None and found.apart:
-        words, facts = farthest(found.apart / diagonal)
-        return f"{found.before} faces before simplifying, surfaces at most {words} apart", {
-            "faces_before": found.before,
-            **facts,
-        }
-    error = result.comparison
-    words, facts = farthest(error.max_error_relative)
-    angles = {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
-    angles["nmsve_paper_db"] = finite(error.nmsve_paper_db)
+    apart, error = None if found is None else found.apart, result.comparison
+    relative = error.max_error_relative if apart is None else apart / diagonal
+    share, value = f"{100 * relative:.3g} % of the diagonal", relative * diagonal * per_own
+    words = f"{value:.3g} {unit} ({share})" if unit else share
+    facts: Facts = dict.fromkeys(("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before"))
+    facts |= {"max_error_relative": relative, "error_of": "vertices" if apart is None else "surfaces"}
+    facts |= {"max_error": value, "unit": unit} if unit else {}
+    if found is not None and apart is not None:
+        words = f"{found.before} faces before simplifying, surfaces {words} apart where measured"
+        return words, facts | {"faces_before": found.before}
+    facts |= {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
+    facts["nmsve_paper_db"] = finite(error.nmsve_paper_db)
     kept = "; all triangles are kept" if found else ""
-    return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", {**angles, **facts}
+    return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", facts
 
 
 def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
@@ -208,9 +205,10 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
         f"KG error {encoder.kg:.3g} %; {seconds:.2f} s",
     )
-    counts = {"input": job.input, "output": job.output, "frames": done, "vertices": vertices, "faces": faces}
+    names = {"input": job.input, "output": None if job.dry_run else job.output}
+    counts = {"frames": done, "vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
-    return {**counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
+    return {**names, **counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
 
 
 def _finish(job: EncodeJob, console: Console, notes: list[str], order: Order, summary: str) -> None:
