@@ -15,6 +15,7 @@ import pytest
 
 from bsm import encode
 from bsm.cli import main
+from bsm.commands import encode as encode_module
 from bsm.files.mesh import write_mesh
 from bsm.files.output import open_output
 from bsm.jobs import plan as plan_module
@@ -284,3 +285,26 @@ def test_links_that_appear_after_planning_are_not_followed(command, there, tmp_p
     main([*words, *(["--format", "ply"] if command == "decode" else [])])
     assert victim.exists() == there and (not there or victim.read_bytes() == b"precious")
     assert len(list(out.glob(f"*{suffix}"))) == 2
+
+
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_folder_that_becomes_a_link_is_not_followed(beside, tmp_path, monkeypatch):
+    """A folder below the one that the user named is swapped for a link after planning."""
+    given, victim = tmp_path / "in", tmp_path / "victim"
+    (given / "sub").mkdir(parents=True)
+    victim.mkdir()
+    for name in (given / "a.ply", given / "sub" / "b.ply", victim / "b.ply"):
+        write_mesh(name, torus(12, 8))
+    (victim / "b.bsm").write_bytes(b"precious")
+    out = given if beside else tmp_path / "out"
+
+    def swapped(*planned):
+        jobs = plan_module.plan_trees(*planned)
+        (out / "sub").rename(tmp_path / "away")
+        (out / "sub").symlink_to(victim)
+        return jobs
+
+    monkeypatch.setattr(encode_module, "plan_trees", swapped)
+    assert main(["encode", "-r", str(given), *([] if beside else ["-o", str(out)]), "-q", "-f", "-j", "1"]) != 0
+    assert (victim / "b.bsm").read_bytes() == b"precious" and len(list(victim.iterdir())) == 2
+    assert (out / "a.bsm").exists()

@@ -146,7 +146,7 @@ def _saved(
 ) -> Facts:
     """Write a file, and note its size and losses."""
     may_replace = args.may_replace(output)
-    left_out = save_written(output, file, overwrite=may_replace, overwrite_beside=args.force, follow=args.named)
+    left_out = save_written(output, file, overwrite=may_replace, overwrite_beside=args.force, follow=args.follow)
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
     taken, written = size_of(args.input), len(file.data)
@@ -185,7 +185,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         order, faces = mesh.positions[:, 0].astype(np.int64), mesh.faces
     shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata, first=first)
     count = vertices = 0
-    how: dict[str, Any] = {"overwrite": args.may_replace(output), "follow": args.named, "shared": shared}
+    how: dict[str, Any] = {"overwrite": args.may_replace(output), "follow": args.follow, "shared": shared}
     with sequence_writer(output, kind, faces, expected, **how) as write, console.progress("decoding") as progress:
         present = stream.faces
         for number, frame in chain(ahead, frames):

@@ -76,7 +76,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     else:
         jobs = plan(args.inputs, args.output, lambda _: ".bsm")
     if args.dry_run:
-        jobs = [replace(job, output=os.devnull, named=True) for job in jobs]
+        jobs = [replace(job, output=os.devnull, follow=True) for job in jobs]
     if args.permutation:
         if len(jobs) > 1:
             raise OptionError("--permutation is for one input")

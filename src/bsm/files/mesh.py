@@ -217,7 +217,7 @@ def save_written(
     *,
     overwrite: bool,
     overwrite_beside: bool | None = None,
-    follow: bool = True,
+    follow: bool | str = True,
 ) -> tuple[str, ...]:
     """Write the files beside a mesh file, then the file; return the losses. A pipe has no files beside it."""
     beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
@@ -226,7 +226,7 @@ def save_written(
     for name in beside:
         refuse_to_overwrite(name, replace_beside)
     for name, data in beside.items():
-        write_output(name, data, overwrite=replace_beside, follow=False)
+        write_output(name, data, overwrite=replace_beside, follow=follow if isinstance(follow, str) else False)
     write_output(path, written.data, overwrite=overwrite, follow=follow)
     return (*written.left_out, *(() if beside else written.beside))
 

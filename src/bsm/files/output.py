@@ -34,6 +34,7 @@ except ImportError:  # not a POSIX system
     fcntl = None  # type: ignore[assignment]
 
 _TEMPORARY = ".part"
+_HELD = "/proc/self/fd"  # Linux names folders that are open there
 _UMASK = threading.Lock()  # the process has one mask, which can only be read by setting it
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # What the shell has opened: `>(...)`, or `> file`.
@@ -47,10 +48,13 @@ class Terminated(SystemExit):
 
 
 @contextmanager
-def open_output(path: str | os.PathLike[str], *, overwrite: bool = False, follow: bool = True) -> Iterator[BinaryIO]:
+def open_output(
+    path: str | os.PathLike[str], *, overwrite: bool = False, follow: bool | str = True
+) -> Iterator[BinaryIO]:
     """Open a file for writing whose name appears only when the `with` block has ended well.
 
-    `follow` is for names that the user gave: the target of a symbolic link is replaced, and devices are written to.
+    `follow` is for names that the user gave: the target of a symbolic link is replaced, and devices are written to. If
+    the user gave only a folder, it is that: links below it are not followed.
     """
     if os.fspath(path) == "-":
         piped = standard_output()
@@ -63,14 +67,17 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False, follow
         return
     if os.path.isdir(path):
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
-    if follow and not can_be_replaced(path):
+    if follow is True and not can_be_replaced(path):
         descriptor = _descriptor(path)
         with by_its_own_name(path), open(path if descriptor is None else os.dup(descriptor), "wb") as device:
             yield device
         return
-    target = Path(os.path.realpath(path) if follow else path)
     refuse_to_overwrite(path, overwrite)
-    with termination_as_exception(), by_its_own_name(path):
+    with (
+        termination_as_exception(),
+        by_its_own_name(path),
+        _in_its_folder(Path(os.path.realpath(path) if follow is True else path), follow) as target,
+    ):
         name = lock = None
         try:
             with _signals_wait():
@@ -95,7 +102,24 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False, follow
                 os.close(lock)
 
 
-def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool, follow: bool = True) -> None:
+@contextmanager
+def _in_its_folder(target: Path, follow: bool | str) -> Iterator[Path]:
+    """A name for a place in its folder, which is held open if its folders may be swapped for links."""
+    if not isinstance(follow, str) or not os.path.isdir(_HELD):
+        yield target
+        return
+    way = os.path.relpath(target.parent, follow).split("/")
+    held = os.open(follow, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        for name in way:
+            outer, held = held, os.open(name, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=held)
+            os.close(outer)
+        yield Path(_HELD, str(held), target.name)
+    finally:
+        os.close(held)
+
+
+def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool, follow: bool | str = True) -> None:
     with open_output(path, overwrite=overwrite, follow=follow) as file:
         file.write(data)
 
@@ -220,7 +244,11 @@ def by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        if str(error.filename).endswith(_TEMPORARY) or (error.filename is None and error.errno in _FULL):
+        if (
+            str(error.filename).startswith(_HELD)
+            or str(error.filename).endswith(_TEMPORARY)
+            or (error.filename is None and error.errno in _FULL)
+        ):
             error.filename, error.filename2 = os.fspath(path), None
             if isinstance(error, FileNotFoundError) and not os.path.isdir(os.path.dirname(os.fspath(path))):
                 error.strerror = "the folder of the output does not exist; create it first"

@@ -116,7 +116,7 @@ def sequence_writer(
     count: int,
     *,
     overwrite: bool,
-    follow: bool = True,
+    follow: bool | str = True,
     shared: Shared | None = None,
 ) -> Iterator[FrameWriter]:
     """Open a sequence for writing; yields what takes frame after frame."""
@@ -174,7 +174,7 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
 
 @contextmanager
 def _cache_writer(
-    path: str, kind: str, first: Faces, count: int, overwrite: bool, follow: bool, shared: Shared
+    path: str, kind: str, first: Faces, count: int, overwrite: bool, follow: bool | str, shared: Shared
 ) -> Iterator[FrameWriter]:
     """A cache, and beside it the mesh of its first frame; where faces change, both for each run, by its first frame."""
     refuse_to_overwrite(path, overwrite)

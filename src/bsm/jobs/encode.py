@@ -95,7 +95,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         raise OptionError("--permutation orders all vertices, and --simplify leaves some out")
     overwrite, found = job.may_replace(job.output), None
     with (
-        open_output(job.output, overwrite=overwrite, follow=job.named) as file,
+        open_output(job.output, overwrite=overwrite, follow=job.follow) as file,
         console.progress("encoding") as progress,
     ):
         if job.simplify:
@@ -177,7 +177,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     numbers, size = count(), 0
     overwrite = job.may_replace(job.output)
     with (
-        open_output(job.output, overwrite=overwrite, follow=job.named) as file,
+        open_output(job.output, overwrite=overwrite, follow=job.follow) as file,
         console.progress("encoding") as progress,
     ):
         frames = source.frames if source.meshes is None else source.meshes

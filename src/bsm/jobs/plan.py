@@ -33,7 +33,7 @@ def plan(
     elif folder and not (sole_folder and len(names) == 1):
         jobs = [Job(name, output_inside(output, name, suffix(name))) for name in names]
     else:
-        jobs = [Job(name, output, named=True) for name in names]
+        jobs = [Job(name, output, follow=True) for name in names]
     jobs = apart(jobs, suffix)
     refuse_collisions(names, [job.output for job in jobs])
     if output and folder and not pipes.is_url(output):
@@ -55,7 +55,8 @@ def plan_trees(
         for path in sorted(Path(folder).rglob("*")):
             if path.suffix.lower() in read and path.is_file():
                 place = path if output is None else Path(output, path.relative_to(folder))
-                jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix)))))
+                root = folder if output is None else output
+                jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix))), follow=root))
     jobs = apart(jobs, lambda _: suffix)
     if not jobs:
         what = "streams" if read == STREAM_SUFFIXES else "mesh files"

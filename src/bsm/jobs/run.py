@@ -159,7 +159,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
         asked,
         input=job.input,
         output=job.output,
-        named=job.named,
+        follow=job.follow,
         before=before,
         replaceable=mine,
         doubtful=frozenset() if asked.force else frozenset(named - mine),

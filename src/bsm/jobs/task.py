@@ -19,7 +19,7 @@ class Job:
     input: str
     output: str = ""
     after: tuple[int, ...] = ()  # numbers of the jobs before it whose outputs it needs
-    named: bool = False  # whether the user gave the name of the output, whose links are followed
+    follow: bool | str = False  # the user gave the name of the output, or a folder: see `open_output`
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +28,7 @@ class Task:
 
     input: str = ""
     output: str = ""
-    named: bool = True  # whether the user gave the name of the output, whose links are followed
+    follow: bool | str = True  # the user gave the name of the output, or a folder: see `open_output`
     force: bool = False
     quiet: bool = False
     before: Facts | None = None  # what an earlier report says of it
