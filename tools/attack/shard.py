@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
+import re
 import subprocess
 import time
 import traceback
@@ -143,7 +144,7 @@ def differential(shard: Shard, number: int, size: int) -> None:
         shard.tally.saw(ours)
         released = by_release(stream)
         # Release 1.0 does not know the header fields of later versions, and refuses them before anything else.
-        if isinstance(ours, BsmError) and isinstance(released, errors.UnsupportedError):
+        if isinstance(released, errors.UnsupportedError) and re.search(r"field \d+ is unknown", str(released)):
             shard.tally.skipped += 1
             continue
         # Release 1.0 compared rows of attributes with the mesh only after later sections.
