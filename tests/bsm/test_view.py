@@ -312,6 +312,63 @@ def test_distances_are_those_of_the_stream_s_vertices(tmp_path):
     assert "promised" not in entry["facts"], "a stream does not say what it was made with"
 
 
+def test_any_two_inputs_are_compared_as_they_are(tmp_path):
+    mesh, other = torus(), torus(60, 40)
+    bsm.save(mesh, tmp_path / "a.ply")
+    bsm.save(other, tmp_path / "b.obj")
+    for name, preset in (("a", "fine"), ("b", "small")):
+        (tmp_path / f"{name}.bsm").write_bytes(bsm.encode(mesh, preset=preset))
+
+    def shown(which: str, original: str) -> dict[str, Any]:
+        page = tmp_path / "page.html"
+        assert (
+            main(["view", str(tmp_path / which), "--original", str(tmp_path / original), "-f", "--save", str(page)])
+            == 0
+        )
+        (entry,) = listed(page.read_text("utf-8"))
+        assert entry["main"] == 1
+        return dict(entry)
+
+    two = shown("b.bsm", "a.bsm")
+    assert base64.b64decode(two["layers"][0]["data"]) == (tmp_path / "a.bsm").read_bytes()
+    there = bsm.compare(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.bsm")
+    assert two["facts"]["farthest"] == pytest.approx(there.max_error_relative, rel=1e-3) and "apart" not in two["facts"]
+    apart = shown("b.obj", "a.ply")
+    assert [layer["title"] for layer in apart["layers"]] == ["Original", "OBJ"]
+    assert [layer["size"] for layer in apart["layers"]] == [
+        (tmp_path / name).stat().st_size for name in ("a.ply", "b.obj")
+    ]
+    facts = apart["facts"]
+    assert facts["before"] == [len(mesh.positions), len(mesh.faces)] and "angle" not in facts
+    off = np.frombuffer(base64.b64decode(apart["layers"][1]["off"]["data"]), "<f4")
+    assert len(off) == len(other.positions) and 0.0 < off.max() <= facts["farthest"] * facts["diagonal"] * 1.001
+    tree = np.linalg.norm(other.positions[:, None] - mesh.positions[None], axis=2).min(axis=1)
+    assert off.max() <= tree.max() and 0.0 < facts["apart"] < facts["farthest"]
+
+
+def test_two_sequences_have_errors_of_vertices_in_each_frame(tmp_path):
+    positions, faces = bending(12)
+    np.savez(tmp_path / "a.npz", positions=positions, faces=faces)
+    (tmp_path / "a.bsm").write_bytes(bsm.encode_sequence(positions, faces, step=0.01))
+    page = tmp_path / "page.html"
+    arguments = ["--original", str(tmp_path / "a.npz"), "--save", str(page)]
+    assert main(["view", str(tmp_path / "a.bsm"), *arguments]) == 0
+    (entry,) = listed(page.read_text("utf-8"))
+    first, second = entry["layers"]
+    off = np.frombuffer(base64.b64decode(second["off"]["data"]), "<f4").reshape(12, -1)
+    assert off.max(axis=1) / entry["facts"]["diagonal"] == pytest.approx(entry["facts"]["errors"], rel=1e-3)
+    carried, _ = bsm.decode_sequence(base64.b64decode(first["data"]))
+    decoded, _ = bsm.decode_sequence(base64.b64decode(second["data"]))
+    assert np.linalg.norm(carried - decoded, axis=2) == pytest.approx(off, abs=1e-3 * entry["facts"]["diagonal"])
+    fewer = faces[:-40]
+    used, index = np.unique(fewer, return_inverse=True)
+    cut = {"positions": positions[:, used], "faces": index.reshape(-1, 3).astype(np.int32)}
+    np.savez(tmp_path / "b.npz", **cut)
+    assert main(["view", str(tmp_path / "b.npz"), *arguments, "-f"]) == 0
+    (entry,) = listed(page.read_text("utf-8"))
+    assert entry["facts"]["farthest"] == max(entry["facts"]["errors"]) > entry["facts"]["apart"] >= 0.0
+
+
 def test_draco_beside_it_has_as_many_bytes_and_needs_more_for_the_look():
     pytest.importorskip("DracoPy")
     mesh = torus()
@@ -507,7 +564,7 @@ def test_sequences_are_encoded_and_compared_frame_by_frame(tmp_path, capsys):
     stream = tmp_path / "sway.bsm"
     assert main(["view", str(tmp_path / "sway.npz"), "--save", str(page)]) == 0
     (entry,) = listed(page.read_text("utf-8"))
-    stream.write_bytes(base64.b64decode(entry["layers"][0]["data"]))
+    stream.write_bytes(base64.b64decode(entry["layers"][1]["data"]))
     capsys.readouterr()
     assert main(["compare", str(tmp_path / "sway.npz"), str(stream), "--json"]) == 0
     expected = [frame["max_error_relative"] for frame in json.loads(capsys.readouterr().out)["frames"]]

@@ -92,6 +92,27 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await state("complete");
     });
 
+    test("draws again after each of 20 lost contexts", async () => {
+        const canvas = page.locator("canvas");
+        const before = await canvas.screenshot();
+        for (let k = 0; k < 20; k++) {
+            await page.evaluate(async () => {
+                const canvas = document.querySelector("canvas")!;
+                const context = canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!;
+                const event = (type: string): Promise<unknown> => new Promise((keep) => canvas.addEventListener(type, keep, { once: true }));
+                const lost = event("webglcontextlost");
+                context.loseContext();
+                await lost;
+                const restored = event("webglcontextrestored");
+                await new Promise((keep) => setTimeout(keep));
+                context.restoreContext();
+                await restored;
+                await new Promise((keep) => requestAnimationFrame(() => requestAnimationFrame(keep)));
+            });
+            assert.ok(Math.abs(silhouette(await canvas.screenshot()).share - silhouette(before).share) < 0.01, `time ${k + 1}`);
+        }
+    });
+
     test("streams over a slow link, block by block", async () => {
         await page.getByLabel("Bandwidth, Mbit/s").fill(String((whole.length * 8) / 1e6 / 2));
         await page.getByRole("button", { name: "Stream again" }).click();

@@ -4,11 +4,13 @@ import argparse
 import itertools
 import json
 import webbrowser
+from dataclasses import replace
 from pathlib import Path
 from threading import Thread
 
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
+from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_limits_flag, adder, limits_of, within
 from bsm.console import Console, Progress
@@ -19,9 +21,10 @@ from bsm.files.motion.frames import Frames
 from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.sequence import open_sequence
+from bsm.files.stream import SequenceStream, decode_whole, peek_header
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.shards import is_tiles, open_tiles
-from bsm.viewer.contents import PRESETS, Content, alone, compared, made
+from bsm.viewer.contents import PRESETS, Content, alone, carried, compared, made
 from bsm.viewer.page import Growing, PageServer, Ranged, Tiled, page_with, site_with, written_to
 
 _NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o - | ..."
@@ -32,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     shown = "stream, - for a pipe, or folder of tiles. Meshes and sequences are encoded and compared. Without "
     add("inputs", "IN", f"{shown}inputs, opens an empty page; drop a mesh on it", nargs="*")
     add("--preset", "", "preset for meshes and sequences (default: balanced)", choices=PRESETS, default="balanced")
-    add("--original", "MESH", "mesh or sequence to compare the stream with")
+    add("--original", "FILE", "mesh, sequence or stream to compare the input with; the faces may differ")
     add("--follow", "", "keep reading files that are still being written")
     add_limits_flag(parser)
     add("--save", "PAGE.html", "write a page that contains the streams and needs no server")
@@ -84,6 +87,8 @@ def _opened(
         return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
     if args.follow or (path == "-" and not (args.save or args.static or args.original)):
         return _growing(name, path)
+    if args.original:
+        return _against(name, path, args)
     with about(path):
         source: MeshFile | Frames | None = open_sequence(path)
         if source is None:
@@ -91,13 +96,7 @@ def _opened(
             if data.startswith(MAGIC[: len(data)]):
                 if args.save or args.static:
                     inspect_stream(iter([data]), limits_of(args.limits))
-                if args.original is None:
-                    return alone(name, data)
-                with about(args.original):
-                    frames = open_sequence(args.original)
-                    original = frames or read_mesh(args.original).mesh
-                size = _size(args.original, original)
-                return compared(name, data, original, size=size, limits=limits_of(args.limits))
+                return alone(name, data)
             if path == "-":
                 raise FormatError(_NO_STREAM)
             source = read_mesh(path)
@@ -105,6 +104,36 @@ def _opened(
         content = made(name, _size(path, shown), source, args.preset, progress.stage)
     console.note(f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}")
     return content
+
+
+def _against(name: str, path: str, args: argparse.Namespace) -> Content:
+    """Compare a mesh, sequence or stream with another one, as they are."""
+    limits = limits_of(args.limits)
+    (before, original, size), (stream, shown, own) = (_side(it, limits) for it in (args.original, path))
+    with about(path):
+        content = compared(name, stream or carried(shown), original, size=size, limits=limits, before=before)
+    if stream:
+        return content
+    layer = replace(content.layers[1], title=Path(path).suffix[1:].upper() or "Other", size=own or 0)
+    return replace(content, layers=(content.layers[0], layer), facts={**content.facts, "draco": None})
+
+
+def _side(path: str, limits: Limits) -> tuple[bytes | None, TriangleMesh | Frames, int | None]:
+    """Return a mesh or sequence, its stream if it is one, and the size of its file."""
+    with about(path):
+        if frames := open_sequence(path):
+            return None, frames, _size(path, frames)
+        data = b"".join(read_chunks(path))
+        if not data.startswith(MAGIC[: len(data)]):
+            if path == "-":
+                raise FormatError(_NO_STREAM)
+            return None, (mesh := read_mesh(path).mesh), _size(path, mesh)
+        header, chunks = peek_header(iter([data]))
+        if not header or not header.gop_frames:
+            return data, decode_whole(chunks, limits), len(data)
+        decoder = SequenceStream(chunks, limits=limits)
+        moving = [frame for _, frame in decoder.frames()]
+        return data, Frames(decoder.faces, len(moving), iter(moving)), len(data)
 
 
 def _size(path: str, source: TriangleMesh | Frames) -> int | None:

@@ -20,8 +20,9 @@ import numpy.typing as npt
 from bsm.api import encode, encode_sequence
 from bsm.bitstream.errors import BsmError, BsmWarning, DependencyError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
-from bsm.codec.geometry.metrics import compare
+from bsm.codec.geometry.metrics import compare, distances_to_surface, farthest_from_surface, surface_distance
 from bsm.comparison import in_order_of, pair, paired_frames
 from bsm.exits import worded
 from bsm.files.formats.polygons import MeshFile
@@ -35,6 +36,8 @@ DRACO_BITS = range(4, 25)
 PRESETS = ("small", "balanced", "fine", "near-lossless")
 _EVERY = 0.1  # seconds between two reports of a process
 _ENCODING = 0.7  # of the time that a mesh takes
+_FINE = 1e-4  # step of an original sequence that is drawn, of the diagonal
+_MOST_COLORS = 1 << 23  # errors of vertices in frames that a page gets
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +65,15 @@ def alone(name: str, stream: bytes) -> Content:
     return Content(name, (Layer("BSM", "", len(stream), stream),))
 
 
+def carried(source: TriangleMesh | Frames) -> bytes:
+    """Return a mesh as a lossless stream, or a sequence as one that is nearly exact."""
+    if isinstance(source, TriangleMesh):
+        return encode(source, preset="lossless")
+    frames = np.array(list(source.frames))
+    object.__setattr__(source, "frames", iter(frames))  # they are read again
+    return encode_sequence(frames, source.faces, frame_rate=source.frame_rate, metadata=source.metadata, step=_FINE)
+
+
 def compared(
     name: str,
     stream: bytes,
@@ -70,32 +82,51 @@ def compared(
     size: int | None = None,
     preset: str | None = None,
     limits: Limits = DEFAULT_LIMITS,
+    before: bytes | None = None,
 ) -> Content:
-    """Return a stream with its original, a file of `size` bytes; for meshes also Draco's file if DracoPy is there."""
+    """Return a stream with its original, a file of `size` bytes, and `before` as a stream. Vertices are compared where
+    the faces agree, and surfaces where they do not. For meshes of the same faces, also show Draco's file if DracoPy is
+    there."""
     header, _ = peek_header(Input(stream).chunks())
     if bool(header and header.gop_frames) != isinstance(original, Frames):
         raise MeshError(f"{name} and its original must both be sequences, or both meshes")
     if isinstance(original, Frames):
-        facts = {"preset": preset, **_over_time(name, SequenceStream(Input(stream).chunks(), limits=limits), original)}
-        return Content(name, (Layer("BSM", preset or "", len(stream), stream),), 0, facts)
+        frames = np.array(list(original.frames))
+        decoder = SequenceStream(Input(stream).chunks(), limits=limits)
+        found, off = _over_time(name, decoder, frames, original.faces)
+        before = before or carried(replace(original, frames=iter(frames)))
+        first = Layer("Original", "" if size else "as plain arrays", size or 12 * frames.size // 3, before)
+        second = Layer("BSM", preset or "", len(stream), stream, off)
+        return Content(name, (first, second), 1, {"preset": preset} | found)
     from bsm.codec.look.measure import look
     from bsm.codec.static.options import PRESETS as ALL
 
     decoded = decode_whole(Input(stream).chunks(), limits)
     used, kept = decoded.without_isolated_vertices()
-    paired = pair(original.bare.without_isolated_vertices()[0], used)
-    source = paired.original
+    source = original.bare.without_isolated_vertices()[0]
     plain = 12 * (len(original.positions) + len(original.faces))
-    first = Layer("Original", "" if size else "as plain arrays", size or plain, encode(original, preset="lossless"))
+    first = Layer("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
     off = np.full(len(decoded.positions), np.nan, np.float32)
-    off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
-    errors = compare(source.positions, paired.positions, source.faces)
-    diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
-    facts = {"preset": preset, "diagonal": diagonal, "angle": errors.angle_deg, "farthest": errors.max_error_relative}
+    facts: dict[str, Any] = {"preset": preset, "before": [len(original.positions), len(original.faces)]}
+    try:
+        paired = pair(source, used)
+    except MeshError:
+        apart = surface_distance(source.positions, source.faces, used.positions, used.faces)
+        diagonal = source.diagonal or 1.0
+        facts |= {"apart": apart.mean / diagonal, "farthest": apart.hausdorff / diagonal}
+        off[kept] = distances_to_surface(used.positions, source.positions, source.faces)
+        alike = False
+    else:
+        source, alike = paired.original, True
+        off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
+        errors = compare(source.positions, paired.positions, source.faces)
+        diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
+        facts |= {"angle": errors.angle_deg, "farthest": errors.max_error_relative}
+    facts["diagonal"] = diagonal
     rival: tuple[Layer, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
-        if not original.attributes:
+        if alike and not original.attributes:
             rival, facts["draco"] = _rival(source, len(stream), facts["look"])
     contract = ALL[preset].contract if preset else None
     if contract is not None:
@@ -104,15 +135,31 @@ def compared(
     return Content(name, (first, Layer("BSM", preset or "", len(stream), stream, off), *rival), 1, facts)
 
 
-def _over_time(name: str, decoder: SequenceStream, original: Frames) -> dict[str, Any]:
-    """Return the largest error of each frame, as a fraction of the first one's diagonal."""
+def _over_time(
+    name: str, decoder: SequenceStream, before: Positions, faces: Faces
+) -> tuple[dict[str, Any], npt.NDArray[np.float32] | None]:
+    """Return the largest error of each frame, as a fraction of the first one's diagonal, and that of each vertex."""
     decoded = np.array([frame for _, frame in decoder.frames()])
-    if len(decoded) != original.count:
-        raise MeshError(f"{name} has {len(decoded)} frames, and its original has {original.count}")
-    first, second, _ = paired_frames(np.array(list(original.frames)), original.faces, decoded, decoder.faces)
-    diagonal = float(np.linalg.norm(extent_of(first[0]))) or 1.0
-    errors = (np.linalg.norm(first - second, axis=2).max(axis=1) / diagonal).tolist()
-    return {"diagonal": diagonal, "farthest": max(errors), "errors": errors}
+    if len(decoded) != len(before):
+        raise MeshError(f"{name} has {len(decoded)} frames, and its original has {len(before)}")
+    off = np.full(decoded.shape[:2], np.nan, np.float32)
+    facts: dict[str, Any] = {"diagonal": float(np.linalg.norm(extent_of(before[0]))) or 1.0}
+    kept = np.unique(decoder.faces)
+    try:
+        first, second, _ = paired_frames(before, faces, decoded, decoder.faces)
+        errors = np.linalg.norm(first - second, axis=2).max(axis=1) / facts["diagonal"]
+        with suppress(MeshError):  # vertices that were merged have no error of their own
+            ours, theirs, _ = paired_frames(decoded, decoder.faces, before, faces)
+            off[:, kept] = np.linalg.norm(ours - theirs, axis=2)
+    except MeshError:
+        for frame, (now, then) in enumerate(zip(decoded, before, strict=True)):
+            off[frame, kept] = distances_to_surface(now[kept], then, faces)
+        used = np.unique(faces)
+        back = [farthest_from_surface(t[used], d, decoder.faces) for d, t in zip(decoded, before, strict=True)]
+        errors = np.maximum(np.nanmax(off, axis=1), back) / facts["diagonal"]
+        facts["apart"] = float(np.nanmean(off)) / facts["diagonal"]
+    facts |= {"farthest": float(errors.max()), "errors": errors.tolist()}
+    return facts, off if off.size <= _MOST_COLORS and np.isfinite(off).any() else None
 
 
 def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Layer], dict[str, int] | None]:

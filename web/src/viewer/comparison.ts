@@ -20,6 +20,8 @@ export class Comparison {
     private content: Content = { name: "", main: 0, layers: [], facts: {} };
     private geometries: (BSMGeometry | undefined)[] = [];
     private offs: (Float32Array | undefined)[] = [];
+    /** The distance that has the last color, once it is known. */
+    private top?: number;
     private readonly dressed = new Set<number>();
     private readonly scheme: HTMLSelectElement;
 
@@ -36,7 +38,7 @@ export class Comparison {
     open(content: Content): void {
         const { form } = this;
         const { layers, main } = (this.content = content);
-        [this.geometries, this.offs, this.accompanied] = [[], [], false];
+        [this.geometries, this.offs, this.accompanied, this.top] = [[], [], false, undefined];
         this.dressed.clear();
         delete form.root.dataset.layers;
         this.stage.clear();
@@ -81,6 +83,7 @@ export class Comparison {
             const geometry = i === main ? undefined : await wholeOf(pool, await bytesOf(layer));
             if (!mine()) return;
             offs[i] = off;
+            this.top = undefined;
             if (off) this.allow("error", true);
             this.stale = true;
             if (!geometry) continue;
@@ -99,12 +102,18 @@ export class Comparison {
         form.root.dataset.layers = String(layers.length);
     }
 
+    /** Have all sequences show a frame. */
+    seek(frame: number): void {
+        for (const geometry of this.geometries) if (geometry?.frames.length) geometry.showFrame(Math.min(frame, geometry.frames.length - 1));
+    }
+
     /** Compare a stream with its original, where nobody else has done so. */
     private measure(): void {
         const { content: { facts, main }, geometries: { 0: original, [main]: stream }, offs } = this;
-        if (main === 0 || facts.diagonal !== undefined || !original || !stream) return;
+        if (main === 0 || facts.diagonal !== undefined || stream?.frames.length || !original || !stream) return;
         offs[main] = distances(stream, original);
         if (!offs[main]) return;
+        this.top = undefined;
         facts.diagonal = original.boundingBox!.getSize(new Vector3()).length() || 1;
         facts.farthest = offs[main].reduce((most, far) => Math.max(most, far), 0) / facts.diagonal;
         this.allow("error", true);
@@ -141,6 +150,8 @@ export class Comparison {
     /** Fit all to the size of the page, and put captions below their sides. */
     place(): void {
         const { stage, form } = this;
+        const dock = form.root.querySelector<HTMLElement>(".bsm-dock")!;
+        form.root.style.setProperty("--dock", `${form.root.clientHeight - dock.offsetTop}px`);
         stage.fit();
         const [split, seam, { clientWidth }] = [stage.mode === "split", stage.seam, form.root];
         const places = split ? [seam / 2, (seam + clientWidth) / 2] : [seam - 14, seam + 14];
@@ -162,15 +173,17 @@ export class Comparison {
         const scheme = content.tiles === undefined ? (this.scheme.value as Scheme) : "plain";
         const own = scheme === "own";
         const { diagonal = 1 } = content.facts;
-        const top = diagonal * topOf(offs[content.main] ?? [0], diagonal);
+        const top = (this.top ??= diagonal * topOf(offs[content.main] ?? [0], diagonal));
         this.stale = false;
         geometries.forEach((geometry, i) => {
             if (!geometry || (i === content.main && !this.shown)) return;
-            const colors = colorsOf(geometry, scheme, offs[i], top);
+            const vertices = geometry.header?.vertices ?? 0; // of each frame
+            const off = offs[i]?.subarray(...(geometry.frames.length > 1 ? [geometry.shown * vertices, (geometry.shown + 1) * vertices] : []));
+            const colors = colorsOf(geometry, scheme, off, top);
             stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
         });
         form.part("scale").hidden = !LEGENDS[scheme];
-        form.say("legend", LEGENDS[scheme] ?? "");
+        form.say("legend", `${LEGENDS[scheme] ?? ""}${scheme === "error" && content.facts.apart !== undefined ? "'s surface" : ""}`);
         const unit = geometries[content.main]?.metadata.get("unit");
         const tick = (share: number): HTMLElement => {
             const far = `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`;

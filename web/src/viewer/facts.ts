@@ -23,6 +23,10 @@ export interface Content {
         promised?: { look?: number; farthest?: number };
         look?: number;
         farthest?: number;
+        /** Of two surfaces with other faces: their mean distance; `farthest` is the largest one then, not that of vertices. */
+        apart?: number;
+        /** Vertices and faces of the original. */
+        before?: [number, number];
         /** The largest error of each frame of a sequence. */
         errors?: number[];
         angle?: number;
@@ -79,16 +83,18 @@ export function factsOf({ layers, main, facts }: Content, length: number, frames
     const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
     const plain = main > 0 && !facts.less ? layers[0].size : undefined;
     const ratio = (plain ?? 0) / Math.max(size, 1);
-    const { look, farthest, angle, seconds, promised = {}, draco, notes = [] } = facts;
+    const { look, farthest, apart, before, angle, seconds, promised = {}, draco, notes = [] } = facts;
     const looks = look === undefined ? "" : promised.look ? `${look.toFixed(2)} of ${promised.look}` : look.toFixed(2);
     const rows: Row[] = notes.map((note) => ["Note", note]);
     if (look !== undefined) rows.push(["Look distance", looks, `${promised.look ? "promised; " : ""}at 1, both look the same`]);
-    if (farthest !== undefined) rows.push(["Largest vertex error", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
+    if (farthest !== undefined) rows.push([apart === undefined ? "Largest vertex error" : "Largest surface distance", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
+    if (apart !== undefined) rows.push(["Mean surface distance", percent(apart), "the faces differ"]);
     if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
     if (draco) rows.push(["Draco at the same look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
     if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
     if (took !== undefined) rows.push(["Decoded in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
+    if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     const words = look === undefined ? "" : `${verdictOf(look)} (${looks})`;
     return { plain, size, claim: [words, size > 0 && ratio > 1 ? `${times(ratio)} times smaller` : ""].filter(Boolean).join(", "), rows };

@@ -262,6 +262,7 @@ export class View {
         stage.step();
         if (this.sequence.step(now, over, this.missed)) {
             if (!over && geometry.frames.length >= 2 * this.fitted) this.fill();
+            meshes.seek(geometry.shown);
             if (this.track) stage.follow(this.track.at(geometry.shown));
             if (over) stage.shadow(geometry);
             meshes.stale = true;
@@ -343,7 +344,7 @@ export class View {
         const mine = (): boolean => this.content === content && !this.closed;
         meshes.accompanied = true;
         await meshes.accompany(pool, mine);
-        if (mine() && content.layers.length > 1 && arrival.whole) {
+        if (mine() && content.layers.length > 1 && arrival.whole && this.geometry.frames.length === 0) {
             // Once more without drawing, to say how long decoding alone takes.
             const begin = performance.now();
             const geometry = await wholeOf(pool, arrival.bytes.slice());
