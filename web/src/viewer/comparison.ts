@@ -152,11 +152,11 @@ export class Comparison {
         const { stage, form } = this;
         const dock = form.root.querySelector<HTMLElement>(".bsm-dock")!;
         form.root.style.setProperty("--dock", `${form.root.clientHeight - dock.offsetTop}px`);
-        stage.fit();
+        ["left", "right"].forEach((part, side) => form.say(part, stage.mode === "one" ? "" : this.captions[side]));
+        stage.fit(); // beside captions
         const [split, seam, { clientWidth }] = [stage.mode === "split", stage.seam, form.root];
         const places = split ? [seam / 2, (seam + clientWidth) / 2] : [seam - 14, seam + 14];
         ["left", "right"].forEach((part, side) => {
-            form.say(part, stage.mode === "one" ? "" : this.captions[side]);
             form.part(part).style.left = `${places[side]}px`;
             form.part(part).style.setProperty("--shift", split ? "-50%" : side === 0 ? "-100%" : "0%");
         });

@@ -86,7 +86,7 @@ export class View {
         };
         this.upload = new Upload(this.form, show, encode);
         this.listen();
-        for (const part of [root, ...root.querySelectorAll(".bsm-card, .bsm-dock")]) this.watch.observe(part);
+        for (const part of [root, ...root.querySelectorAll(".bsm-card, .bsm-dock, .bsm-scale")]) this.watch.observe(part);
         const go = (now: number): void => {
             if (this.closed) return;
             this.step(now);
