@@ -30,7 +30,7 @@ describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `
             assert.ok(await page.getByText("nothing leaves it").isHidden(), "the card that asks for a mesh hides the progress");
             await page.waitForFunction(() => Number(document.body.dataset.layers) >= 2, undefined, { timeout: PATIENCE });
             assert.equal(await page.locator("h1").textContent(), "ball.ply");
-            assert.match(await page.locator("[data-part=claim]").innerText(), /^\d[\d.]* times smaller, look [\d.]+ of 1$/);
+            assert.match(await page.locator("[data-part=claim]").innerText(), /^Looks the same \([\d.]+ of 1\), [\d.]+ times smaller$/);
             assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
             for (const stage of ["sending$", ": (?!sending)"]) {
                 await page.evaluate((stage) => {
