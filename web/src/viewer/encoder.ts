@@ -1,5 +1,5 @@
 /** A thread of a page without a server: it reads a mesh file with the loaders of three.js, and encodes it. */
-import { type BufferAttribute, BufferGeometry, Color, type InstancedMesh, type InterleavedBufferAttribute, type Mesh, MeshBasicMaterial, type Object3D, type SkinnedMesh } from "three";
+import { BufferAttribute, BufferGeometry, Color, type InstancedMesh, type InterleavedBufferAttribute, type Mesh, MeshBasicMaterial, type Object3D, type SkinnedMesh } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
@@ -34,7 +34,15 @@ async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>): Prom
         const header = text(bytes.slice(0, 1 << 16)).split("end_header")[0];
         const faces = Number(/^element face (\d+)/m.exec(header)?.[1] ?? 0);
         for (const [, name] of header.matchAll(/^property (?:list \w+ \w+|\w+) (\w+)/gm)) if (!PLY.test(name)) lost.add(name);
-        const geometry = new PLYLoader().parse(bytes);
+        const loader = new PLYLoader();
+        const fine = /^property (uchar|uint8) red$/m.test(header); // the loader would round these as linear numbers
+        if (fine) loader.setCustomPropertyNameMapping({ bytes: ["red", "green", "blue"] });
+        const geometry = loader.parse(bytes);
+        if (fine) {
+            const [values, color] = [Float32Array.from(geometry.attributes.bytes.array, (value) => value / 255), new Color()];
+            for (let i = 0; i < values.length; i += 3) color.fromArray(values, i).convertSRGBToLinear().toArray(values, i);
+            geometry.setAttribute("color", new BufferAttribute(values, 3)).deleteAttribute("bytes");
+        }
         if ((geometry.index?.count ?? 0) / 3 < faces) throw new Error("It has faces of more than four corners, which this page does not read.");
         return geometry.index ? geometry : new BufferGeometry(); // points
     }
