@@ -35,16 +35,16 @@ def basis(study: Study) -> Iterator[Row]:
     for role, segments in study.some(BASES.items()):
         model = study.model(role)
         models.append(model)
-        options = paper_options(block_size=model.block(segments), power=2)
+        options = partial(paper_options, block_size=model.block(segments), power=2)
         # METIS finds other parts for another order of vertices: those of the stream are of the order of coding.
-        coded = Encoder(model.mesh, options).mesh
+        coded = Encoder(model.mesh, options()).mesh
         cut = Cut.of(replace(model, clean=coded.positions, faces=coded.faces), segments, max(KEPT))
         in_file = Cut.of(model, segments, max(KEPT))
         for keep in KEPT:
             width = round(keep * cut.size)
             level = cut.decibels([u[:, :width] for u in cut.exact], bits=BITS)
             above = [cut.decibels(cut.chain(width, power)[0], bits=BITS) - level for power in (1, 2)]
-            stream = measure(Spectral(replace(options, coefficients=width)), model.mesh, model.reference)
+            stream = measure(Spectral(options(coefficients=width)), model.mesh, model.reference)
             here = level + above[1]
             others = in_file.decibels(in_file.chain(round(keep * in_file.size), 2)[0], bits=BITS)
             rate = cut.rate(sum(min(width, block.size) for block in cut.blocks))
