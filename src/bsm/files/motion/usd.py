@@ -249,6 +249,7 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
 
 PER_PART, PER_VALUE = 4000.0, 24.0  # bytes of a mesh or an instance, and of each number of its attributes
 MOST_PRIMS, MOST_NAMED = 1 << 16, 12
+PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
 _OPENING, _CLOSING = ([ord(bracket) for bracket in brackets] for brackets in ("([{", ")]}"))
 _PIECE = 1 << 18
@@ -485,29 +486,31 @@ def _quiet(pxr: Any) -> Iterator[None]:
         trap.Clear()
 
 
-def _require_room(path: str) -> None:
+def _require_room(path: str, limits: Limits) -> None:
     """Look at stages of text before usd-core does, whose stack deep nesting overflows."""
     if not zipfile.is_zipfile(path):
         with open(path, "rb") as file:
-            _require_shallow(file)
+            _require_shallow(file, os.path.getsize(path), limits)
         return
     with as_format_error("package"), zipfile.ZipFile(path) as package:
         for entry in package.infolist():
             if entry.compress_type != zipfile.ZIP_STORED:
                 raise FormatError(f"{entry.filename} in this package is compressed, which usdz does not allow")
             with package.open(entry) as packed:
-                _require_shallow(packed)
+                _require_shallow(packed, os.path.getsize(path), limits)
 
 
-def _require_shallow(file: IO[bytes]) -> None:
+def _require_shallow(file: IO[bytes], received: int, limits: Limits) -> None:
     if not file.read(5).startswith(b"#usda"):
         return
-    depth = deepest = 0
+    commas = depth = deepest = 0
     while piece := file.read(_PIECE):
         codes = np.frombuffer(piece, np.uint8)
+        commas += int((codes == ord(",")).sum())
         opened = np.isin(codes, _OPENING).astype(np.int64) - np.isin(codes, _CLOSING)
         depths = depth + np.cumsum(opened)
         depth, deepest = int(depths[-1]), max(deepest, int(depths.max()))
+    limits.check_memory(PER_COMMA * commas, 0, received)
     if deepest > MOST_NESTED:
         raise LimitError(f"the stage is nested {deepest} deep; the limit is {MOST_NESTED}")
 
@@ -516,7 +519,7 @@ class _Stage:
     def __init__(self, path: str, limits: Limits, *, runs: bool = False) -> None:
         self._limits, self._size, self._runs = limits, os.path.getsize(path), runs
         self.pxr = pxr = import_usd()
-        _require_room(path)
+        _require_room(path, limits)
         try:
             with _quiet(pxr):
                 self.stage = pxr.Usd.Stage.Open(path)
