@@ -139,7 +139,7 @@ export const KERNEL_BUILDS = {
     "built/kernels-scalar.wasm": { vectors: false },
     "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
     "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec|engine\/(sequence|gop|parts|frames|layer|chain|dictionaries|assembly|zstd|split|whole|changes)\.c|engine\/wasm\/(page|light)\.c/, lacks: "!header->on_grid" },
+    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec|fields\/twins|engine\/(sequence|gop|parts|frames|layer|chain|dictionaries|assembly|zstd|split|whole|changes)\.c|engine\/wasm\/(page|light)\.c/, lacks: "!header->on_grid || header->congruence" },
     "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec/, fast: /conquest/, light: true },
 };
 

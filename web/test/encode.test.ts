@@ -125,5 +125,5 @@ describe("encoding", () => {
         assert.equal(run(join(folder, "none.ply"), target).status, 1);
     });
 
-    test("the download is small", () => assert.ok(brotliCompressSync(wasm).length <= 82_000));
+    test("the download is small", () => assert.ok(brotliCompressSync(wasm).length <= 80_000));
 });
