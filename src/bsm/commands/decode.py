@@ -204,7 +204,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     lost = [attribute.name for attribute in stream.attributes] if args.permutation else shared.left_out
     if lost:
         because = " with --permutation" if args.permutation else ""
-        console.note(f"{args.input}: left out: {', '.join(lost)}, which {kind} does not hold{because}")
+        console.note(f"{args.input}: not written to {kind}{because}: {', '.join(lost)}")
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:

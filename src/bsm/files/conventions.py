@@ -3,7 +3,7 @@
 The numbers of a mesh are right-handed coordinates, in the unit and with the axis that its metadata name ("unit",
 "up"), colors in sRGB with an opacity from 0 to 1, and texture coordinates from the bottom. Materials keep the words of
 their file: colors are sRGB under the words of MTL, and linear under those of glTF and USD, which have the alphaMode as
-well. "frame_start", "frame_step" and "frame_times" say when the frames of a sequence are shown.
+well.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -16,6 +16,11 @@ import numpy.typing as npt
 from bsm.codec.geometry.mesh import Metadata
 from bsm.lengths import metres
 
+START, STEP, TIMES, RATE = "frame_start", "frame_step", "frame_times", "frame_rate"
+"""Metadata of a sequence: the number of the first frame, at the frame rate; frames from one sample to the next, where
+that is not one; uneven times in seconds, as text; and frames per second."""
+_NUMBERED, _TIMED = frozenset((START, STEP)), frozenset((START, STEP, TIMES, RATE))
+TIME_VALUE = "TimeValue"  # seconds, in the field data of a VTP
 Array = npt.NDArray[Any]
 Doubles = npt.NDArray[np.float64]
 
@@ -29,19 +34,18 @@ class Convention:
     colors: str = "sRGB"
     origin: str = "bottom"  # of texture coordinates
     opacity: str = ""
-    times: str = ""
+    times: frozenset[str] = _NUMBERED  # metadata that frames say by their times, or by the numbers in their names
 
 
 FORMATS: Mapping[str, Convention] = {
-    "glb": Convention("meters", "y", "linear", "top", "alphaMode", "seconds"),
-    "usd": Convention("named", "named", "linear", "bottom", "opacity", "codes"),
+    "glb": Convention("meters", "y", "linear", "top", "alphaMode", _TIMED),
+    "usd": Convention("named", "named", "linear", "bottom", "opacity", _TIMED),
     "3mf": Convention("named", "z"),
     "dae": Convention("named", "named", opacity="transparent"),
     "obj": Convention(opacity="d"),
-    "vtp": Convention(times="TimeValue"),
-    "mdd": Convention(times="seconds"),
-    "pc2": Convention(times="codes"),
-    **dict.fromkeys(("ply", "off", "stl", "npz"), Convention()),
+    **dict.fromkeys(("vtp", "mdd"), Convention(times=_TIMED)),
+    **dict.fromkeys(("npz", "npy"), Convention(times=frozenset())),
+    **dict.fromkeys(("ply", "off", "stl", "om", "pc2"), Convention()),
     "tileset": Convention("meters", "z", "linear", "top", "alphaMode"),
 }
 _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}

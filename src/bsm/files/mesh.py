@@ -33,6 +33,7 @@ MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
 WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "om", "ply", "stl", "vtp")  # what we write, .om with openmesh
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
+_CONTENTS = {"obj": "an OBJ", "off": "", "ply": "a PLY"}  # by their first bytes
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
 
@@ -105,7 +106,10 @@ def read_cut(
     path, name = (given.name if given.is_file else None), given.name
     folder = Path(path).parent if path else None
     head = plain_text(given.peek(_HEAD))
-    require_counts_of_head(file_format or format_of_name(name) or format_of_bytes(head), head, limits)
+    suffix = file_format or format_of_name(name)
+    if suffix in _CONTENTS and (other := by_name(_ROOMS["stl"], "other_kind")(head)) not in ("", _CONTENTS[suffix]):
+        raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
+    require_counts_of_head(suffix or format_of_bytes(head), head, limits)
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)

@@ -21,6 +21,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.runs import is_empty
+from bsm.files.conventions import FORMATS, RATE, TIMES
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.mesh import (
     GLTF,
@@ -34,8 +35,17 @@ from bsm.files.mesh import (
     written_mesh,
 )
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
-from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
-from bsm.files.motion.frames import START, STEP, TIMES, Frames, FrameWriter, Shared, Wanted
+from bsm.files.motion.folder import (
+    LISTS,
+    frame_files,
+    in_order,
+    is_numbered,
+    listed,
+    names_many,
+    read_files,
+    write_files,
+)
+from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
 
@@ -43,7 +53,14 @@ ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS)  # forms of a whole sequence in one file that are read
+SEQUENCES_READ = (
+    "npz",
+    "npy",
+    *CACHES,
+    *GLTF,
+    *USD_FORMATS,
+    *LISTS,
+)  # forms of a whole sequence in one file that are read
 
 
 def open_sequence(
@@ -57,13 +74,15 @@ def open_sequence(
     """The sequence that `source` names, or None if it is not one but perhaps a mesh; `isolated` as in `read_mesh`."""
     if is_pipe(source) and file_format != "npy":
         return None
-    given = as_input(source)
+    given, asked = as_input(source), wanted or Wanted()
     if not is_url(given.name) and names_many(given.name):
-        runs = wanted is not None and wanted.runs
-        return open_frames(frame_files(given.name), file_format, limits, runs=runs, isolated=isolated)
+        return open_frames(frame_files(given.name), file_format, limits, asked, isolated=isolated)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
+    if kind in LISTS and given.is_file:
+        names, times = listed(given.name, kind, limits)
+        return open_frames(names, None, limits, replace(asked, times=times), isolated=isolated)
     moves = kind in (*CACHES, *USD_FORMATS) or (kind in GLTF and wanted is not None)
     if moves and not given.is_file:
         return None
@@ -79,10 +98,10 @@ def open_sequence(
         apart: Frames | None = _apart(given, file_format, limits, kind, wanted)
         return apart
     if kind in CACHES:
-        return read_cache(given.name, kind, wanted or Wanted(), limits)
+        return read_cache(given.name, kind, asked, limits)
     if moves:
         room = ("bsm.gltf.scene", "read_gltf") if kind in GLTF else ("bsm.files.motion.usd", "read_usd")
-        found: Frames | None = by_name(*room)(given.name, wanted or Wanted(), limits)
+        found: Frames | None = by_name(*room)(given.name, asked, limits)
         return found
     return read_pipe(given, limits) if piped else read_archive(given, limits)
 
@@ -91,17 +110,19 @@ def open_frames(
     names: Sequence[str],
     file_format: str | None = None,
     limits: Limits = DEFAULT_LIMITS,
+    wanted: Wanted | None = None,
     *,
-    runs: bool = False,
     isolated: bool | None = None,
 ) -> Frames:
-    """The sequence of these mesh files, in the order of the numbers in their names; errors as of `open_sequence`."""
-    ordered = in_order(names)
+    """The sequence of these mesh files, in the order of their times, or of the numbers in their names; errors as of
+    `open_sequence`."""
+    asked = wanted or Wanted()
+    ordered = list(names) if asked.times else in_order(names)
     kinds = [kind_of(Input(name), file_format) for name in ordered]
     if is_apart(kinds, limits, isolated):
-        apart: Frames = _apart(list(map(os.path.abspath, ordered)), file_format, limits, kinds[0], Wanted(runs=runs))
+        apart: Frames = _apart(list(map(os.path.abspath, ordered)), file_format, limits, kinds[0], asked)
         return apart
-    return read_files(ordered, file_format, limits, runs=runs)
+    return read_files(ordered, file_format, limits, asked)
 
 
 def _apart(*given: Any) -> Any:
@@ -121,21 +142,27 @@ def sequence_writer(
 ) -> Iterator[FrameWriter]:
     """Open a sequence for writing; yields what takes frame after frame."""
     shared = shared or Shared()
+    held = FORMATS["usd" if kind in USD_FORMATS else kind].times
     if is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
         if is_url(path):
             raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
+        numbered = shared.numbered
+        frames = replace(shared, held=held if kind == "vtp" or (numbered and kind != "glb") else frozenset())
         with write_files(path, kind, overwrite=overwrite) as write_mesh:
             present, fresh = faces, True  # materials and images lie beside the first frame alone
+            numbers = count_from(0)
 
             def take(frame: Positions, faces: Faces | None = None) -> None:
                 nonlocal present, fresh
-                present = present if faces is None else faces
-                mesh = shared.mesh(frame, present, with_metadata=fresh)
-                shared.loses(write_mesh(mesh))
+                present, number = present if faces is None else faces, next(numbers)
+                mesh = frames.mesh(frame, present, with_metadata=fresh)
                 fresh = fresh and is_empty(mesh.attributes)
+                mesh = frames.timed(mesh, number) if kind == "vtp" else mesh
+                frames.loses(write_mesh(mesh, int(frames.code(number)) if numbered else number))
 
             yield take
         return
+    shared = replace(shared, held=held)
     if kind in CACHES:
         with _cache_writer(path, kind, faces, count, overwrite, follow, shared) as write_run:
             yield write_run
@@ -194,9 +221,7 @@ def _cache_writer(
             ):
                 for _ in range(taken - begun):
                     write(np.frombuffer(spool.read(mesh.positions.nbytes), np.float64).reshape(-1, 3))
-            held = {START, STEP} if kind == "pc2" else {START, STEP, TIMES, "frame_rate"}
-            shared.loses(name for name in (TIMES, "frame_rate") if name in mesh.metadata and name not in held)
-            mesh = replace(mesh, metadata={name: value for name, value in mesh.metadata.items() if name not in held})
+            shared.loses(name for name in (TIMES, RATE) if name in mesh.metadata)
             if not fits:
                 shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False))
             spool.seek(0)

@@ -281,7 +281,7 @@ def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
     # Not at the top: they import this module.
     mesh, sequence = (importlib.import_module(f"bsm.files.{name}") for name in ("mesh", "sequence"))
     if names := asked.get("names"):
-        frames: Frames = sequence.open_frames(names, *given, runs=bool(wanted and wanted.runs), isolated=False)
+        frames: Frames = sequence.open_frames(names, *given, wanted, isolated=False)
         return frames
     source: Any = asked["path"]
     if source is None:

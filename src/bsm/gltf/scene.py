@@ -17,7 +17,7 @@ from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files import conventions
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
-from bsm.files.motion.frames import LIKELY_RATES, START, Frames, Wanted, between, painted_like, rate_of_times
+from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, as_format_error, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, read_document, triangles_of
@@ -524,6 +524,7 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
         )
 
 
+_MOVED = ("POSITION", "NORMAL", "TANGENT", "COLOR_0")  # by morph targets
 _OF_TEXTURES = ("texCoord", "scale", "strength")
 _SAMPLING = {"wrapS": 10497, "wrapT": 10497, "magFilter": 9729}  # repeated, and smooth
 _READ = (WEBP, INSTANCING, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
@@ -541,7 +542,10 @@ def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
     for primitive in document.primitives():
         skinned = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
         found += [name for name in primitive["attributes"] if not is_read(name) and not name.startswith(skinned or "?")]
-        found += ["morph targets"] if still and primitive.get("targets") else []
+        moved = dict.fromkeys(chain.from_iterable(primitive.get("targets", ())))
+        found += (
+            (["morph targets"] if moved else []) if still else [f"how {n} changes" for n in moved if n not in _MOVED]
+        )
         found += ["extras of primitives"] if primitive.get("extras") else []
     for material in document.items("materials"):
         given = {**material, **material.get("pbrMetallicRoughness", {})}
@@ -563,7 +567,8 @@ def _frames(document: Document, wanted: Wanted, limits: Limits) -> Frames:
     scene = Scene(document, animation, limits)
     if not scene.moves:
         raise FormatError(
-            f"animation {number} of this glTF moves nothing that is seen; leave out --animation for the mesh"
+            f"animation {number} of this glTF moves nothing that is read"
+            f"{''.join(f' ({note})' for note in dict.fromkeys(scene.notes))}; leave out --animation for the mesh"
         )
     keys = scene.keys
     rate = wanted.rate or _rate(keys)
@@ -581,7 +586,9 @@ def _frames(document: Document, wanted: Wanted, limits: Limits) -> Frames:
     notes += ["left out, for they move: normals"] if moving else []
     notes += [f"left out: {', '.join(unread)}"] if (unread := _unread(document, still=False)) else []
     notes += between("key times", (keys - keys[0]) * rate, rate)
-    mesh = replace(still.mesh, metadata={**still.mesh.metadata, **({START: keys[0] * rate} if keys[0] else {})})
+    start = {conventions.START: round(float(keys[0]) * rate, 3)} if keys[0] else {}
+    known = {n: v for n, v in still.mesh.metadata.items() if n not in conventions.FORMATS["glb"].times}
+    mesh = replace(still.mesh, metadata=known | start)
     frames = map(scene.at, times.tolist())
     shared = mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata
     meshes = (painted_like(mesh, _painted(scene, mesh, time)) for time in times.tolist())

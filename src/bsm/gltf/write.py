@@ -28,6 +28,7 @@ from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
+_LATEST = 1 << 14  # number of a frame whose time is exact enough in single precision
 TRANSFORM = "KHR_texture_transform"
 _SORTING = ("part", "material")  # attributes of faces that only sort these
 _HALF = 0.5**0.5
@@ -123,7 +124,9 @@ class _Scene(Growing):
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
         cut_out = {"map_d"} if formats.is_cut_out(words) else set()
-        said = (name for name in words if name in cut_out or formats.gltf_values({name: words[name]}))
+        unsaid = set() if "metallicRoughnessTexture" in surface else {"map_Pr"}
+        cut_out |= {"map_Pm"} if words.get("map_Pm") == words.get("map_Pr") else set()
+        said = (n for n in words if n in cut_out or (n not in unsaid and formats.gltf_values({n: words[n]})))
         written |= {f"material.{number}.{name}" for name in said}
         return self.add("materials", found) if found else None
 
@@ -246,7 +249,10 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
         yield write
         shared.loses(moving.left_out)
         codes = np.array([shared.code(number) for number in range(moving.frames)])
-        moving.animate((codes - codes[0]) / (shared.frame_rate or USUAL_RATE))
+        if not 0 <= codes[0] <= codes[-1] < _LATEST:
+            codes -= codes[0]
+            shared.loses(["the number of the first frame"])
+        moving.animate(codes / (shared.frame_rate or USUAL_RATE))
         moving.write(file)
 
 

@@ -66,10 +66,9 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     plain = all(choice is None for choice in asked)
     limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
-    if job.members:
-        frames = open_frames(job.members, job.format, limits, runs=runs, isolated=apart)
-        return _encode_sequence(job, console, frames)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
+    if job.members:
+        return _encode_sequence(job, console, open_frames(job.members, job.format, limits, wanted, isolated=apart))
     sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
     return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console)
 

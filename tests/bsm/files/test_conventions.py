@@ -7,6 +7,7 @@ import struct
 import numpy as np
 import pytest
 
+from bsm import FormatError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.cli import main
 from bsm.codec.geometry.attributes import Attribute
@@ -16,6 +17,7 @@ from bsm.files.formats.metadata import as_gltf, as_mtl, in_words, scale_and_offs
 from bsm.files.formats.polygons import Column, Part, joined_parts
 from bsm.files.mesh import read_mesh, written_mesh
 from bsm.lengths import metres
+from tests.bsm.files.test_file_attributes import png
 
 TRIANGLE = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 3]], float)
 
@@ -69,6 +71,52 @@ def test_colors_of_materials_are_linear_in_gltf_and_srgb_in_mtl():
     assert float(again["Kd"].split()[0]) == float(again["Ke"].split()[0]) == pytest.approx(0.501961, abs=2e-6)
     assert "d" not in as_mtl({"baseColorFactor": "1 1 1 0.5", "alphaMode": "OPAQUE"})
     assert as_mtl({"baseColorFactor": "1 1 1 0.5"})["d"] == "0.5"
+
+
+@pytest.mark.parametrize(
+    ("words", "metal", "painted"),
+    [
+        ({"Kd": "1 0 0"}, 0.0, False),
+        ({"Kd": "1 0 0", "Pm": "0.5"}, 0.5, False),
+        ({"map_Pr": 0}, 0.0, True),
+        ({"map_Pr": 0, "map_Pm": 0}, 1.0, True),
+        ({"map_Pr": 0, "Pm": "0.5"}, 0.5, False),
+        ({"map_Pr": 0, "map_Pm": 1}, 1.0, False),
+    ],
+)
+def test_materials_of_mtl_are_no_metals_and_maps_of_roughness_act(words, metal, painted):
+    metadata = {f"material.0.{name}": value for name, value in words.items()}
+    metadata |= {f"image.{number}.data": png() + bytes(number) for number in range(2)}
+    written = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], (), metadata), "glb")
+    surface = tree_of(written.data)["materials"][0]["pbrMetallicRoughness"]
+    assert surface["metallicFactor"] == metal and ("metallicRoughnessTexture" in surface) == painted
+    assert any("map_Pr" in name for name in written.left_out) == ("map_Pr" in words and not painted)
+
+
+@pytest.mark.parametrize("header", [b"COLOR=\xff\x80\0\xff by hand", b"", b"solid of a program"])
+def test_the_header_of_an_stl_comes_back(header):
+    data = header.ljust(80, b"\0") + written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]]), "stl").data[80:]
+    mesh = read_mesh(data, "stl").mesh
+    written = written_mesh(mesh, "stl")
+    text = header.startswith(b"solid")  # which would make others take it for a text
+    assert (written.data == data) != text and written.left_out == (("stl_header",) if text else ())
+
+
+@pytest.mark.parametrize(
+    ("name", "contents", "said"),
+    [
+        ("a.obj", written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]]), "ply").data, "a PLY"),
+        ("a.ply", b"<!DOCTYPE html><html>", "an HTML page"),
+        ("a.off", b"ISO-10303-21;", "a STEP file"),
+        ("a.step", b"ISO-10303-21;", "holds surfaces"),
+        ("a.las", b"LASF", "point clouds are not supported"),
+        ("a.ply", b"ply\nformat ascii 1.0\nelement vertex 0\nelement range_grid 0\nend_header\n", "a range grid"),
+    ],
+)
+def test_files_of_other_kinds_are_named(name, contents, said, tmp_path):
+    (tmp_path / name).write_bytes(contents)
+    with pytest.raises((FormatError, MeshError), match=said):
+        read_mesh(tmp_path / name)
 
 
 def test_vertices_that_are_transparent_blend():

@@ -130,6 +130,11 @@ def as_gltf(material: Material) -> Material:
         if name in _TO_GLTF or not _is_mtl(name):
             numbers = as_numbers(value) if name == "Ke" else []
             renamed.setdefault(_TO_GLTF.get(name, name), converted(numbers, linear=True) if numbers else value)
+    metal, rough = (material.get(name) for name in ("map_Pm", "map_Pr"))
+    if rough is not None and (metal == rough or (metal is None and not any(as_numbers(material.get("Pm", 0))))):
+        renamed.setdefault("metallicRoughnessTexture", rough)  # gray: green is the roughness, blue counts as metal
+    if material.keys() & {"Kd", "map_Kd", "map_Pr"}:  # glTF takes what says nothing for a metal
+        renamed.setdefault("metallicFactor", 0.0 if metal is None else 1.0)
     color, opacity = as_numbers(material.get("Kd", "")), opacity_of(material)
     if len(color) == 3 or opacity < 1:
         color = color if len(color) == 3 else [1.0] * 3

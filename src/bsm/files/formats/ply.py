@@ -282,6 +282,8 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
         raise MeshError("this PLY file holds triangle strips; convert it to faces (MeshLab does when it saves)")
     if twice := [name for name in ("vertex", "face") if names.count(name) > 1]:
         raise MeshError(f"this PLY file has the element {twice[0]} several times; save it with one")
+    if "range_grid" in names and "face" not in names:
+        raise NoFacesError("this PLY file is a range grid; mesh it first, for instance with MeshLab")
     if "vertex" not in names or "face" not in names:
         raise NoFacesError("this PLY file has no faces; point clouds are not supported")
     body = data[header.size :]

@@ -17,6 +17,7 @@ RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 HEAD = 84  # bytes before the first record, the last four of them the number of triangles
 _ATTRIBUTE = "attribute"
 """The number of 16 bits that a triangle has beside its corners; some programs keep colors in it."""
+_HEADER = "stl_header"
 _UNKNOWN = (0, 0xFFFFFFFF)  # numbers of triangles by programs that did not know it yet
 
 
@@ -37,7 +38,7 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
     if size is None:
         return claimed, ""
     held, rest = divmod(size - HEAD, RECORD.itemsize)
-    if held < claimed and claimed not in _UNKNOWN and (kind := _other_kind(head)):
+    if held < claimed and claimed not in _UNKNOWN and (kind := other_kind(head)):
         raise FormatError(f"this is not an STL file: it is {kind}; give it the right name, or name its format")
     if held < claimed and claimed not in _UNKNOWN:
         raise TruncatedError(
@@ -50,12 +51,18 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
 
 
 _OTHERS = {rb"\s*<(!doctype html|html)": "an HTML page", rb"\s*<\?xml": "XML", rb"PK\x03\x04": "a zip archive"}
-_OTHERS |= {rb"glTF": "a GLB", rb"ply\s": "a PLY", rb"ISO-10303": "a STEP file", rb"Kaydara": "an FBX"}
+_OTHERS |= {
+    rb"glTF": "a GLB",
+    rb"ply\s": "a PLY",
+    rb"ISO-10303": "a STEP file",
+    rb"Kaydara": "an FBX",
+    rb"LASF": "a LAS",
+}
 _OTHERS |= {rb"(?:[^\0]*\n)?v[ \t]+[-\d.]": "an OBJ", rb"\s*\{": "JSON"}
 
 
-def _other_kind(head: bytes) -> str:
-    """Return the kind of a file that is called .stl and is none."""
+def other_kind(head: bytes) -> str:
+    """Return the kind of a file that may have the suffix of another."""
     return next((kind for begin, kind in _OTHERS.items() if re.match(begin, head[:1024], re.IGNORECASE)), "")
 
 
@@ -71,6 +78,8 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         records = np.frombuffer(data, RECORD, count, HEAD)
         with np.errstate(invalid="ignore"):  # a later check refuses NaN
             soup = records["corners"].reshape(-1, 3).astype(np.float64)
+        header = data[: HEAD - 4].rstrip(b"\0 ")
+        metadata = {_HEADER: header.decode("latin-1")} if header.strip(b"\0 ") else {}
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
     corners = group_rows(soup)
@@ -116,5 +125,7 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
         triangles["attribute"] = attribute.values[:, 0]
     else:
         attribute = None
-    data = bytes(HEAD - 4) + len(triangles).to_bytes(4, "little") + triangles.tobytes()
-    return Written(data, left_out(mesh, [attribute], tuple(mesh.metadata)))
+    header = str(mesh.metadata.get(_HEADER, "")).encode("latin-1", "replace")
+    fits = len(header) < HEAD - 3 and not header.startswith(b"solid")  # which would be a text
+    data = (header if fits else b"").ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    return Written(data, left_out(mesh, [attribute], [n for n in mesh.metadata if n != _HEADER or not fits]))

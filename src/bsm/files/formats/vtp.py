@@ -43,16 +43,20 @@ class _Builder(ElementTree.TreeBuilder):
         raise FormatError("a VTP file has no DOCTYPE")
 
 
+def elements_of(text: bytes) -> list[ElementTree.Element]:
+    try:
+        parser = ElementTree.XMLParser(target=_Builder())
+        parser.feed(text)
+        return list(parser.close().iter())
+    except (ElementTree.ParseError, LookupError, ValueError) as error:  # the last two of strange encodings
+        raise FormatError(f"this is not a file of VTK: its XML is broken: {error}") from error
+
+
 class _Document:
     """The XML of a file: its arrays with the elements that they are in, and other elements of use."""
 
     def __init__(self, text: bytes) -> None:
-        try:
-            parser = ElementTree.XMLParser(target=_Builder())
-            parser.feed(text)
-            elements = list(parser.close().iter())
-        except (ElementTree.ParseError, LookupError, ValueError) as error:  # the last two of strange encodings
-            raise FormatError(f"this is not a VTP file: its XML is broken: {error}") from error
+        elements = elements_of(text)
         self.arrays = [(around.tag, element) for around in elements for element in around if element.tag in _ARRAYS]
         self.tags = {element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS}
         if len(self.arrays) > _MOST_ARRAYS:

@@ -18,6 +18,10 @@ from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_colu
 from bsm.files.room import Doubles
 
 _WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
+_OTHERS = {
+    ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
+    ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
+}
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
@@ -39,7 +43,8 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     if kind not in trimesh.available_formats():
         complete = all(map(importlib.util.find_spec, ("lib3mf", "collada")))
         more = "" if complete else f" (3MF, DAE and others are read after: {how_to_install('formats')})"
-        raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}; {_WAY}")
+        way = next((way for kinds, way in _OTHERS.items() if kind in kinds), f"{_WAY}{more}")
+        raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
     try:
         with np.errstate(all="ignore"):  # a later check refuses infinite values
             scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)

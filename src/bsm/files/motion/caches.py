@@ -18,8 +18,9 @@ import numpy as np
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
+from bsm.files.conventions import START, STEP
 from bsm.files.mesh import read_mesh
-from bsm.files.motion.frames import START, STEP, USUAL_RATE, Frames, Wanted, timing_of
+from bsm.files.motion.frames import USUAL_RATE, Frames, Wanted, timing_of
 from bsm.files.pipes import about
 from bsm.files.room import Doubles, require_count
 

@@ -1,13 +1,14 @@
 """One mesh file for each frame, in a folder, named by a pattern, or one by one."""
 
 import glob
+import json
 import os
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from itertools import chain, count
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -15,13 +16,15 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute, has
-from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
+from bsm.files.conventions import START, STEP, TIME_VALUE
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import CutAlike
+from bsm.files.formats.vtp import elements_of
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_cut, save_written, written_mesh
-from bsm.files.motion.frames import Frames
-from bsm.files.pipes import about, is_pipe, is_url
+from bsm.files.motion.frames import Frames, Wanted, timing_of
+from bsm.files.pipes import about, file_beside, is_pipe, is_url
 
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
 _SIGNED, _DECIMALS = re.compile(r"-?\d+"), re.compile(r"((?:(?<![^\W_])-)?\d+(?:\.\d+)?)")
@@ -149,9 +152,12 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     return [int(of_one[differing[0]]) for of_one in parts]
 
 
-def read_files(names: Sequence[str], file_format: str | None, limits: Limits, *, runs: bool = False) -> Frames:
-    """The frames in files, each read when it is asked for; with `runs`, their faces may change."""
+def read_files(names: Sequence[str], file_format: str | None, limits: Limits, wanted: Wanted) -> Frames:
+    """The frames in files, each read when it is asked for; with `runs`, their faces may change.
 
+    Their times are those that are wanted, or that the files have, or else the numbers in their names.
+    """
+    runs, rate, times = wanted.runs, wanted.rate, wanted.times
     cut = CutAlike()
 
     def read(number: int) -> TriangleMesh:
@@ -164,14 +170,22 @@ def read_files(names: Sequence[str], file_format: str | None, limits: Limits, *,
                 raise MeshError(f"{error}; with --runs, frames may be without") from error
 
     first = read(0)
+    metadata = {name: value for name, value in first.metadata.items() if name != TIME_VALUE}
+    timing: Metadata | None = _numbering(names)
+    if TIME_VALUE in first.metadata and not times:
+        times = [float(read(number).metadata.get(TIME_VALUE, "nan")) for number in range(len(names))]
+    if len(times):
+        rate, timing = timing_of(np.array(times, np.float64), rate)
+    notes = ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
+    shared = (rate, {**metadata, **(timing or {})})
     if runs:
         moving = [attribute.name for attribute in first.attributes if attribute.semantic == "normal"]
         kept = tuple(a for a in first.attributes if a.semantic != "normal" and a.name != EMPTY)
-        notes = [f"left out, for they move: {', '.join(moving)}"] if moving else []
+        notes += [f"left out, for they move: {', '.join(moving)}"] if moving else []
         if same := [attribute.name for attribute in kept if not can_move(attribute)]:
             notes.append(f"{', '.join(same)}: as the first frame of each run has them")
         every = chain([first], (read(number) for number in range(1, len(names))))
-        return Frames(first.faces, len(names), iter(()), kept, tuple(notes), metadata=first.metadata, meshes=every)
+        return Frames(first.faces, len(names), iter(()), kept, tuple(notes), *shared, every)
 
     def meshes() -> Iterator[TriangleMesh]:
         yield replace(first, attributes=kept)
@@ -194,12 +208,45 @@ def read_files(names: Sequence[str], file_format: str | None, limits: Limits, *,
     last = read(len(names) - 1) if first.attributes and len(names) > 1 else first
     kept = tuple(attribute for attribute in first.attributes if _as_in(last, attribute) is not None)
     left = [attribute.name for attribute in first.attributes if attribute not in kept]
-    notes = [f"left out, for they move or change: {', '.join(left)}"] if left else []
+    notes += [f"left out, for they move or change: {', '.join(left)}"] if left else []
     same = [attribute.name for attribute in kept if not can_move(attribute)]
     notes += [f"{', '.join(same)}: as the first frame has them"] if len(names) > 1 and same else []
     frames = (mesh.positions for mesh in meshes())
     given = meshes() if len(same) < len(kept) or any(name.startswith(SHOWN) for name in first.metadata) else None
-    return Frames(first.faces, len(names), frames, kept, tuple(notes), metadata=first.metadata, meshes=given)
+    return Frames(first.faces, len(names), frames, kept, tuple(notes), *shared, given)
+
+
+LISTS = ("pvd", "series")  # of ParaView, files and their times
+
+
+def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]]:
+    """Return the files of a list, and their times."""
+    limits.check("metadata_bytes", os.path.getsize(path))
+    data = Path(path).read_bytes()
+    try:
+        if kind == "series":
+            rows = [(float(entry["time"]), str(entry["name"])) for entry in json.loads(data)["files"]]
+        else:
+            found = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
+            rows = [(float(entry.get("timestep", place)), entry["file"]) for place, entry in enumerate(found)]
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
+    if not rows or len({time for time, _ in rows}) < len(rows):
+        raise MeshError("the list names no file, or two for one time; join the parts of a time to one file")
+    names = []
+    for _, name in sorted(rows):
+        with about(name):
+            names.append(str(file_beside(Path(path).resolve().parent, name)))
+    return names, [time for time, _ in sorted(rows)]
+
+
+def _numbering(names: Sequence[str]) -> dict[str, float]:
+    """Return the first number and the step of names that count frames, as metadata."""
+    numbers = _numbers(names)
+    if len(numbers) < 2:
+        return {}
+    start, step = float(numbers[0]), float(numbers[1] - numbers[0])
+    return ({START: start} if start else {}) | ({STEP: step} if step != 1 else {})
 
 
 def _as_in(mesh: TriangleMesh, attribute: Attribute) -> Attribute | None:
@@ -218,7 +265,7 @@ def is_numbered(path: str) -> bool:
 
 
 @contextmanager
-def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[TriangleMesh], tuple[str, ...]]]:
+def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[TriangleMesh, int], tuple[str, ...]]]:
     """A file for each frame: in a folder, or called by a pattern; files that were written are removed after an error"""
     pattern = Path(path) if is_numbered(path) else Path(path, f"%05d.{kind}")
     if not is_numbered(pattern.name):
@@ -228,10 +275,8 @@ def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[
     if not is_numbered(path) and any(pattern.parent.iterdir()) and not overwrite:
         raise FileExistsError(17, "the folder is not empty; -f writes into it", path)
     written: list[Path] = []
-    numbers = count()
 
-    def write(mesh: TriangleMesh) -> tuple[str, ...]:
-        number = next(numbers)
+    def write(mesh: TriangleMesh, number: int) -> tuple[str, ...]:
         target = pattern.parent / _PLACE.sub(lambda place: f"{number:{place[1]}{place[2]}d}", pattern.name)
         nothing = NOTHING.get(kind) if is_empty(mesh.attributes) else None
         file = written_mesh(mesh, kind, target) if nothing is None else Written(nothing)

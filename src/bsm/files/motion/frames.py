@@ -15,11 +15,9 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.conventions import RATE, START, STEP, TIME_VALUE, TIMES
 from bsm.files.formats.metadata import as_numbers
 
-START, STEP, TIMES = "frame_start", "frame_step", "frame_times"
-"""Metadata of a sequence: the number of the first frame, at the frame rate; frames from one sample to the next, where
-that is not one; and uneven times in seconds, as text."""
 USUAL_RATE = 24.0  # frames per second of a sequence that does not say; pages play it as fast
 LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)
 MOST_LISTED = 12  # runs that a note names
@@ -81,6 +79,7 @@ class Wanted:
     animation: str = ""
     mesh: str | os.PathLike[str] | None = None
     runs: bool = False
+    times: Sequence[float] = ()  # of the files of frames
 
 
 class FrameWriter(Protocol):
@@ -96,11 +95,12 @@ class Shared:
     metadata: Callable[[], Metadata] = dict
     left_out: list[str] = field(default_factory=list)
     first: int = 0
+    held: frozenset[str] = frozenset()  # metadata that the times of frames say, or the numbers in their names
     _begun: dict[str, Attribute] = field(default_factory=dict)
 
     @property
     def frame_rate(self) -> float:
-        rate = self.metadata().get("frame_rate")
+        rate = self.metadata().get(RATE)
         return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else 0.0
 
     def code(self, number: int) -> float:
@@ -112,8 +112,20 @@ class Shared:
         start, step = (_finite(self.metadata().get(name), usual) for name, usual in ((START, 0.0), (STEP, 1.0)))
         return start + number * step
 
+    @property
+    def numbered(self) -> bool:
+        """Whether frames are shown at whole numbers of frames, which names can have."""
+        return TIMES not in self.metadata() and self.code(0).is_integer() and self.code(1).is_integer()
+
+    def timed(self, mesh: TriangleMesh, number: int) -> TriangleMesh:
+        """Return a frame with its time, if that is known."""
+        known = self.metadata().keys() & {TIMES, RATE}
+        time = {TIME_VALUE: self.code(number) / (self.frame_rate or USUAL_RATE)} if known else {}
+        return replace(mesh, metadata={**mesh.metadata, **time})
+
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
-        return TriangleMesh(positions, faces, self.attributes(), self.metadata() if with_metadata else {})
+        metadata = {n: v for n, v in self.metadata().items() if n not in self.held} if with_metadata else {}
+        return TriangleMesh(positions, faces, self.attributes(), metadata)
 
     def moved(self, *, anew: bool = False) -> tuple[Attribute, ...]:
         """Attributes that are others now than they were when this was asked first, or anew."""

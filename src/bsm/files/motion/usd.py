@@ -25,7 +25,7 @@ from bsm.codec.sequence.runs import EMPTY, empty_frame, is_empty
 from bsm.files import conventions
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
-from bsm.files.motion.frames import START, STEP, TIMES, USUAL_RATE, Frames, Shared, Wanted, between, painted_like
+from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
 from bsm.files.room import Doubles, Ints, as_format_error, require_count, single_suffices
 from bsm.lengths import metres
 
@@ -701,7 +701,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
                 yield painted_like(mesh, found)
 
         meshes = changing()
-    metadata = {**mesh.metadata, **({START: first * rate / codes} if first else {})}
+    metadata = {**mesh.metadata, **({conventions.START: first * rate / codes} if first else {})}
     frames = map(as_format_error("stage")(stage.at), every)
     return Frames(mesh.faces, count, frames, mesh.attributes, notes, rate, metadata, meshes)
 
@@ -795,7 +795,7 @@ def _begun(
         mesh.AddRotateZOp().Set(90.0)
     materials, written = write_materials(pxr, mesh, first, images)
     shared.loses(attribute.name for attribute in _others(first, materials) if not _written(pxr, mesh, attribute))
-    written |= {"up", "name", "frame_rate", START, STEP, TIMES} | ({"unit"} if size else set())
+    written |= {"up", "name"} | ({"unit"} if size else set())
     shared.loses(formats.in_words((name for name in first.metadata if name not in written), first.metadata))
     return mesh, materials
 

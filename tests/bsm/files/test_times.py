@@ -1,0 +1,151 @@
+"""When frames are shown: numbers in names, times in files and lists; in and out."""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+
+from bsm import FormatError, MeshError, TriangleMesh
+from bsm.files.conventions import FORMATS
+from bsm.files.mesh import write_mesh
+from bsm.files.motion.frames import Shared, Wanted
+from bsm.files.sequence import open_sequence, sequence_writer
+from tests.bsm.program import run as bsm
+from tests.shapes import tetrahedron
+
+COUNT = 4
+SHAPE = tetrahedron()
+
+
+def opened(path, **keywords):
+    return open_sequence(str(path), wanted=Wanted(**keywords))
+
+
+def written(path, kind, metadata):
+    shared = Shared(metadata=lambda: metadata)
+    with sequence_writer(str(path), kind, SHAPE.faces, COUNT, overwrite=True, shared=shared) as write:
+        for number in range(COUNT):
+            write(SHAPE.positions + number)
+    return shared.left_out
+
+
+def timing(source):
+    """The time of each frame in seconds at 24 frames per second, if no rate is known."""
+    known = Shared(metadata=lambda: {**source.metadata, "frame_rate": source.frame_rate or 24.0})
+    return [known.code(number) / known.frame_rate for number in range(source.count)]
+
+
+@pytest.mark.parametrize("kind", ["ply", "obj", "off", "stl", "vtp"])
+@pytest.mark.parametrize(("start", "step"), [(997, 1), (0, 2), (-3, 5)])
+def test_numbers_of_frames_go_in_and_out(kind, start, step, tmp_path):
+    (tmp_path / "in").mkdir()
+    for number in range(COUNT):
+        write_mesh(tmp_path / f"in/f_{start + number * step:04d}.{kind}", SHAPE)
+    source = opened(tmp_path / "in")
+    assert source.metadata.get("frame_start", 0) == start and source.metadata.get("frame_step", 1) == step
+    assert written(tmp_path / f"out/g_%04d.{kind}", kind, source.metadata) == []
+    assert {path.stem[2:] for path in (tmp_path / "out").iterdir()} == {
+        path.stem[2:] for path in (tmp_path / "in").iterdir()
+    }
+    assert timing(opened(tmp_path / "out")) == timing(source)
+
+
+@pytest.mark.parametrize("times", [(2.0, 2.5, 3.0, 3.5), (0.0, 0.5, 3.0, 7.0)])
+@pytest.mark.parametrize("form", ["vtp", "pvd", "series"])
+def test_times_of_files_and_of_lists_go_in_and_out(form, times, tmp_path):
+    (tmp_path / "in").mkdir()
+    for number, time in enumerate(times):
+        known = {"TimeValue": time} if form == "vtp" else {}
+        write_mesh(tmp_path / f"in/f_{number}.vtp", TriangleMesh(SHAPE.positions + number, SHAPE.faces, (), known))
+    rows = [(f"in/f_{number}.vtp", time) for number, time in enumerate(times)][::-1]
+    sets = "".join(f'<DataSet timestep="{time}" part="0" file="{name}"/>' for name, time in rows)
+    (tmp_path / "a.pvd").write_text(f'<VTKFile type="Collection"><Collection>{sets}</Collection></VTKFile>')
+    listed = [{"name": name, "time": time} for name, time in rows]
+    (tmp_path / "a.vtp.series").write_text(json.dumps({"file-series-version": "1.0", "files": listed}))
+    source = opened(tmp_path / {"vtp": "in", "pvd": "a.pvd", "series": "a.vtp.series"}[form])
+    assert timing(source) == pytest.approx(times) and "TimeValue" not in source.metadata
+    assert [frame[0, 0] for frame in source.frames] == pytest.approx(SHAPE.positions[0, 0] + np.arange(COUNT))
+    metadata = {**source.metadata, **({"frame_rate": source.frame_rate} if source.frame_rate else {})}
+    assert written(tmp_path / "out", "vtp", metadata) == []
+    assert timing(opened(tmp_path / "out")) == pytest.approx(times)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.pvd", "<VTKFile"),
+        ("a.pvd", "<Collection><DataSet timestep='1'/></Collection>"),
+        ("a.series", "{}"),
+        ("b.series", "[1]"),
+    ],
+)
+def test_a_list_that_is_broken_is_refused(name, text, tmp_path):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(FormatError, match="this is not a"):
+        opened(tmp_path / name)
+
+
+def test_a_list_of_parts_or_of_other_folders_is_refused(tmp_path):
+    write_mesh(tmp_path / "a.ply", SHAPE)
+    (tmp_path / "in").mkdir()
+    parts = "".join(f'<DataSet timestep="1" part="{part}" file="a.ply"/>' for part in range(2))
+    (tmp_path / "a.pvd").write_text(f"<Collection>{parts}</Collection>")
+    with pytest.raises(MeshError, match="two for one time"):
+        opened(tmp_path / "a.pvd")
+    (tmp_path / "in/b.series").write_text(json.dumps({"files": [{"name": "../a.ply", "time": 0}]}))
+    with pytest.raises(FormatError, match="not in the folder"):
+        opened(tmp_path / "in/b.series")
+
+
+@pytest.mark.parametrize(("start", "kept"), [(48.0, 2.0), (-5.0, 0.0), (1e6, 0.0)])
+def test_a_clip_begins_when_it_did(start, kept, tmp_path):
+    left = written(tmp_path / "a.glb", "glb", {"frame_start": start, "frame_rate": 24.0})
+    assert left == ([] if kept else ["the number of the first frame"])
+    source = opened(tmp_path / "a.glb")
+    assert timing(source) == pytest.approx(kept + np.arange(COUNT) / 24) and not FORMATS["glb"].times - {
+        "frame_start",
+        "frame_step",
+        "frame_times",
+        "frame_rate",
+    }
+
+
+def test_the_shell_keeps_the_numbers_of_frames(tmp_path):
+    (tmp_path / "in").mkdir()
+    for number in (997, 999, 1001):
+        write_mesh(tmp_path / f"in/f_{number}.ply", TriangleMesh(SHAPE.positions + number, SHAPE.faces))
+    assert bsm("encode", tmp_path / "in", "-o", tmp_path / "a.bsm") == 0
+    assert bsm("decode", tmp_path / "a.bsm", "-o", f"{tmp_path}/out/") == 0
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["00997.ply", "00999.ply", "01001.ply"]
+
+
+def with_tree(data, change):
+    """A GLB with another tree."""
+    size = struct.unpack_from("<I", data, 12)[0]
+    tree = json.loads(data[20 : 20 + size])
+    change(tree)
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    rest = struct.pack("<I4s", len(text), b"JSON") + text + data[20 + size :]
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(rest)) + rest
+
+
+def test_texture_coordinates_that_move_and_pointers_are_named(tmp_path):
+    written(tmp_path / "a.glb", "glb", {})
+    data = (tmp_path / "a.glb").read_bytes()
+
+    def moved(tree):
+        for target in tree["meshes"][0]["primitives"][0]["targets"]:
+            target["TEXCOORD_0"] = target.pop("NORMAL")
+
+    (tmp_path / "b.glb").write_bytes(with_tree(data, moved))
+    assert any("how TEXCOORD_0 changes" in note for note in opened(tmp_path / "b.glb").notes)
+
+    def pointed(tree):
+        for channel in tree["animations"][0]["channels"]:
+            channel["target"] = {"path": "pointer"}
+
+    (tmp_path / "c.glb").write_bytes(with_tree(data, pointed))
+    with pytest.raises(FormatError, match="channels of pointer were left out"):
+        opened(tmp_path / "c.glb")
