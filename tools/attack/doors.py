@@ -34,6 +34,7 @@ from bsm.codec.geometry.attributes import at_corners
 from bsm.files.formats.metadata import materials_in, names_in, rgba
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import read_document
+from tools.attack.acts import Acts
 from tools.replicate.fetch import unpacked
 
 Array = npt.NDArray[Any]
@@ -377,7 +378,10 @@ def main() -> NoReturn:
     parser.add_argument(
         "--scenes", nargs="+", type=Path, metavar="FOLDER", help="rewrite the scenes there, and count new errors"
     )
+    parser.add_argument("--acts", action="store_true", help="also write GLB and USD, and ask three.js and usd-core")
+    parser.add_argument("--only-acts", action="store_true", help="only that")
     args = parser.parse_args()
+    args.acts |= args.only_acts
     if args.scenes:
         sys.exit(min(scenes_in(args.scenes), 1))
     files = list(listed(args.cache, args.packages, args.each)) if args.packages is not None else []
@@ -386,7 +390,22 @@ def main() -> NoReturn:
         files += [(str(path.relative_to(folder)), path) for path in here if path.stat().st_size <= LARGEST]
     explained = json.loads(LIST.read_text())["explained"]
     counts, findings, apart = Counter[str](), 0, Apart()
+    written = tempfile.TemporaryDirectory()
+    acts = Acts(Path(written.name))
+
+    def wrong(found: Iterator[tuple[str, str]]) -> int:
+        said = [f"{name}: {difference}" for name, difference in found]
+        said = [text for text in said if not any(key in text for key in explained)]
+        print("\n".join(said), end="\n" * bool(said), flush=True)
+        return len(said)
+
     for name, path in files:
+        try:
+            findings += wrong(acts.add(name, bsm.read_mesh(path).mesh)) if args.acts else 0
+        except bsm.BsmError:
+            counts["refused"] += 1
+        if args.only_acts:
+            continue
         for reader, result, difference in compared(path, args.readers, apart):
             why = next((why for key, why in explained.items() if key in f"{reader} {name}: {difference}"), "")
             result = "explained" if result == "differs" and why else result
@@ -394,6 +413,8 @@ def main() -> NoReturn:
             if result == "differs":
                 findings += 1
                 print(f"{name}: {reader}: {difference}", flush=True)
+    findings += wrong(acts.finish()) if args.acts else 0
+    written.cleanup()
     print(f"{len(files)} files; comparisons: {dict(counts)}; {findings} findings", flush=True)
     apart.close()
     sys.exit(1 if findings else 0)
