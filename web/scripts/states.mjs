@@ -61,7 +61,7 @@ for (const path of pages) {
                     .map((element) => element.getBoundingClientRect()).filter((box) => box.width * box.height > 0)
                     .map(({ left, top, right, bottom }) => ({ left, top, right, bottom })));
             const outside = await page.evaluate(() =>
-                [...document.querySelectorAll(".bsm-ui button, .bsm-ui select, .bsm-ui label, .bsm-card")].filter((element) => {
+                [...document.querySelectorAll(".bsm-ui button, .bsm-ui select, .bsm-ui label, .bsm-card, .bsm-tag")].filter((element) => {
                     const box = element.getBoundingClientRect();
                     return box.width * box.height > 0 && (box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1);
                 }).map((element) => element.getAttribute("aria-label") ?? element.textContent.trim()));

@@ -10,6 +10,8 @@ import { bytesOf } from "./inlined";
 import type { Mode, Shading, Stage } from "./stage";
 import { wholeOf } from "./tiles";
 
+const EDGE = 4; // pixels between captions and the edge of the page
+
 export class Comparison {
     /** Whether colors are to be computed again. */
     stale = false;
@@ -155,7 +157,8 @@ export class Comparison {
         ["left", "right"].forEach((part, side) => form.say(part, stage.mode === "one" ? "" : this.captions[side]));
         stage.fit(); // beside captions
         const [split, seam, { clientWidth }] = [stage.mode === "split", stage.seam, form.root];
-        const places = split ? [seam / 2, (seam + clientWidth) / 2] : [seam - 14, seam + 14];
+        const [left, right] = ["left", "right"].map((part) => form.part(part).offsetWidth + EDGE);
+        const places = split ? [seam / 2, (seam + clientWidth) / 2] : [Math.max(seam - 14, left), Math.min(seam + 14, clientWidth - right)];
         ["left", "right"].forEach((part, side) => {
             form.part(part).style.left = `${places[side]}px`;
             form.part(part).style.setProperty("--shift", split ? "-50%" : side === 0 ? "-100%" : "0%");
