@@ -286,7 +286,7 @@ class Draft:
 
     def _write(self) -> Iterator[bytes]:
         writer = Writer()
-        yield writer.start(minor=int(self.header.congruence > 0))
+        yield writer.start(minor=int(self.header.congruence > 0 or self.header.onorm > 0))
         for packet in (self.header, *self.body):
             yield writer.write(packet)
         yield writer.end(checksum_of(self.decoded))
