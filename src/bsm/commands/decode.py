@@ -20,7 +20,7 @@ from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, by_name, format_of_name, save_written, unknown_suffix, written_mesh
-from bsm.files.motion.folder import is_numbered
+from bsm.files.motion.folder import is_numbered, mesh_files, names_many
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
@@ -205,6 +205,8 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if lost:
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: not written to {kind}{because}: {', '.join(lost)}")
+    if names_many(output) and (others := len(mesh_files(output)) - count) > 0:
+        console.note(f"{output}: {others} other meshes are there and count as frames; remove them")
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:

@@ -111,13 +111,16 @@ def test_a_clip_begins_when_it_did(start, kept, tmp_path):
     }
 
 
-def test_the_shell_keeps_the_numbers_of_frames(tmp_path):
+def test_the_shell_keeps_the_numbers_of_frames(tmp_path, capsys):
     (tmp_path / "in").mkdir()
     for number in (997, 999, 1001):
         write_mesh(tmp_path / f"in/f_{number}.ply", TriangleMesh(SHAPE.positions + number, SHAPE.faces))
     assert bsm("encode", tmp_path / "in", "-o", tmp_path / "a.bsm") == 0
     assert bsm("decode", tmp_path / "a.bsm", "-o", f"{tmp_path}/out/") == 0
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["00997.ply", "00999.ply", "01001.ply"]
+    assert "other meshes" not in capsys.readouterr().err
+    assert bsm("decode", tmp_path / "a.bsm", "-f", "-o", f"{tmp_path}/out/", "--frames", "0:2") == 0
+    assert "1 other meshes are there" in capsys.readouterr().err
 
 
 def with_tree(data, change):

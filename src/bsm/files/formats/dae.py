@@ -14,6 +14,7 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
+from bsm.files.conventions import unit_named
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
 from bsm.files.formats.polygons import (
     BYTES_OF_PART,
@@ -61,7 +62,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
             found = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
             about = document.assetInfo
             metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
-            metadata["unit"] = f"{about.unitmeter} * meters" if about.unitmeter not in (None, 1.0) else "meters"
+            metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
             metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
             errors = [f"unreadable elements ({error.msg[:80]})" for error in document.errors[:_MOST_ERRORS]]
             dropped = (*dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT), *errors, *scene.absent)

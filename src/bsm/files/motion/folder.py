@@ -44,14 +44,18 @@ def names_many(path: str) -> bool:
     return os.path.isdir(path) or ((glob.has_magic(path) or is_numbered(path)) and not os.path.exists(path))
 
 
-def frame_files(path: str) -> list[str]:
-    """The mesh files of a folder or pattern, by the numbers in their names."""
+def mesh_files(path: str) -> list[str]:
+    """The mesh files of a folder or pattern, in any order."""
     if Path(path).is_dir():
         names = [os.path.join(path, name) for name in os.listdir(path)]
     else:
         names = glob.glob(_PLACE.sub("*", path) if is_numbered(path) else path)
-    found = [name for name in names if format_of_name(name) and not os.path.basename(name).startswith(".")]
-    if not found:
+    return [name for name in names if format_of_name(name) and not os.path.basename(name).startswith(".")]
+
+
+def frame_files(path: str) -> list[str]:
+    """The mesh files of a folder or pattern, by the numbers in their names."""
+    if not (found := mesh_files(path)):
         known = ", ".join(WRITTEN_FORMATS)
         raise FormatError(f"no mesh files in {path} ({known}); -r looks in the folders below, too")
     return in_order(found)
