@@ -259,15 +259,6 @@ def test_arrays_of_an_npz_are_bounded(name):
         assert read_mesh(data, "npz", SMALL).dropped == (name,)
 
 
-def test_archives_for_other_readers_are_bounded():
-    pytest.importorskip("trimesh")
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("3D/3dmodel.model", b"<model>" + b" " * 50_000_000)
-    with pytest.raises(LimitError, match="compressed bytes"):
-        read_mesh(buffer.getvalue(), "3mf", SMALL)
-
-
 @pytest.mark.parametrize("piece", [b"\n", b" \n", b"\r\n", b"\n ", b"v", b" v\n"])
 def test_looking_at_content_is_linear(piece):
     data = piece * (65536 // len(piece))
