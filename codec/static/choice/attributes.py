@@ -152,8 +152,8 @@ def _choose_blocks(given: Input, contract: Contract) -> None:
     """Go on with the size of blocks and the effort with which the shape alone takes fewest bytes."""
     given.carried, found = (), list[tuple[Draft, EncodeOptions, Prepared]]()
     for changes in ({"effort": "normal"}, {}, LARGE_BLOCKS):  # the usual effort may be lucky
-        if changes is LARGE_BLOCKS and found[-1][0].places is not None:
-            break  # a grid has no blocks
+        if changes is LARGE_BLOCKS and found[-1][0].places is not None and not found[-1][0].header.congruence:
+            break  # a grid has no blocks; attributes may need some where it is smaller by congruent parts
         given.coded = replace(given.options, **changes)
         given.__dict__.pop("prepared", None)
         found.append((given.search(contract, None).smallest(contract), given.coded, given.prepared))

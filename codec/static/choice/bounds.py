@@ -83,10 +83,16 @@ class Candidate:
     unfold: Callable[[], "Candidate | None"] = lambda: None
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     guess: Callable[[], float] | None = None
+    also: Callable[[Draft], Draft] = lambda draft: draft  # the same positions, perhaps in fewer bytes
 
     @cached_property
     def draft(self) -> Draft:
         return self.make()
+
+    @cached_property
+    def congruent(self) -> Draft:
+        """The stream, also predicted by congruent parts where that takes fewer bytes."""
+        return self.also(self.draft)
 
     @cached_property
     def size(self) -> float:

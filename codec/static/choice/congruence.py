@@ -16,18 +16,39 @@ MOST_FINENESS, AXIS_KINDS = 19, 48
 """Bits of a component of a quaternion, and transforms that are parallel to the axes (V 17.2)."""
 MOST = 16  # transforms of a grid
 WORTH = 16.0  # vertices that a transform must explain
+PARALLEL = 1e-4  # largest entry by which an axis is off
 ROOM = 1 << 18  # numbers for votes
+FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer to their images
 
 
 def transforms_of(prepared: Prepared, grid: Grid) -> Levels:
     """The transforms of a mesh that pay on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    octave = round(2.0 * math.log2(grid.step))
-    if octave not in prepared.motions:
-        prepared.motions[octave] = _found(prepared.mesh.positions / grid.step, prepared.mesh.faces)
-        prepared.motions[octave][:, 9:] *= grid.step
-    turns, shifts = np.split(prepared.motions[octave], [9], axis=1)
-    turns, origin = turns.reshape(-1, 3, 3), np.array(grid.origin)
+    turns, shifts = _motions(prepared, grid.step)
+    origin = np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
+
+
+def mirrored_origin(prepared: Prepared, origin: Matrix, step: float) -> Matrix:
+    """The origin of a grid, at most half a cell lower, for which mirrors take cells of the grid to cells."""
+    turns, shifts = _motions(prepared, step)
+    moved = origin.copy()
+    for axis in range(3):
+        back = np.flatnonzero(np.abs(turns[:, axis] + np.eye(3)[axis]).max(axis=1) < PARALLEL)
+        if len(back):
+            halves = (shifts[back[0], axis] - 2.0 * origin[axis]) / step
+            moved[axis] -= (math.ceil(halves) - halves) * step / 2.0
+    return moved
+
+
+def _motions(prepared: Prepared, step: float) -> tuple[Matrix, Matrix]:
+    """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts; sought once for like steps."""
+    octave = round(2.0 * math.log2(step))
+    if octave not in prepared.motions:
+        cell = FINER * 2.0 ** (octave / 2.0)
+        prepared.motions[octave] = _found(prepared.mesh.positions / cell, prepared.mesh.faces)
+        prepared.motions[octave][:, 9:] *= cell
+    turns, shifts = np.split(prepared.motions[octave], [9], axis=1)
+    return turns.reshape(-1, 3, 3), shifts
 
 
 def _found(positions: Matrix, faces: Faces) -> Matrix:

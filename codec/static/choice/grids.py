@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from bsm._engine import rounded as places_on
+from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
-from bsm.codec.static.choice.congruence import transforms_of
+from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
@@ -22,6 +23,7 @@ from bsm.codec.static.ways.grid import Grid, encode_grid, grid_field, sampled_ra
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
+MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
 SAMPLE = 1 << 11
 """Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
 
@@ -29,12 +31,27 @@ SAMPLE = 1 << 11
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative; with the small model, which is quick, if `light`."""
     grid = replace(grid, light=light or prepared.light)
-    ways = [grid] if grid.light or not prepared.congruence else [grid, *_congruent(prepared, grid, places)]
-    coded = [encode_grid(prepared.mesh.faces, way, places) for way in ways]
-    sizes = [sum(len(packet.data) for packet in packets) for packets in coded]
-    best = sizes.index(min(sizes))
-    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **ways[best].fields)
-    return Draft(header, (*prepared.before_grid, *coded[best]), grid.positions(places), places)
+    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
+    coded = encode_grid(prepared.mesh.faces, grid, places)
+    return Draft(header, (*prepared.before_grid, *coded), grid.positions(places), places)
+
+
+def may_repeat(prepared: Prepared) -> bool:
+    """Whether congruent parts are sought."""
+    return prepared.congruence and not prepared.light and 0 < prepared.graph.size <= MOST_CONGRUENT
+
+
+def congruent(prepared: Prepared, draft: Draft) -> Draft:
+    """Return a draft whose grid is also predicted by congruent parts, if that takes fewer bytes."""
+    places, header = draft.places, draft.header
+    if places is None or header.light or not may_repeat(prepared):
+        return draft
+    before = tuple(packet for packet in draft.body if not isinstance(packet, packets.Grid))
+    drafts = [draft]
+    for grid in _congruent(prepared, Grid(header.center, header.scale, header.grid), places):
+        body = (*before, *encode_grid(prepared.mesh.faces, grid, places))
+        drafts.append(replace(draft, header=replace(header, **grid.fields), body=body))
+    return min(drafts, key=lambda coded: coded.size)
 
 
 def _congruent(prepared: Prepared, grid: Grid, places: Levels) -> Iterator[Grid]:
@@ -146,18 +163,22 @@ class Gridded:
     def _made(self, step: float) -> Candidate:
         unit = self._prepared.units.scale
         held = single(max(step, self.least) * unit)
-        places = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
+        origin = self._origin
+        if may_repeat(self._prepared):
+            origin = np.array([self._hold(x) for x in mirrored_origin(self._prepared, origin, held)])
+        low = self._prepared.units.into(origin)
+        places = np.floor((self._prepared.positions - low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
             reach = min(float(self._bounds.reaches.min()), SPIKE * step)
             aim = Aim(self._worth * step / self._shaper.mean_edge, reach, 3)
-            places = self._shaper.places(places, self._low, held / unit, aim)
-        candidate = self._placed(held, places)
+            places = self._shaper.places(places, low, held / unit, aim)
+        candidate = self._placed(held, places, origin)
         return turned(candidate) or candidate
 
-    def _placed(self, held: float, places: Levels) -> Candidate:
+    def _placed(self, held: float, places: Levels, start: Positions) -> Candidate:
         """Places from the origin on, some below it, perhaps."""
         least = places.min(axis=0)
-        origin = tuple(self._hold(value) for value in self._origin + least * held)
+        origin = tuple(self._hold(value) for value in start + least * held)
         grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)))
         candidate = self._candidate(grid, places - least)
 
@@ -165,7 +186,7 @@ class Gridded:
             cell = held / self._prepared.units.scale
             directions, reach = cell * np.eye(3).reshape(1, 9), np.minimum(self._bounds.reaches, SPIKE * cell)
             turned = self._shaper.unfold(candidate.positions, places, directions, reach)
-            return None if turned is None else self._placed(held, turned)
+            return None if turned is None else self._placed(held, turned, start)
 
         return replace(candidate, unfold=unfold)
 
@@ -183,4 +204,5 @@ class Gridded:
         positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))
         sampled = partial(sampled_ratio, self._prepared.mesh.faces, grid, places, SAMPLE)
         few = len(places) <= SAMPLE or self._prepared.light
-        return Candidate(step, positions, coded, guess=None if few else lambda: coded(light=True).size * sampled())
+        guess, also = None if few else lambda: coded(light=True).size * sampled(), partial(congruent, self._prepared)
+        return Candidate(step, positions, coded, guess=guess, also=also)

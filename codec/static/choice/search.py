@@ -6,16 +6,20 @@ import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
+from operator import itemgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
-from bsm.codec.static.choice.grids import Gridded, rounded
+from bsm.codec.static.choice.grids import SAMPLE, Gridded, congruent, may_repeat, rounded
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
+REFINED, LEAST_SAVED = 3, 0.03  # rounds of spending the bytes that congruent parts save, and a share that is worth one
+RUNGS = 6  # an octave: steps of small grids, the same for all promises, as some make more parts congruent by chance
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 ALIKE = 1.02  # bytes over the least, within which normals choose where a visual error is bounded
 Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another: pure functions of the step
@@ -48,26 +52,35 @@ class Search:
         bounds = Bounds(self._measures, contract)
         grid = Gridded(self._prepared, bounds)
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
-        saved = self._saved(grid.at(grid.first))
+        first = grid.at(grid.first)
+        saved, share = self._saved(first), 1.0
+        if may_repeat(self._prepared):
+            share = first.congruent.size / first.draft.size
         least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
         near = 1.0 if seen or contract.visual == math.inf else ALIKE
         ways = self._ways(bounds, grid)
         for way in ways:  # which may lead to others
-            leaning = saved if isinstance(way, Gridded) else 0
-            if seen and isinstance(way, Gridded) and SHAPED * grid.at(grid.first).size > least + leaning:
+            leaning, gain = (saved, share) if isinstance(way, Gridded) else (0, 1.0)
+            if seen and isinstance(way, Gridded) and SHAPED * first.size > (least + leaning) / gain:
                 continue
-            found = widest(way, bounds, near * least + leaning, tries=self._tries)
+            found = widest(way, bounds, (near * least + leaning) / gain, tries=self._tries)
             if found is not None:
                 kept.append(found)
                 size = found.size if seen else found.draft.size  # the guess is for steps at which a mesh looks right
-                least = min(least, size - leaning)
+                least = min(least, (size if gain == 1.0 else found.congruent.size) - leaning)
                 ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
-        most = near * min(self._size(candidate.draft) for candidate in kept)
-        alike = [candidate for candidate in kept if self._size(candidate.draft) <= most]
+        least = min(candidate.congruent.size for candidate in kept)
+        rung = math.floor(RUNGS * math.log2(grid.first))
+        for finer in range(RUNGS + 1) if share < 1.0 and self._prepared.graph.size <= 2 * SAMPLE else ():
+            candidate = grid.at(2.0 ** ((rung + 1 - finer) / RUNGS))
+            if candidate.congruent.size < least and bounds.keeps(candidate.positions):
+                kept.append(candidate)
+        most = near * min(self._size(candidate.congruent) for candidate in kept)
+        alike = [candidate for candidate in kept if self._size(candidate.congruent) <= most]
         bent = self._measures.original.angle
-        return min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0).draft
+        return min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0).congruent
 
     def _others(self, way: Refined, found: Candidate, bounds: Bounds) -> list[Refined]:
         """Ways that may be smaller than one that has come to a candidate."""
@@ -96,7 +109,7 @@ class Search:
         finest = rounded(self._prepared, finest_bits)
         positions = self._prepared.units.into(finest.decoded)
         if bounds.keeps(positions):
-            return Candidate(0.0, positions, lambda: finest)
+            return Candidate(0.0, positions, lambda: finest, also=partial(congruent, self._prepared))
         raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
@@ -104,7 +117,20 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             point = rounded(self._prepared, 1)
             return point if self._size(point) <= most_bytes else None
-        bounds = Bounds(self._measures, contract)
+        bounds, found, saved = Bounds(self._measures, contract), list[tuple[float, Draft]](), 0.0
+        for _ in range(REFINED):
+            plain = self._best(bounds, most_bytes + saved)
+            if plain is None:
+                break
+            if self._size(plain.congruent) <= most_bytes:
+                found.append((bounds.quality(plain.positions), plain.congruent))
+            saved = self._size(plain.draft) - self._size(plain.congruent)
+            if saved < LEAST_SAVED * most_bytes:
+                break
+        return min(found, key=itemgetter(0))[1] if found else None
+
+    def _best(self, bounds: Bounds, most_bytes: float) -> Candidate | None:
+        """The best candidate that takes at most `most_bytes` without congruent parts."""
         grid = Gridded(self._prepared, bounds)
         found = list(grid.made())
         for way in self._ways(bounds, grid):
@@ -121,7 +147,7 @@ class Search:
                 secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
             found += [fitting[finest] for finest in sorted(fitting)[-1:]]
         found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c.positions)]
-        return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
+        return min(found, key=lambda candidate: bounds.quality(candidate.positions), default=None)
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look

@@ -1,5 +1,6 @@
 """Grids that are predicted from congruent parts: transforms are found, pay, and come back."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +13,11 @@ from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.congruence import coded_transforms, transforms_of
+from bsm.codec.static.choice.grids import congruent, rounded
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import Draft
+from bsm.codec.static.targets import Target
 from bsm.codec.static.ways.grid import Grid
 from bsm.files.mesh import read_mesh
 from tools.surgery import with_header
@@ -37,6 +41,13 @@ def copies(mesh: TriangleMesh, turns: np.ndarray, apart: float = 20.0) -> Triang
     return together(mesh, *moved)
 
 
+def coded(mesh: TriangleMesh, bits: int) -> tuple[Draft, Draft]:
+    """A grid of so many bits, without and with congruent parts."""
+    prepared = Encoder(mesh, EncodeOptions(grid=bits, congruence=True))._input.prepared
+    plain = rounded(prepared, bits)
+    return plain, congruent(prepared, plain)
+
+
 def version_of(data: bytes) -> int:
     return data[4]
 
@@ -44,20 +55,32 @@ def version_of(data: bytes) -> int:
 @pytest.mark.parametrize("turn", [mirrors()[0], about(2, 4), about(1, 7), about(0, 5) @ mirrors()[2]])
 def test_copies_cost_little(turn):
     mesh = copies(bumpy(1), np.array([turn, turn @ turn]))
-    alone, plain, both = (
-        encode(given, EncodeOptions(grid=15, congruence=congruent))
-        for given, congruent in ((bumpy(1), False), (mesh, False), (mesh, True))
-    )
+    plain, both = (b"".join(draft.frames) for draft in coded(mesh, 15))
     assert len(both) < 0.75 * len(plain), "two of three parts are images of the first"
-    assert version_of(both) == 17 and version_of(plain) == version_of(alone) == 16
+    assert version_of(both) == 17 and version_of(plain) == 16
     assert header_of(both).congruence > 1 and header_of(plain).congruence == 0
     assert (decode(both).positions == decode(plain).positions).all()
     assert (decode(both).faces == decode(plain).faces).all()
 
 
 def test_a_mesh_without_congruent_parts_is_coded_as_by_1_0():
-    mesh = bumpy(2)
-    assert encode(mesh, EncodeOptions(grid=12, congruence=True)) == encode(mesh, EncodeOptions(grid=12))
+    plain, both = coded(bumpy(2), 12)
+    assert both.frames == plain.frames
+
+
+def test_grids_that_are_asked_for_and_light_ones_are_coded_as_by_1_0():
+    mesh = copies(bumpy(5), mirrors()[:1])
+    for options in (EncodeOptions(grid=12), EncodeOptions(exact=True), EncodeOptions(quick=True)):
+        assert encode(mesh, replace(options, congruence=True)) == encode(mesh, replace(options, congruence=False))
+    assert [version_of(encode(mesh, EncodeOptions(congruence=both))) for both in (True, False)] == [17, 16]
+
+
+def test_a_size_is_spent_on_what_congruent_parts_save():
+    mesh = copies(bumpy(6), mirrors()[:1])
+    target = EncodeOptions(target=Target("size", 2200.0), contract=None)
+    less, more = (Encoder(mesh, replace(target, congruence=both)).result() for both in (False, True))
+    assert more.size <= 2200 and more.header.congruence > 0
+    assert more.comparison.theta_deg < 0.9 * less.comparison.theta_deg
 
 
 def test_the_search_finds_a_turn():
@@ -96,7 +119,7 @@ def test_transforms_are_coded_as_near_as_they_can_be(seed, cells):
 
 
 def test_transforms_that_are_missing_are_refused():
-    data = encode(copies(bumpy(4), mirrors()[:1]), EncodeOptions(grid=11, congruence=True))
+    data = b"".join(coded(copies(bumpy(4), mirrors()[:1]), 11)[1].frames)
     assert header_of(data).congruence == 2
     for count in (1, 3, 17):
         with pytest.raises((CorruptError, TruncatedError)):
