@@ -87,9 +87,10 @@ class Seen:
             ("colors of vertices", self.shades, wanted.shades),
             ("colors and opacity of materials", _rows(self.surfaces), _rows(wanted.surfaces)),
         )
+        size = float(wanted.extents.max(initial=0.0))
         for what, own, other in compared:
             if np.shape(own) != np.shape(other) or not np.allclose(
-                own, other, NEAR, NEAR * np.abs(other).max(initial=0)
+                own, other, NEAR, NEAR * (size if what in ("height in meters", "width") else 1.0)
             ):
                 yield f"{what}: {np.round(own, 5).tolist()}, not {np.round(other, 5).tolist()}"
         if moving and (self.start is None or abs(self.start - START / RATE) > 1e-3):
@@ -214,8 +215,10 @@ class Acts:
                 (np.abs(wanted.surfaces - row).max(axis=1) < NEAR).any() for row in np.reshape(seen.surfaces, (-1, 4))
             ]
             seen.surfaces = seen.surfaces[near] if any(near) else seen.surfaces  # it also has those that no face has
-            if not materials_in(mesh.metadata):
-                seen.surfaces = wanted.surfaces
+            numbers, kinds = face_numbers(mesh, "material"), materials_in(mesh.metadata)
+            if not all(map(kinds.get, [0] if numbers is None else np.unique(numbers.values).tolist())):
+                white = np.ones((1, 4))  # faces without a material
+                seen.surfaces = np.concatenate([np.reshape(seen.surfaces, (-1, 4)), white])
             yield from ((f"{name}, usdc", what) for what in seen.differences(wanted, moving=True))
             path.unlink()
 
