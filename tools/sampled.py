@@ -43,14 +43,17 @@ def box(*sides: float) -> Field:
     return field
 
 
-def voxelized(field: Field, cells: int, thick: float = 1.0, reach: float = 1.0) -> Scan:
-    """The surface of a binary volume of `cells` cells a side, the slices along z `thick` cells thick."""
+def voxelized(field: Field, cells: int, thick: float = 1.0, reach: float = 1.0, copies: int = 1) -> Scan:
+    """The surface of a binary volume of `cells` cells a side, the slices along z `thick` cells thick and stored as
+    `copies` thinner ones."""
     step = 2.0 * reach / (cells - 2 * MARGIN)
     steps = step * np.array([1.0, 1.0, thick])
     counts = np.array([cells, cells, round(cells / thick)])
     origin = -0.5 * steps * (counts - 1)
     ticks = [low + size * np.arange(count) for low, size, count in zip(origin, steps, counts, strict=True)]
-    inside = field(np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)) < 0.0
+    inside = np.repeat(field(np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)) < 0.0, copies, axis=2)
+    steps[2] /= copies
+    origin[2] -= 0.5 * (copies - 1) * steps[2]
     positions, faces = isosurface(inside, steps, origin)
     at, small = positions[faces].mean(axis=1), 1e-5 * reach
     slopes = [field(at + small * way) - field(at - small * way) for way in np.eye(3)]
@@ -77,8 +80,22 @@ def voxelized_mesh(positions: Positions, faces: Faces, cells: int, thick: float 
 
 def isosurface(inside: Mask, steps: Floats, origin: Floats) -> tuple[Positions, Faces]:
     """Marching cubes at 0.5, the way round that makes normals point outwards."""
-    marching_cubes = importlib.import_module("skimage.measure").marching_cubes
-    corners, faces, _, _ = marching_cubes(inside.astype(np.float32), 0.5, gradient_direction="ascent")
+    filters, data, numpy_support = (
+        importlib.import_module(f"vtkmodules.{name}")
+        for name in ("vtkFiltersCore", "vtkCommonDataModel", "util.numpy_support")
+    )
+    volume, marching = data.vtkImageData(), filters.vtkFlyingEdges3D()
+    volume.SetDimensions(inside.shape)
+    # Larger inside: the triangles of VTK face lower values.
+    values = np.ascontiguousarray(inside.ravel(order="F"), np.float32)
+    volume.GetPointData().SetScalars(numpy_support.numpy_to_vtk(values))
+    marching.SetInputData(volume)
+    marching.SetValue(0, 0.5)
+    marching.ComputeNormalsOff()
+    marching.Update()
+    surface = marching.GetOutput()
+    corners = numpy_support.vtk_to_numpy(surface.GetPoints().GetData())
+    faces = numpy_support.vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     return corners.astype(np.float64) * steps + origin, np.ascontiguousarray(faces, np.int32)
 
 

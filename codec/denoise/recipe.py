@@ -18,12 +18,14 @@ from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
 from bsm.codec.denoise.noise.causes import Bound, Grid
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
+from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, own_normals, patch_guidance
 from bsm.codec.denoise.surface import Mask, Topology, face_geometry, surface_normals
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
 RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
+BENDS = "bends"  # the hand-over of thick slices, see `Cells.flattened`
 SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
 
 HandOver = Callable[[Positions, Positions, Topology], Positions]
@@ -104,7 +106,7 @@ class Recipe:
 
     @property
     def needs_coarse(self) -> bool:
-        return self.hand_over not in ("none", RAYS)
+        return self.hand_over not in ("none", RAYS, BENDS)
 
 
 @dataclass(frozen=True)
@@ -130,6 +132,9 @@ class Treatments:
             if recipe.hand_over == RAYS:
                 assert self._patient.view is not None
                 positions = self._patient.view.flattened(self.noisy, self._topology, recipe.keep)
+            elif recipe.hand_over == BENDS:
+                assert isinstance(self._patient.bound, Cells)
+                positions = self._patient.bound.flattened(self.noisy, self._topology)
             else:
                 smooth = self._patient.smooth(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
                 positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._topology)

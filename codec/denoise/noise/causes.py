@@ -24,7 +24,6 @@ SPREADS = 3  # averagings that part vertices that rounding has merged
 
 
 FEW_VALUES = 4  # of a coordinate that lies on half-cells, or of a depth in steps
-HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
 SLANTED_EXACT, PEAKS = 0.5, 0.006
 """Of pure steps: the largest share of straight places on slopes, which shapes drawn on a grid have, and of peaks, which
 noise has: pure steps read up to 0.002, steps of a noisy camera 0.014 and more."""
@@ -42,12 +41,6 @@ class Grid:
     """Cells within which positions are indistinguishable."""
 
     steps: Floats
-    thin: float = 0.0  # of a binary volume: share of the stairs along an axis that bound walls of one cell
-
-    @property
-    def flatness(self) -> float:
-        """The largest step over the smallest."""
-        return float(self.steps.max() / self.steps.min())
 
     def round(self, positions: Positions, offset: Floats) -> Positions:
         """Positions in the middle of their cells, of which one has its middle at `offset`, shape (3,)."""
@@ -76,7 +69,7 @@ class Grid:
 
 def find_grid(positions: Positions) -> Grid | None:
     """The grid that the positions, shape (n, 3), were rounded to, in all coordinates."""
-    steps = [_step(positions[:, axis]) for axis in range(3)]
+    steps = [rounding_step(positions[:, axis]) for axis in range(3)]
     known = [step for step in steps if step is not None]
     return Grid(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
 
@@ -93,7 +86,7 @@ def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, In
     return positions[np.unique(index, return_index=True)[1]], index[faces], index
 
 
-def _step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | None:
+def rounding_step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | None:
     """Size of a cell; 0 where there are too few values to tell, None where they are not rounded."""
     extent = float(np.ptp(coordinate))
     values = np.unique(coordinate)
@@ -109,27 +102,6 @@ def _step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | None:
         step = float(numbers @ (values - values[0]) / (numbers @ numbers))
     off = np.abs((values - values[0]) / step - np.round((values - values[0]) / step))
     return step if off.max() < NEAR and len(values) * 8 > count else None
-
-
-def find_cells(positions: Positions) -> Grid | None:
-    """The cells of a binary volume whose surface by marching cubes the positions, shape (n, 3), are: every vertex lies
-    halfway between two cells along one axis, and on a cell along both others."""
-    halves = np.array([_step(column, FEW_VALUES) or 0.0 for column in positions.T])
-    if not halves.all():
-        return None
-    numbers = np.round((positions - positions.min(axis=0)) / halves).astype(np.int64)
-    axes = np.array([1, 2, 4])
-    counts = np.bincount((numbers & 1) @ axes, minlength=8)
-    offset = max(range(8), key=lambda offset: int(counts[axes ^ offset].sum()))
-    if counts[axes ^ offset].sum() < HALFWAY * len(positions):
-        return None
-    size = int(numbers.max()) + 3
-    scales = np.array([1, size, size * size])
-    thin = 0.0
-    for axis, scale in enumerate(scales):
-        stairs = numbers[(numbers[:, axis] ^ (offset >> axis)) & 1 == 1] @ scales
-        thin = max(thin, 2.0 * float(np.isin(stairs + 2 * scale, stairs).mean())) if len(stairs) else thin
-    return Grid(2.0 * halves, thin)
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +153,7 @@ def find_steps(view: View, positions: Positions, probe: Probe) -> Steps | None:
         for inverse in (False, True):
             steps = Steps(view, axis, 1.0, inverse)
             values = steps.depths(positions)
-            step = _step(values, FEW_VALUES)
+            step = rounding_step(values, FEW_VALUES)
             if not step:
                 continue
             apart = np.round((values[members] - values[owners]) / step)

@@ -11,6 +11,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid, Steps
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
+from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.surface import Floats, Mask
 
 LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has at least, and over the usual
@@ -67,7 +68,7 @@ class Finding:
     @property
     def exact(self) -> bool:
         """Whether the coordinates tell the cause, so that nothing has to be guessed."""
-        return isinstance(self.bound, (Grid, Steps))
+        return isinstance(self.bound, (Cells, Grid, Steps))
 
     @property
     def noisy(self) -> bool:

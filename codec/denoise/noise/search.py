@@ -17,10 +17,11 @@ from typing import NamedTuple
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.causes import Line, find_cells, find_grid, find_steps
+from bsm.codec.denoise.noise.causes import Line, find_grid, find_steps
 from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
+from bsm.codec.denoise.noise.volumes import find_cells
 from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -80,10 +81,12 @@ class Suspect(NamedTuple):
 def find_noise(positions: Positions, probe: Probe) -> Finding:
     """Return the first kind of noise that the coordinates tell, or that its rule believes."""
     edge, nothing = mean_edge_length(positions, probe.topology.faces), np.zeros(probe.topology.n)
+    if cells := _cells(positions, probe, edge):
+        return cells
     if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
         return Finding("unknown", 0.0, nothing, edge, "too few vertices to tell noise from shape")
     evidence = surface(positions, probe, edge)
-    for test in (_cells, _rounded, _stepped, _fused):
+    for test in (_rounded, _stepped, _fused):
         finding = test(positions, evidence)
         if finding is not None:
             return finding
@@ -115,18 +118,21 @@ def suspects(positions: Positions, evidence: Evidence) -> Iterator[Suspect]:
             yield suspect
 
 
-def _cells(positions: Positions, evidence: Evidence) -> Finding | None:
+def _cells(positions: Positions, probe: Probe, edge: float) -> Finding | None:
     """On the edges between cells of a volume."""
-    cells = find_cells(positions)
+    cells = find_cells(positions, probe.topology)
     if cells is None:
         return None
     if cells.thin > ONE_CELL:
         reason = "its walls are one cell of a binary volume thick, too thin to tell their shape"
-        return Finding("none", 0.0, np.zeros(len(positions)), evidence.edge, reason, bound=cells)
-    levels = cells.levels(evidence.normals)
+        return Finding("none", 0.0, np.zeros(len(positions)), edge, reason, bound=cells)
+    levels = cells.levels(probe.smooth_normals(positions))
     sizes = " x ".join(f"{step:.3g}" for step in cells.steps)
-    reason = f"stairs along x, y and z of a binary volume of cells of {sizes}; no vertex leaves its half-cell"
-    return Finding("cells", float(np.median(levels)), levels, evidence.edge, reason, bound=cells)
+    where = "x, y and z" if np.array_equal(cells.frame, np.eye(3)) else "axes of its own"
+    reason = f"stairs along {where} of a binary volume of cells of {sizes}; no vertex leaves its half-cell"
+    if cells.thick > 1:
+        reason = f"stairs along {where} of a volume of slices, {cells.thick} cells thick, of cells of {sizes}"
+    return Finding("cells", float(np.median(levels)), levels, edge, reason, bound=cells)
 
 
 def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:

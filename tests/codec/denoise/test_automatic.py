@@ -65,6 +65,14 @@ def test_no_angle_is_estimated_where_noise_turns_faces_anywhere() -> None:
         assert choice.steps and choice.reliable == reliable
 
 
+def test_nothing_moves_where_noise_is_lower_than_what_filters_do_to_thin_triangles() -> None:
+    clean, faces = sphere(20)
+    noisy = gaussian_isotropic(clean * [1.0, 1.0, 30.0], faces, 0.2, seed=3)
+    result, choice = denoise_automatically(noisy, faces)
+    assert not choice.steps and "so uneven that" in choice.reason
+    assert (result == noisy).all()
+
+
 @pytest.mark.slow
 def test_the_goal_decides_between_normals_and_vertices() -> None:
     clean, faces = sphere(20)

@@ -1,0 +1,146 @@
+"""Binary volumes: surfaces in stairs, which marching cubes leave halfway between cells.
+
+The finer half of a vertex's place is known: the surface crosses the edge between two cells along which the vertex lies,
+anywhere on it. So the filter looks for the surface of fewest bends within these bounds (iteratively reweighted least
+squares; accelerated projected gradients, Beck and Teboulle 2009), however thick the slices are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from scipy import sparse
+
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.noise.causes import FEW_VALUES, FEWEST_VALUES, rounding_step
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.surface import Floats, Topology
+
+HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
+ALIKE, SQUARE, TOGETHER = 1e-3, 1e-2, 1e-4
+"""Edges of stairs that are one direction, directions at right angles, and coordinates of one level, in extents."""
+SAMPLE, DIRECTIONS, SHARE, FRAMES = 10_000, 9, 0.01, 12
+"""Faces to look at; directions of edges that are considered, and their least share; and frames to try."""
+ROUNDS, FIRST, STEPS, POWERS = 3, 100, 60, 15
+SAFE = 1.1  # over the estimate of the largest curvature
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells of a binary volume along the rows of `frame`, and how far each vertex may move along these."""
+
+    frame: Floats
+    steps: Floats
+    half: Floats
+    thick: int = 1  # cells of a slice
+    thin: float = 0.0  # share of the stairs along an axis that bound walls of one cell
+
+    @property
+    def flatness(self) -> float:
+        """The largest step over the smallest, those of slices of many cells included."""
+        return float(self.steps.max() / self.steps.min())
+
+    def levels(self, normals: Floats) -> Floats:
+        """Standard deviation along normals, shape (n, 3), of what sampling takes away or adds, shape (n,)."""
+        return np.asarray(np.sqrt(np.square(normals @ self.frame.T * self.steps).sum(axis=1) / 12.0))
+
+    def within(self, given: Positions, moved: Positions) -> Positions:
+        """Moved positions, shape (n, 3), brought back to where those that were `given` may be."""
+        return np.asarray(given + np.clip((moved - given) @ self.frame.T, -self.half, self.half) @ self.frame)
+
+    def flattened(self, positions: Positions, topology: Topology) -> Positions:
+        """The surface of fewest bends within the bounds, shape (n, 3)."""
+        bends = (sparse.identity(topology.n, format="csr") - Probe(topology).average).tocsr()
+        back = bends.T.tocsr()
+        given = found = positions @ self.frame.T
+        weights = np.ones((topology.n, 1))
+        for turn in range(ROUNDS + 1):
+            if turn:
+                bent = np.linalg.norm(bends @ found, axis=1, keepdims=True)
+                weights = 1.0 / np.maximum(np.hypot(bent, np.median(bent)), 1e-300)
+                weights /= weights.max()
+            curve = np.random.default_rng(0).normal(size=(topology.n, 1))
+            for _ in range(POWERS):
+                curve = back @ (weights * (bends @ (curve / max(float(np.linalg.norm(curve)), 1e-300))))
+            step, ahead, pace = 1.0 / max(SAFE * float(np.linalg.norm(curve)), 1e-300), found, 1.0
+            for _ in range(STEPS if turn else FIRST):
+                slope = back @ (weights * (bends @ ahead))
+                last, found = found, np.clip(ahead - step * slope, given - self.half, given + self.half)
+                if ((ahead - found) * (found - last)).sum() > 0.0:  # it would turn back
+                    ahead, pace = found, 1.0
+                else:
+                    before, pace = pace, 0.5 + np.sqrt(0.25 + pace * pace)
+                    ahead = found + (before - 1.0) / pace * (found - last)
+        return np.asarray(found @ self.frame)
+
+
+def find_cells(positions: Positions, topology: Topology) -> Cells | None:
+    """The cells of a binary volume whose surface by marching cubes the positions, shape (n, 3), are: every vertex lies
+    halfway between two cells along one axis, and on a cell along both others. The axes may have any direction."""
+    cells = _cells(positions, np.eye(3))
+    for frame in () if cells else _frames(positions, topology):
+        cells = cells or _cells(np.stack([_snapped(column) for column in frame @ positions.T], axis=1), frame)
+    return cells
+
+
+def _cells(places: Positions, frame: Floats) -> Cells | None:
+    halves = np.array([rounding_step(column, FEW_VALUES) or 0.0 for column in places.T])
+    if not halves.all():
+        return None
+    numbers = np.round((places - places.min(axis=0)) / halves).astype(np.int64)
+    axes = np.array([1, 2, 4])
+    counts = np.bincount((numbers & 1) @ axes, minlength=8)
+    offset = max(range(8), key=lambda offset: int(counts[axes ^ offset].sum()))
+    if counts[axes ^ offset].sum() < HALFWAY * len(places):
+        return None
+    between = ((numbers ^ (offset >> np.arange(3))) & 1).astype(np.bool_)
+    size = int(numbers.max()) + 3
+    scales = np.array([1, size, size * size])
+    thin = 0.0
+    for axis, scale in enumerate(scales):
+        stairs = numbers[between[:, axis]] @ scales
+        thin = max(thin, 2.0 * float(np.isin(stairs + 2 * scale, stairs).mean())) if len(stairs) else thin
+    levels = [np.unique(numbers[between[:, axis], axis]) for axis in range(3)]
+    heights = np.array([int(np.gcd.reduce(np.diff(level))) // 2 if len(level) > 1 else 0 for level in levels])
+    steps, thick = 2.0 * halves, 1
+    half = np.where(between, halves, halves.min())
+    axis = int(heights.argmax())
+    others = np.delete(np.arange(3), axis)
+    # Stairs that somebody built have broad steps along other axes as well, or few of them.
+    many = len(levels[axis]) > FEW_VALUES and all(len(levels[k]) >= FEWEST_VALUES for k in others)
+    if many and heights[axis] > 1 and (heights[others] == 1).all():
+        thick = int(heights[axis])
+        steps[axis] *= thick
+        aside = np.abs((numbers[:, axis] - levels[axis][0]) % (2 * thick) - thick) > 1
+        # Only the middle of a slice was sampled.
+        half[aside | between[:, axis]] = np.inf
+        half[aside | between[:, axis], axis] = thick * halves[axis]
+    return Cells(frame, steps, half, thick, thin)
+
+
+def _frames(positions: Positions, topology: Topology) -> list[Floats]:
+    """Right-angled frames of directions that many edges have, as those of stairs do."""
+    faces = topology.faces[:: 1 + len(topology.faces) // SAMPLE]
+    ways = (positions[np.roll(faces, 1, axis=1)] - positions[faces]).reshape(-1, 3)
+    lengths = np.linalg.norm(ways, axis=1, keepdims=True)
+    ways = ways[lengths[:, 0] > 0.0] / lengths[lengths[:, 0] > 0.0]
+    ways *= np.where(np.take_along_axis(ways, np.abs(ways).argmax(axis=1)[:, None], axis=1) < 0.0, -1.0, 1.0)
+    keys, counts = np.unique(np.round(ways / ALIKE).astype(np.int64), axis=0, return_counts=True)
+    order = np.argsort(-counts, kind="stable")[: 2 * DIRECTIONS]
+    found: list[Floats] = []
+    for key in keys[order[counts[order] > SHARE * len(ways)]] * ALIKE:
+        if len(found) < DIRECTIONS and all(np.linalg.norm(key - other) > 4.0 * ALIKE for other in found):
+            mean = ways[np.linalg.norm(ways - key, axis=1) < 2.0 * ALIKE].sum(axis=0)
+            found.append(mean / np.linalg.norm(mean))
+    square = [pair for pair in combinations(found, 2) if abs(float(pair[0] @ pair[1])) < SQUARE]
+    return [np.linalg.qr(np.stack([*pair, np.cross(*pair)], axis=1))[0].T for pair in square[:FRAMES]]
+
+
+def _snapped(column: Floats) -> Floats:
+    """Coordinates that lie close together become one."""
+    order = np.argsort(column, kind="stable")
+    number = np.zeros(len(column), dtype=np.int64)
+    number[order[1:]] = np.cumsum(np.diff(column[order]) > TOGETHER * np.ptp(column))
+    return np.asarray((np.bincount(number, column) / np.bincount(number))[number])
