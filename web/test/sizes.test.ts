@@ -23,7 +23,7 @@ for (const [what, [most, files]] of Object.entries(LOADS)) {
     });
 }
 
-test("the page of tiles is at most 274600 bytes as `bsm view` sends it", () => {
+test("the page of tiles is at most 276000 bytes as `bsm view` sends it", () => {
     const sizes = ["viewer.js", "small.wasm"].map((name) => gzipSync(readFileSync(join(VIEWER, name)), { level: 9 }).length);
-    assert.ok(sizes[0] + sizes[1] <= 274_600, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
+    assert.ok(sizes[0] + sizes[1] <= 276_000, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
 });
