@@ -89,7 +89,7 @@ describe("the package", () => {
     test("has the version of the Python package, and nothing that is not needed", () => {
         const [, version] = /__version__ = "(.*)"/.exec(readFileSync(join(WEB, "../src/bsm/__init__.py"), "utf8")) ?? [];
         assert.equal(own.version, version);
-        assert.ok(files.every((path) => /^(built\/[\w-]+\.(js|wasm)|built\/LICENSES\.txt|types\/\w+\.d\.ts|package\.json|obj\.js|README\.md|LICENSE)$/.test(path)), files.join(" "));
+        assert.ok(files.every((path) => /^(built\/[\w-]+\.(js|wasm)|built\/LICENSES\.txt|types\/\w+\.d\.ts|package\.json|(mesh|obj)\.js|README\.md|LICENSE)$/.test(path)), files.join(" "));
     });
 
     for (const resolution of [["esnext", "bundler"], ["nodenext", "nodenext"]]) {
