@@ -160,11 +160,11 @@ class Gridded:
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
         return min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
 
-    def _made(self, step: float) -> Candidate:
+    def _made(self, step: float, mirrored: bool = True) -> Candidate:
         unit = self._prepared.units.scale
         held = single(max(step, self.least) * unit)
         origin = self._origin
-        if may_repeat(self._prepared):
+        if mirrored and may_repeat(self._prepared):
             origin = np.array([self._hold(x) for x in mirrored_origin(self._prepared, origin, held)])
         low = self._prepared.units.into(origin)
         places = np.floor((self._prepared.positions - low) / (held / unit) + 0.5).astype(np.int32)
@@ -195,7 +195,7 @@ class Gridded:
         positions = self._prepared.mesh.positions
         for within in (0.0, PART_OF_CELL * self._shaper.mean_edge * self._prepared.units.scale):
             if (step := made_on(positions, within)) is not None:
-                yield self.at(step / self._prepared.units.scale)
+                yield self._made(step / self._prepared.units.scale, mirrored=False)
                 exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step), np.float64)
                 yield from () if exactly is None else (self._candidate(*exactly),)
 
