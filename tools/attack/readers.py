@@ -140,6 +140,11 @@ def _ragged_ply() -> bytes:
 
 
 _FACET = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+_PVD = b"""<VTKFile type="Collection"><Collection>
+<DataSet timestep="0" part="0" file="a.obj"/><DataSet timestep="1.5" part="0" file="b.obj"/>
+</Collection></VTKFile>"""
+_SERIES = b"""{"file-series-version": "1.0",
+"files": [{"name": "a.obj", "time": 0}, {"name": "b.obj", "time": 1.5}]}"""
 _ASCII_STL = b"solid a\n" + _FACET + b"endsolid a\n"
 _USDA = b"""#usda 1.0
 (
@@ -181,6 +186,8 @@ def samples() -> dict[str, Sample]:
         "pc2": Sample("pc2", _written("pc2"), beside),
         "mdd": Sample("mdd", _written("mdd"), beside),
         "moving glb": Sample("glb", _written("glb")),
+        "pvd": Sample("pvd", _PVD, (*beside, ("b.obj", plain))),
+        "series": Sample("series", _SERIES, (*beside, ("b.obj", plain))),
     }
     try:
         import pxr  # noqa: F401

@@ -233,7 +233,7 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
         else:
             found = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
             rows = [(float(entry.get("timestep", place)), entry["file"]) for place, entry in enumerate(found)]
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+    except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
         raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
     if not rows or len({time for time, _ in rows}) < len(rows):
         raise MeshError("the list names no file, or two for one time; join the parts of a time to one file")
