@@ -198,7 +198,7 @@ class EncodeOptions:
     effort: str = "normal"
     quick: bool = False
     exact: bool = False
-    congruence: bool = False
+    congruence: bool = True
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     normals: str = "look"

@@ -103,7 +103,7 @@ ENCODE_FLAGS = (
 )
 
 SETTINGS = (
-    Setting("congruence", lambda text: text == "yes", "yes|no", "also by congruent parts, format 1.1 (default no)"),
+    Setting("congruence", lambda text: text == "yes", "yes|no", "use congruent parts; no: format 1.0 (default yes)"),
     Setting("limits", str, "default|service|wide", "limits that decoders must accept (default: default)"),
     Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: by rate)"),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
