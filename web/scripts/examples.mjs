@@ -12,7 +12,7 @@ const PAGES = { first: "textured", vanilla: "textured", r3f: "textured", gltf: "
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const SEEN = 0.05;
+const SEEN = 0.03;
 /** Lines from the package to a textured mesh. */
 const MOST_LINES = 8;
 
