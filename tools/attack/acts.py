@@ -1,4 +1,4 @@
-"""Does what is written act in other programs: size, up, colors, opacity and times, by three.js and usd-core?
+"""Check that three.js and usd-core show our files as meant: size, up axis, colors, opacity and times.
 
 Each mesh is written as GLB and as USD, still and moving, and its numbers are compared with those that the table of
 conventions asks for (`src/bsm/files/conventions.py`). Expected values are computed here, not by the writers.
@@ -183,7 +183,7 @@ def by_usd(path: Path) -> Seen:
 
 @dataclass
 class Acts:
-    """Meshes that are written to a folder, and what is asked of them."""
+    """Meshes to write into a folder, with the values that readers must find."""
 
     folder: Path
     waiting: list[tuple[str, Path, Seen, bool]] = field(default_factory=list)

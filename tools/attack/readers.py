@@ -690,7 +690,7 @@ def is_ours(name: str) -> bool:
 
 
 def reading(make: Callable[[], Sample], folder: Path, limits: Limits) -> Callable[[], Taken]:
-    """Write a file and what lies beside it; what reads it, processes behind the wall included."""
+    """Write a file and those beside it, then measure the reader, with its processes behind the wall."""
     path, size = written(make(), folder)
 
     def read() -> Taken:
@@ -719,7 +719,7 @@ def written(sample: Sample, folder: Path) -> tuple[Path, int]:
 
 
 def warm_up() -> None:
-    """What is loaded once is nobody's fault; one server reads for all."""
+    """Load every library and start the server once, so that no case is charged for it."""
     with tempfile.TemporaryDirectory() as folder:
         for sample in samples().values():
             taken = read_all(written(sample, Path(folder))[0], Limits())

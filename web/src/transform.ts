@@ -43,9 +43,9 @@ interface CodedPrimitive {
 }
 
 /**
- * An extension for `io.registerExtensions([EXTBSMCompression])`. What it reads is decoded, and no longer compressed. To compress what is
- * written, call `document.createExtension(EXTBSMCompression)`: triangles without morph targets become streams, one for each primitive.
- * What cannot stays as it is, with a warning. Of meshes that move the first frame is read.
+ * An extension for `io.registerExtensions([EXTBSMCompression])`. Reading decodes streams. To write
+ * them, call `document.createExtension(EXTBSMCompression)`: each primitive of triangles without morph targets becomes a stream.
+ * Other primitives stay as they are, with a warning. Of a moving mesh the first frame is read.
  */
 export class EXTBSMCompression extends Extension {
     static override readonly EXTENSION_NAME = EXTENSION;

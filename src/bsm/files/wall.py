@@ -318,7 +318,7 @@ def _close_files(beside: set[str]) -> None:
     scope = landlock.Scope.SIGNAL | landlock.Scope.ABSTRACT_UNIX_SOCKET
     with landlock.Ruleset(scoped=scope) as rules:
         for path in itertools.chain(_libraries(), beside):
-            with suppress(OSError):  # what has gone is not read
+            with suppress(OSError):  # the folder may have been removed meanwhile
                 rules.allow_path(path, known if os.path.isdir(path) else landlock.AccessFS.READ_FILE)
         rules.restrict()
 

@@ -109,7 +109,7 @@ export class Comparison {
         for (const geometry of this.geometries) if (geometry?.frames.length) geometry.showFrame(Math.min(frame, geometry.frames.length - 1));
     }
 
-    /** Compare a stream with its original, where nobody else has done so. */
+    /** Compare a stream with its original, unless Python has measured them. */
     private measure(): void {
         const { content: { facts, main }, geometries: { 0: original, [main]: stream }, offs } = this;
         if (main === 0 || facts.diagonal !== undefined || stream?.frames.length || !original || !stream) return;

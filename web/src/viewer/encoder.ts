@@ -6,7 +6,7 @@ import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
 import { type AttributeInput, encodeHere, type MeshInput } from "../encode";
 
-/** What the page sends, and what it gets: how far it is, at last the streams or what is wrong. */
+/** The page sends a `Job`, and gets reports: of progress, then of the result or an error. */
 export interface Job {
     file: File;
     preset: string;
