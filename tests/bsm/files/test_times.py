@@ -77,6 +77,9 @@ def test_times_of_files_and_of_lists_go_in_and_out(form, times, tmp_path):
         ("a.pvd", "<VTKFile"),
         ("a.pvd", "<Collection><DataSet timestep='1'/></Collection>"),
         ("a.series", "{}"),
+        ("a.pvd", "<Collection><DataSet timestep='inf' file='a.vtp'/></Collection>"),
+        ("a.series", '{"files": [{"name": "a.vtp", "time": NaN}]}'),
+        ("a.series", '{"files": [{"name": "a.vtp", "time": 1' + 400 * "0" + "}]}"),
         ("b.series", "[1]"),
     ],
 )

@@ -2,6 +2,7 @@
 
 import glob
 import json
+import math
 import os
 import re
 from collections import Counter
@@ -233,6 +234,8 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
         else:
             found = (element.attrib for element in elements_of(data) if element.tag == "DataSet")
             rows = [(float(entry.get("timestep", place)), entry["file"]) for place, entry in enumerate(found)]
+        if not all(math.isfinite(time) for time, _ in rows):
+            raise ValueError("a time is not finite")
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
         raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
     if not rows or len({time for time, _ in rows}) < len(rows):
