@@ -107,7 +107,7 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         await page.keyboard.press("h"); // nothing lies before the mesh
         const brightness = [];
         for (const _ of ["flat", "wire", "smooth"]) {
-            await page.keyboard.press("f");
+            await page.keyboard.press("d");
             await page.waitForTimeout(500);
             brightness.push(brightnessOf(await page.locator("canvas").screenshot()));
         }
