@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 
 import bsm
-import bsm.blender
 from bsm import MeshError, OptionError
+from plugins.blender import extension as addon
+from plugins.blender.extension import objects
 
 folder = Path(sys.argv[-1])
 found = {}
@@ -42,7 +43,7 @@ def sequence():
     """Every frame of a stream, scrubbed in Blender; then saved, moved, opened again."""
     fresh()
     decoded, _ = bsm.decode_sequence(folder / "moving.bsm")
-    (moving,) = bsm.blender.import_file(str(folder / "moving.bsm"))
+    (moving,) = objects.import_file(str(folder / "moving.bsm"))
     scene = bpy.context.scene
     found["exact"] = bool(np.array_equal(all_frames(moving), decoded.astype(np.float32)))
     found["scene"] = [scene.frame_start, scene.frame_end, scene.render.fps / scene.render.fps_base]
@@ -50,7 +51,7 @@ def sequence():
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "project" / "a.blend"))
     (folder / "bsm_cache" / "moving.pc2").unlink()
     bpy.ops.wm.open_mainfile(filepath=str(folder / "project" / "a.blend"))
-    found["restored"] = bsm.blender.restore_caches()
+    found["restored"] = objects.restore_caches()
     found["cache"] = bpy.data.objects["moving"].modifiers[0].filepath
     found["exact again"] = bool(np.array_equal(all_frames(bpy.data.objects["moving"]), decoded.astype(np.float32)))
 
@@ -69,7 +70,7 @@ def rig():
         near = np.abs(shown - given).max() < 0.01 * np.linalg.norm(np.ptp(given[0], axis=0))
         found["rig"] += [list(shown.shape), bool(near)]
         own.modifiers.clear()
-    (made,) = bsm.blender.import_file(str(folder / "pc2.bsm"))
+    (made,) = objects.import_file(str(folder / "pc2.bsm"))
     turns = {"own": own.rotation_euler, "stream": made.rotation_euler}
     found["axes"] = {name: [round(np.degrees(angle)) for angle in turn] for name, turn in turns.items()}
 
@@ -78,12 +79,12 @@ def runs():
     """Frames of other faces: objects that take turns, also in a project that has lost their caches."""
     fresh()
     scene, shown = bpy.context.scene, []
-    names = [made.name for made in bsm.blender.import_file(str(folder / "runs.bsm"))]
+    names = [made.name for made in objects.import_file(str(folder / "runs.bsm"))]
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "project" / "runs.blend"))
     for path in (folder / "bsm_cache").glob("runs*"):
         path.unlink()
     bpy.ops.wm.open_mainfile(filepath=str(folder / "project" / "runs.blend"))
-    found["runs"] = [names, sorted(bsm.blender.restore_caches())]
+    found["runs"] = [names, sorted(objects.restore_caches())]
     scene = bpy.context.scene
     for number in range(scene.frame_start, scene.frame_end + 1):
         scene.frame_set(number)
@@ -96,11 +97,11 @@ def runs():
 def static():
     """A mesh with attributes and a material, in and out."""
     fresh()
-    (made,) = bsm.blender.import_file(str(folder / "still.bsm"))
+    (made,) = objects.import_file(str(folder / "still.bsm"))
     found["still"] = sorted(f"{a.name} {a.data_type} {a.domain}" for a in made.data.attributes if a.name[0] != ".")
     found["material"] = [slot.material.name for slot in made.material_slots]
     found["color"] = [round(component, 3) for component in shader(made).inputs["Base Color"].default_value]
-    bsm.blender.export_object(str(folder / "still_again.bsm"), made, animation=False, preset="near-lossless")
+    objects.export_object(str(folder / "still_again.bsm"), made, animation=False, preset="near-lossless")
 
 
 def shader(made):
@@ -119,7 +120,7 @@ def export():
     monkey.keyframe_insert("location", frame=5)
     monkey.location = (4, 2, 3)
     monkey.keyframe_insert("location", frame=16)
-    found["exported"] = bsm.blender.export_object(str(folder / "monkey.bsm"), preset="fine")
+    found["exported"] = objects.export_object(str(folder / "monkey.bsm"), preset="fine")
     shown = []
     for number in range(5, 17):
         scene.frame_set(number)
@@ -129,12 +130,12 @@ def export():
     build = monkey.modifiers.new("build", "BUILD")
     build.frame_start, build.frame_duration = 0, 12
     try:
-        bsm.blender.export_object(str(folder / "x.bsm"), monkey)
+        objects.export_object(str(folder / "x.bsm"), monkey)
     except MeshError as error:
         found["changing"] = str(error)
     bpy.ops.object.delete()
     try:
-        bsm.blender.export_object(str(folder / "x.bsm"))
+        objects.export_object(str(folder / "x.bsm"))
     except OptionError as error:
         found["nothing"] = str(error)
     fresh()
@@ -143,20 +144,14 @@ def export():
     cube.data.attributes.new("crease", "FLOAT", "EDGE")
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always", bsm.BsmWarning)
-        bsm.blender.export_object(str(folder / "cube.bsm"), cube, animation=False)
+        objects.export_object(str(folder / "cube.bsm"), cube, animation=False)
     found["left out"] = [str(note.message) for note in told if note.category is bsm.BsmWarning]
 
 
 def extension():
     """The extension's operators, menus and handler for files that are dropped."""
     fresh()
-    import importlib.util
-
-    where = Path(bsm.__file__).parents[2] / "plugins" / "blender" / "extension" / "__init__.py"
-    spec = importlib.util.spec_from_file_location("bsm_extension", where)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    module.register()
+    addon.register()
     done = bpy.ops.import_scene.bsm(
         filepath=str(folder / "moving.bsm"), directory=str(folder), files=[{"name": "moving.bsm"}]
     )
@@ -174,7 +169,7 @@ def extension():
     except RuntimeError as error:
         found["broken"] = str(error)
     found["handler"] = bpy.types.FileHandler.bl_rna_get_subclass_py("BSM_FH_import").bl_file_extensions
-    module.unregister()
+    addon.unregister()
 
 
 sequence()

@@ -66,7 +66,7 @@ def folder(tmp_path_factory):
 def found(folder):
     """What Blender found."""
     words = [blender(), str(Path(__file__).parent / "in_blender.py"), str(folder)]
-    path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
+    path = os.pathsep.join([str(ROOT / "src"), str(ROOT), os.environ.get("PYTHONPATH", "")])
     setting = {**os.environ, "PYTHONPATH": path}
     done = subprocess.run(words, capture_output=True, text=True, timeout=600, env=setting, check=False)
     lines = [line for line in done.stdout.splitlines() if line.startswith("FOUND ")]
@@ -137,7 +137,7 @@ def test_the_zip_has_what_blender_asks_for(tmp_path, capsys):
     with zipfile.ZipFile(tmp_path / "a.zip") as archive:
         names = archive.namelist()
         manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
-    assert {"blender_manifest.toml", "__init__.py", "LICENSE"} < set(names)
+    assert {"blender_manifest.toml", "__init__.py", "objects.py", "LICENSE"} < set(names)
     assert manifest["id"] == "bsm" and manifest["version"].count(".") == 2 and manifest["type"] == "add-on"
     assert [name.removeprefix("./") for name in manifest["wheels"]] == [name for name in names if name[:6] == "wheels"]
     assert len(manifest["wheels"]) == 2 and manifest["permissions"]["files"]

@@ -51,7 +51,8 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         from bsm.bitstream.errors import BsmError
-        from bsm.blender import import_file
+
+        from .objects import import_file
 
         names = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [self.filepath]
         given = {"frame_start": self.frame_start, "set_scene": self.set_scene, "up": self.up}
@@ -93,7 +94,8 @@ class BSM_OT_export(bpy.types.Operator, ExportHelper):
 
     def execute(self, context):
         from bsm.bitstream.errors import BsmError
-        from bsm.blender import export_object
+
+        from .objects import export_object
 
         quality = {"preset": self.preset} | ({"look": self.look} if self.look else {})
         with progress_of(context) as progress:
@@ -123,7 +125,7 @@ class BSM_FH_import(bpy.types.FileHandler):
 @persistent
 def restore(*_):
     """Write caches again that a project has lost on its way."""
-    from bsm.blender import restore_caches
+    from .objects import restore_caches
 
     restore_caches()
 

@@ -1,9 +1,4 @@
-"""Meshes and sequences in Blender, by its module `bpy`, as the extension in plugins/blender does it.
-
-import bsm.blender
-moving = bsm.blender.import_file("samba.bsm")[0]
-bsm.blender.export_object("again.bsm", moving, preset="fine")
-"""
+"""Meshes and sequences in Blender, by its module `bpy`."""
 
 from __future__ import annotations
 
