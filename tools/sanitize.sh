@@ -38,4 +38,6 @@ LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.s
 unset LD_PRELOAD ASAN_OPTIONS
 made=$("$python" -c "from tests.engine.decoding import compiled; print(compiled(*'$flags'.split()))")
 cc $flags -I"$made" -I. tools/attack/starve.c "$made/bsmdec.so" -pthread -Wl,-rpath,"$made" -o "$made/starve"
-"$made/starve" "${STARVE:-40}" spec/vectors/*/*.bsm
+shopt -s extglob
+# The large ones have hundreds of allocations, and decoding takes a second of each.
+"$made/starve" "${STARVE:-40}" spec/vectors/*/!(good-large-*).bsm
