@@ -41,6 +41,10 @@ FILES = (
 _WRITTEN = {"output", "report", "save", "picture", "map", "work"}
 _WITHOUT_FILES = ("info", "compare", "verify", "bench", "completion", "curve")
 """Commands that write no file. They accept -f nevertheless, so that scripts can always pass it."""
+_WITH_FORCE = {
+    "denoise": "; also write results that lose detail",
+    "encode": "; with --preset lossless, leave out contents that no stream holds",
+}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -114,7 +118,7 @@ def _no_command(words: list[str]) -> int:
 
 def _common(name: str) -> Parser:
     common = Parser(add_help=False)
-    harm = "; also write results that lose detail" if name == "denoise" else ""
+    harm = _WITH_FORCE.get(name, "")
     does = argparse.SUPPRESS if name in _WITHOUT_FILES else f"overwrite files{harm}"
     common.add_argument("-f", "--force", action="store_true", help=does)
     common.add_argument("-q", "--quiet", action="store_true", help="print only results and errors")

@@ -277,7 +277,7 @@ def test_bytes_that_a_required_extension_packs_are_not_read_as_they_are():
 def test_points_and_lines_are_named():
     built = one()
     built.tree["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 0})
-    assert "points and lines were left out: 1" in built.read().notes
+    assert "points and lines (1)" in built.read().dropped
 
 
 def test_morph_targets_and_skins_stand_as_at_rest():

@@ -358,7 +358,7 @@ class Scene:
         for number, primitive in enumerate(mesh["primitives"]):
             mode = primitive.get("mode", TRIANGLES)
             if mode not in TRIANGULAR or "POSITION" not in primitive["attributes"]:
-                self.notes.append("points and lines were left out")
+                self.notes.append(_NO_SURFACES)
                 continue
             made = self._made.get((tree["mesh"], number, bound))  # one that stands in several places is made once
             part = self._part(node, primitive, skin, name) if made is None else replace(made, node=node, name=name)
@@ -502,6 +502,7 @@ def is_read(name: str) -> bool:
 
 
 USUAL_RATE = 30.0
+_NO_SURFACES = "points and lines were left out"
 
 
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
@@ -517,9 +518,11 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
         document.limits.check_work(3 * scene.work, scene.vertices, document.received)
         found = _joined(scene, document, 0.0, document.limits)
         lost = Counter(scene.notes)
+        points = lost.pop(_NO_SURFACES, 0)
         counts = [f"{note}: {count}" for note, count in lost.items()]
         counts += [f"compressed already, by {name}: errors add up" for name in document.compressed]
-        return replace(found, notes=(*found.notes, *counts), dropped=_unread(document, still=True)).checked(
+        dropped = (*_unread(document, still=True), *([f"points and lines ({points})"] if points else []))
+        return replace(found, notes=(*found.notes, *counts), dropped=dropped).checked(
             document.limits, document.received
         )
 

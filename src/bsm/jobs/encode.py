@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from bsm import __version__
-from bsm.bitstream.errors import OptionError, counted
+from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
@@ -81,6 +81,9 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     with console.progress("reading", until=READ):
         limits = Limits.service() if job.untrusted else DEFAULT_LIMITS
         source = read_mesh(job.input, job.format, limits, isolated=job.untrusted or None)
+    if source.dropped and job.options.get("preset") == "lossless" and not job.force:
+        lost = ", ".join(source.dropped)
+        raise HarmError(f"lossless would lose contents that no stream holds: {lost}; --force leaves them out")
     mesh = with_metadata(source.mesh, chosen, job.metadata)
     if job.images:
         mesh = replace(mesh, metadata=with_smaller_images(mesh.metadata, ImageRule.parse(job.images)))

@@ -492,6 +492,23 @@ def test_lossless_refuses_what_single_precision_would_move_and_the_way_out_works
     assert any("rounded to single precision, by" in note for note in encoder.notes)
 
 
+@pytest.mark.parametrize(
+    ("more", "lost"), [("l 1 2\n", "lines"), ("f 1 2\n", "corners"), (f'# meta story: "{"x" * (9 << 20)}"\n', "story")]
+)
+def test_lossless_drops_nothing_unless_it_is_told_to(tmp_path, more, lost):
+    file, stream = tmp_path / "a.obj", tmp_path / "a.bsm"
+    file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + more)
+    done = run("encode", file, "-o", stream, "--preset", "lossless")
+    assert done.returncode == 11 and lost in done.stderr and "--force" in done.stderr and not stream.exists()
+    done = run("encode", file, "-o", stream, "--preset", "lossless", "--force")
+    assert (
+        done.returncode == 0
+        and stream.exists()
+        and f"left out: {lost}" in done.stderr.replace("faces with fewer than three ", "")
+    )
+    assert run("encode", file, "-o", stream, "--force").returncode == 0
+
+
 def test_floats_that_are_labels_stay_exact():
     mesh = torus(20, 12)
     rows = len(mesh.positions)

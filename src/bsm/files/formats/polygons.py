@@ -304,8 +304,8 @@ class Polygons:
             row = int(np.argmin(np.isfinite(positions).all(axis=1)))
             raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
         notes = list(self.notes)
-        if (sizes < 3).any():
-            notes.append(f"faces with fewer than three corners were left out: {int((sizes < 3).sum())}")
+        thin = int((sizes < 3).sum())
+        left_out = (*self.dropped, *([f"faces with fewer than three corners ({thin})"] if thin else []))
         if (sizes > 3).any():
             notes.append(f"{CUT}: {int((sizes > 3).sum())}")
         places, owner, folded = (cut or triangulate)(positions, sizes, corners)
@@ -314,9 +314,8 @@ class Polygons:
         finite = [_finite(column, notes) for column in self.columns]
         attributes, refused = attributes_of(finite, len(positions), len(sizes), places, owner)
         metadata, too_large = fitting(self.metadata, limits.metadata_bytes)
-        dropped = (*self.dropped, *refused, *too_large)
-        if self.dropped:
-            notes.append(f"left out: {', '.join(self.dropped)}")
+        dropped = (*left_out, *refused, *too_large)
+        notes += [f"left out: {', '.join(left_out)}"] if left_out else []
         notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
         faces = corners[places].astype(np.int32)
         return MeshFile(TriangleMesh(positions, faces, attributes, metadata), tuple(notes), dropped)

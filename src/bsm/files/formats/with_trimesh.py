@@ -68,8 +68,7 @@ def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
     ]
     found = _polygons(surfaces, scene.metadata, limits, received)
     lost = len(places) - len(surfaces)
-    notes = [f"curves and point clouds were left out: {lost}"] if lost else []
-    return replace(found, notes=(*found.notes, *notes))
+    return replace(found, dropped=(*found.dropped, *([f"curves and point clouds ({lost})"] if lost else [])))
 
 
 def polygons_of(mesh: Any) -> Polygons:
