@@ -20,7 +20,7 @@ from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, as_format_error, require_count
 from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
-from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, WEBP, Document, read_document, triangles_of
+from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, TRANSFORM, WEBP, Document, read_document, triangles_of
 
 INSTANCING, PER_INSTANCE = "EXT_mesh_gpu_instancing", 2000  # bytes of the node of an instance, at most
 _REST = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
@@ -530,7 +530,7 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
 _MOVED = ("POSITION", "NORMAL", "TANGENT", "COLOR_0")  # by morph targets
 _OF_TEXTURES = ("texCoord", "scale", "strength")
 _SAMPLING = {"wrapS": 10497, "wrapT": 10497, "magFilter": 9729}  # repeated, and smooth
-_READ = (WEBP, INSTANCING, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
+_READ = (WEBP, TRANSFORM, INSTANCING, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
 
 
 def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
@@ -554,6 +554,9 @@ def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
         given = {**material, **material.get("pbrMetallicRoughness", {})}
         infos = {name: info for name, info in given.items() if name.endswith("Texture")}
         found += [f"{key} of {name}" for name, info in infos.items() for key in _OF_TEXTURES if info.get(key)]
+        for name, info in infos.items():
+            placed_so = info.get("extensions", {}).get(TRANSFORM, {})
+            found += [f"{key} of {name}" for key in ("rotation", "texCoord") if placed_so.get(key)]
     kinds = ("nodes", "materials", "textures", "images", "skins", "animations", "cameras")
     found += [f"extras of {kind}" for kind in kinds if any(entry.get("extras") for entry in document.items(kind))]
     found += [f"extras ({name})" for name, value in _all_extras(document) if not isinstance(value, str | int | float)]
@@ -714,6 +717,9 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
                     images |= {f"image.{numbers[key]}.name": called} if called else {}
                 if f"image.{numbers[key]}.data" in images:
                     found[name] = numbers[key]
+                    if moved := value.get("extensions", {}).get(TRANSFORM):  # counts from above, and MTL from below
+                        (across, up), (right, down) = moved.get("scale", (1, 1)), moved.get("offset", (0, 0))
+                        found[f"{name}.options"] = f"-s {across:.9g} {up:.9g} 1 -o {right:.9g} {1 - up - down:.9g} 0"
             elif isinstance(value, bool):
                 found[name] = int(value)
             elif isinstance(value, str | int | float):

@@ -15,7 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import placement, unit_named
 from bsm.files.formats.metadata import as_gltf, as_mtl, in_words, scale_and_offset
 from bsm.files.formats.polygons import Column, Part, joined_parts
-from bsm.files.mesh import read_mesh, written_mesh
+from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from bsm.lengths import metres
 from tests.bsm.files.test_file_attributes import png
 
@@ -24,6 +24,13 @@ TRIANGLE = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 3]], float)
 
 def tree_of(data):
     return json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
+
+
+def with_tree(data, tree):
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + struct.unpack_from("<I", data, 12)[0] :]
+    return b"glTF" + struct.pack("<IIII", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
 
 
 @pytest.mark.parametrize("up", ["x", "y", "z"])
@@ -139,6 +146,33 @@ def test_options_of_images_and_words_for_what_is_lost():
         "name, opacity of material Glass",
         "opacity of material 1",
     ]
+
+
+def test_textures_that_are_moved_stay_so(tmp_path):
+    """The options of MTL, the extension of glTF, and back; what MTL has no word for is named."""
+    metadata = {"material.0.name": "a", "material.0.map_Kd": 0, "material.0.map_Kd.options": "-s 2 3 1 -o 0.5 0.25 0"}
+    metadata |= {"image.0.name": "a.png", "image.0.data": png()}
+    of = (
+        Attribute("texcoord", np.array([[0, 0], [1, 0], [0, 1.0]])),
+        Attribute("material", np.zeros((1, 1), int), "face"),
+    )
+    written = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], of, metadata), "glb")
+    assert written.left_out == ()
+    again = read_mesh(written.data, "glb")
+    assert (
+        again.dropped == () and again.mesh.metadata["material.0.baseColorTexture.options"] == "-s 2 3 1 -o 0.5 0.25 0"
+    )
+    assert write_mesh(tmp_path / "a.obj", again.mesh) == ()
+    assert b"map_Kd -s 2 3 1 -o 0.5 0.25 0 " in (tmp_path / "a.mtl").read_bytes()
+    second = written_mesh(again.mesh, "glb").data
+    assert tree_of(second)["materials"] == tree_of(written.data)["materials"]
+    tree = tree_of(second)
+    info = tree["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"]
+    info |= {"rotation": 1, "texCoord": 1}
+    assert read_mesh(with_tree(second, tree), "glb").dropped == (
+        "rotation of baseColorTexture",
+        "texCoord of baseColorTexture",
+    )
 
 
 SHADES = {3: np.array([[10, 20, 30]] * 3, np.uint8), 4: np.array([[10, 20, 30, 40]] * 3, np.uint8)}

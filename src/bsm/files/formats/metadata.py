@@ -196,7 +196,7 @@ def as_numbers(value: object) -> list[float]:
 
 def as_mtl(material: Material) -> Material:
     """A material in the words of MTL, as far as they go, with colors in sRGB."""
-    renamed: Material = {_TO_MTL.get(name, name): value for name, value in material.items()}
+    renamed: Material = {_to_mtl(name): value for name, value in material.items()}
     color, glow = (as_numbers(material.get(name, "")) for name in ("baseColorFactor", "emissiveFactor"))
     renamed.pop("baseColorFactor", None)
     mode = material.get("alphaMode")
@@ -209,6 +209,11 @@ def as_mtl(material: Material) -> Material:
     if mode in ("BLEND", "MASK") and "map_Kd" in renamed:
         renamed.setdefault("map_d", renamed["map_Kd"])
     return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
+
+
+def _to_mtl(name: str) -> str:
+    keyword, dot, options = name.partition(".")
+    return f"{_TO_MTL.get(keyword, keyword)}{dot}{options}"
 
 
 def _is_mtl(name: str) -> bool:
