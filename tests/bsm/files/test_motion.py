@@ -163,6 +163,18 @@ def test_a_cache_comes_back_for_the_mesh_that_it_moves(tmp_path, capsys, kind):
     assert (tmp_path / "back" / "rig.obj").read_bytes() == own
 
 
+@pytest.mark.parametrize(("sample", "points"), [("None", 0), ("[(0, 0, 0), (1, 0, 0)]", 2)])
+def test_a_sample_of_a_stage_that_is_blocked_or_short_is_named(tmp_path, sample, points):
+    pytest.importorskip("pxr")
+    whole = "[(0, 0, 0), (1, 0, 0), (0, 1, 0)]"
+    points_of = f"point3f[] points.timeSamples = {{ 1: {whole}, 2: {sample}, 3: {whole.replace('0)]', '1)]')} }}"
+    faces = "int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]"
+    text = f'#usda 1.0\n( startTimeCode = 1\n endTimeCode = 3 )\ndef Mesh "m" {{\n {faces}\n {points_of}\n}}\n'
+    (tmp_path / "a.usda").write_text(text)
+    with pytest.raises(MeshError, match=f"/m has {points} points at time 2 and 3 before"):
+        frames_of(tmp_path / "a.usda")
+
+
 def test_usd_core_reads_what_we_write(tmp_path):
     pxr = pytest.importorskip("pxr.Usd")
     from pxr import UsdGeom
