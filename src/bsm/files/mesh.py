@@ -31,7 +31,7 @@ from bsm.files.room import gunzipped, plain_text, require_counts_of_head, requir
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
-WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "om", "ply", "stl", "vtp")  # what we write, .om with openmesh
+WRITTEN_FORMATS = ("3mf", "glb", "npz", "obj", "off", "om", "ply", "stl", "vtp")  # what we write
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _CONTENTS = {"obj": "an OBJ", "off": "", "ply": "a PLY"}  # by their first bytes
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
@@ -39,7 +39,7 @@ _ALL = 1 << 62
 
 
 _ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
-_ROOMS["om"] = "bsm.files.formats.om"
+_ROOMS |= {"om": "bsm.files.formats.om", "3mf": "bsm.files.formats.three_mf"}
 
 
 def by_name(module: str, function: str) -> Any:

@@ -48,6 +48,35 @@ def test_a_glb_has_the_size_in_meters_and_y_up(unit, up, tmp_path):
     assert (again.metadata["unit"], again.metadata["up"]) == ("meters", "y") and written.left_out == ()
 
 
+@pytest.mark.parametrize("up", ["x", "y", "z"])
+@pytest.mark.parametrize(("unit", "named"), [("mm", "millimeter"), ("inches", "inch"), ("0.5 m", "millimeter")])
+def test_a_3mf_has_its_unit_and_z_up(unit, named, up, tmp_path):
+    pytest.importorskip("lib3mf")
+    mesh = TriangleMesh(TRIANGLE, [[0, 1, 2]], (), {"unit": unit, "up": up, "Title": "One"})
+    assert write_mesh(tmp_path / "a.3mf", mesh) == ()
+    again = read_mesh(tmp_path / "a.3mf").mesh
+    assert {**again.metadata} == {"unit": named, "up": "z", "Title": "One"}
+    upward = metres(unit) * np.ptp(TRIANGLE[:, "xyz".index(up)])
+    assert metres(named) * np.ptp(again.positions[:, 2]) == pytest.approx(upward, rel=1e-6)
+    trimesh = pytest.importorskip("trimesh")
+    pytest.importorskip("networkx")
+    pytest.importorskip("lxml")
+    assert trimesh.load(tmp_path / "a.3mf").extents[2] == pytest.approx(np.ptp(again.positions[:, 2]), rel=1e-6)
+
+
+@pytest.mark.parametrize("size", [1e-7, 1e-3, 1.0, 1e3, 1e6])
+def test_a_3mf_has_enough_digits_for_any_size(size, tmp_path):
+    pytest.importorskip("lib3mf")
+    write_mesh(tmp_path / "a.3mf", TriangleMesh(np.float32(size / 3 * TRIANGLE), [[0, 1, 2]]))
+    assert read_mesh(tmp_path / "a.3mf").mesh.positions == pytest.approx(size / 3 * TRIANGLE, rel=3e-7)
+
+
+def test_what_lib3mf_does_not_write_is_named(tmp_path):
+    pytest.importorskip("lib3mf")
+    with pytest.raises(MeshError, match="lib3mf cannot write"):
+        write_mesh(tmp_path / "a.3mf", TriangleMesh(1e12 * TRIANGLE, [[0, 1, 2]]))
+
+
 def test_a_unit_that_is_unknown_is_kept_and_changes_no_size():
     assert metres("furlong") is None and placement({"unit": "furlong"}, "glb").scale == 1.0
     assert unit_named(0.001) == "millimeters" and metres(unit_named(0.0123)) == pytest.approx(0.0123)

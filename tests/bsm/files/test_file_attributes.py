@@ -510,8 +510,7 @@ def test_materials_of_any_kind_are_written_or_left_out(statements, images, kind)
     if kind == "glb":
         pytest.importorskip("trimesh")
         pytest.importorskip("PIL")
-    if kind == "om":
-        pytest.importorskip("openmesh")
+    pytest.importorskip({"om": "openmesh", "3mf": "lib3mf"}.get(kind, "bsm"))
     metadata = {f"material.{number}.{word}": value for (number, word), value in statements.items()}
     metadata |= {f"image.{number}.data": data for number, data in images.items()}
     mesh = tetrahedron()

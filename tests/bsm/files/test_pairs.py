@@ -23,7 +23,7 @@ MESH = TriangleMesh(
     ),
     {
         **{"unit": "mm", "up": "z", "material.0.name": "Red", "material.0.Kd": "1 0 0"},
-        **{"material.1.name": "Glass", "material.1.Kd": "0 0.5 1", "material.1.d": "0.3"},
+        **{"material.1.name": "Glass", "material.1.Kd": "0 0.501961 1", "material.1.d": "0.298039"},
     },
 )
 # Words by which writers name what they leave out, for each part of what a mesh means.
@@ -34,7 +34,8 @@ WORDS = {
     "texcoord": {"texcoord"},
     "material": {"material"},
 }
-FORMATS = [kind for kind in WRITTEN_FORMATS if kind != "om" or importlib.util.find_spec("openmesh")]
+NEEDED = {"om": "openmesh", "3mf": "lib3mf"}
+FORMATS = [kind for kind in WRITTEN_FORMATS if importlib.util.find_spec(NEEDED.get(kind, "bsm"))]
 
 
 def meaning(mesh):

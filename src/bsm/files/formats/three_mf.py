@@ -1,7 +1,9 @@
-"""3MF, read with lib3mf, the library of the 3MF Consortium: its objects where the build places them, as one mesh."""
+"""3MF by lib3mf, the library of the 3MF Consortium: objects where the build places them, read as one mesh; a mesh is
+written as one object with the colors of its materials."""
 
 import ctypes
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -9,11 +11,28 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError, imported
 from bsm.bitstream.limits import Limits
-from bsm.files.formats.metadata import Material, Value, described, kind_of_image
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files import conventions
+from bsm.files.conventions import placement
+from bsm.files.formats.metadata import (
+    Material,
+    Value,
+    Written,
+    as_gltf,
+    as_numbers,
+    described,
+    face_numbers,
+    kind_of_image,
+    left_out,
+    materials_in,
+)
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
-from bsm.files.room import Doubles, Ints
+from bsm.files.room import Doubles, Ints, single_suffices
+from bsm.lengths import metres
 
 _UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
+_SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of these in meters
+_KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")
 _OTHERS = {"Composite": "composite materials", "Multi": "layers of materials"}
 _UUID, _MOST_WARNINGS = 32944, 4  # a warning of each file by most slicers; warnings that notes name
 _Painted = Literal["color", "texcoord"]
@@ -201,3 +220,70 @@ def _matrix(transform: Any) -> Doubles:
     matrix = np.eye(4)
     matrix[:3] = np.frombuffer(bytes(transform), np.float32).reshape(4, 3).T
     return matrix
+
+
+# ------------------------------------------------------------------------------------------------------ what is written
+
+
+def write_3mf(mesh: TriangleMesh, stem: str) -> Written:
+    library = imported("lib3mf", "3MF is written with lib3mf", "formats")
+    try:
+        return _written(library, mesh)
+    except library.ELib3MFException as error:
+        raise MeshError(f"lib3mf cannot write this mesh: {str(error)[:200]}") from error
+
+
+def _written(library: Any, mesh: TriangleMesh) -> Written:
+    model = library.get_wrapper().CreateModel()
+    place, size = placement(mesh.metadata, "3mf"), metres(str(mesh.metadata.get("unit", "")))
+    unit = next((number for number, known in enumerate(_SIZES) if size and math.isclose(known, size)), None)
+    scale = size / _SIZES[1] if unit is None and size else 1.0
+    model.SetUnit(library.ModelUnit(1 if unit is None else unit))
+    if not single_suffices(positions := scale * mesh.positions @ place.turn.T):
+        raise MeshError("the coordinates need double precision, which 3MF does not have; write PLY, OBJ or OFF")
+    item = model.AddMeshObject()
+    points, corners = positions.astype(np.float32), mesh.faces.astype(np.uint32)
+    kinds = ((points, library.Position), (corners, library.Triangle))
+    tables = ((kind * len(rows)).from_buffer_copy(rows.tobytes()) for rows, kind in kinds)
+    _call(item, "meshobject_setgeometry", *(each for table in tables for each in (ctypes.c_uint64(len(table)), table)))
+    held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
+    numbers, materials = face_numbers(mesh, "material"), materials_in(mesh.metadata)
+    if numbers is not None and materials:
+        held |= _paint(library, model, item, numbers.values[:, 0], materials)
+    about = model.GetMetaDataGroup()
+    for name in _KNOWN:
+        if isinstance(value := mesh.metadata.get(name), str):
+            about.AddMetaData("", name, value, "xs:string", True)
+            held.add(name)
+    if called := mesh.metadata.get("name"):
+        item.SetName(str(called))
+        held.add("name")
+    model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
+    writer = model.QueryWriter("3mf")
+    largest = max(float(np.abs(points).max(initial=0)), 1e-30)
+    writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
+    data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
+    painted = numbers if materials else None
+    return Written(data, left_out(mesh, [painted], [name for name in mesh.metadata if name not in held]))
+
+
+def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mapping[int, Material]) -> set[str]:
+    """Give each triangle the color of its material; return the metadata that this holds."""
+    used, where = np.unique(numbers, return_inverse=True)
+    group, held = model.AddBaseMaterialGroup(), set()
+    usual = group.AddMaterial("none", library.Color(255, 255, 255, 255))
+    places = np.full(len(used), usual, np.uint32)
+    for place in np.flatnonzero(np.isin(used, [*materials])).tolist():
+        number, words = int(used[place]), materials[int(used[place])]
+        color = as_numbers(as_gltf(words).get("baseColorFactor", "1 1 1 1"))
+        shares = conventions.to_srgb(np.array(color if len(color) == 4 else [1.0] * 4)).clip(0, 1)
+        rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
+        places[place] = group.AddMaterial(str(words.get("name") or f"material {number}"), rgba)
+        held |= {f"material.{number}.{name}" for name in ("name", "Kd", "d", "baseColorFactor") if name in words}
+    of = places[where]
+    given = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
+    given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), of[:, None]
+    table = (library.TriangleProperties * len(given)).from_buffer_copy(given.tobytes())
+    item.SetObjectLevelProperty(group.GetUniqueResourceID(), int(of[0]))
+    _call(item, "meshobject_setalltriangleproperties", ctypes.c_uint64(len(table)), table)
+    return held
