@@ -400,8 +400,8 @@ def test_what_draco_does_not_take_is_shown_without_it():
 
 def test_an_upload_says_what_was_left_out_and_saves_nothing_by_it():
     triangles = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"
-    *_, whole = uploaded("whole.obj", triangles, "small")
-    *_, lined = uploaded("lined.obj", triangles + b"l 1 2\n", "small")
+    *_, whole = uploaded([("whole.obj", triangles)], "small")
+    *_, lined = uploaded([("lined.obj", triangles + b"l 1 2\n")], "small")
     assert isinstance(whole, Content) and isinstance(lined, Content)
     assert whole.facts["notes"] == [] and not whole.facts["less"]
     assert any("lines" in note for note in lined.facts["notes"]) and lined.facts["less"]
@@ -410,18 +410,18 @@ def test_an_upload_says_what_was_left_out_and_saves_nothing_by_it():
 def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):
     bsm.save(torus(), tmp_path / "ball.ply")
     data = (tmp_path / "ball.ply").read_bytes()
-    *before, content = uploaded("../../ball.ply", data, "small")
+    *before, content = uploaded([("../../ball.ply", data)], "small")
     assert isinstance(content, Content) and content.name == "ball.ply" and content.facts["preset"] == "small"
     assert content.layers[1].stream == bsm.encode(tmp_path / "ball.ply", preset="small")
     shares = [report["share"] for report in before]
     assert shares == sorted(shares) and len({report["stage"] for report in before}) > 2
-    *_, last = uploaded("ball.ply", data[:200], "small")
+    *_, last = uploaded([("ball.ply", data[:200])], "small")
     assert [*last] == ["error"] and str(tmp_path) not in last["error"]
 
 
 def test_an_upload_ends_with_its_page(tmp_path):
     bsm.save(curved(torus(200, 100)), tmp_path / "ball.ply")
-    reports = uploaded("ball.ply", (tmp_path / "ball.ply").read_bytes(), "balanced")
+    reports = uploaded([("ball.ply", (tmp_path / "ball.ply").read_bytes())], "balanced")
     assert next(reports)["stage"] == "reading" and next(reports)
     (process,) = multiprocessing.active_children()
     reports.close()

@@ -4,30 +4,19 @@ import argparse
 import itertools
 import json
 import webbrowser
-from dataclasses import replace
 from pathlib import Path
 from threading import Thread
 
-from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
-from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_limits_flag, adder, limits_of, within
 from bsm.console import Console, Progress
-from bsm.files.formats.polygons import MeshFile
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import read_mesh, size_with_parts
-from bsm.files.motion.frames import Frames
 from bsm.files.output import write_output
-from bsm.files.pipes import about, read_chunks, size_of
-from bsm.files.sequence import open_sequence
-from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.files.pipes import about, read_chunks
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.shards import is_tiles, open_tiles
-from bsm.viewer.contents import PRESETS, Content, alone, carried, compared, made
+from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, given_at, made
 from bsm.viewer.page import Growing, PageServer, Ranged, Tiled, page_with, site_with, written_to
-
-_NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o - | ..."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -88,56 +77,26 @@ def _opened(
     if args.follow or (path == "-" and not (args.save or args.static or args.original)):
         return _growing(name, path)
     if args.original:
-        return _against(name, path, args)
+        return _against(path, args)
     with about(path):
-        source: MeshFile | Frames | None = open_sequence(path)
-        if source is None:
-            data = b"".join(read_chunks(path))
-            if data.startswith(MAGIC[: len(data)]):
-                if args.save or args.static:
-                    inspect_stream(iter([data]), limits_of(args.limits))
-                return alone(name, data)
-            if path == "-":
-                raise FormatError(_NO_STREAM)
-            source = read_mesh(path)
-        shown = source.mesh if isinstance(source, MeshFile) else source
-        content = made(name, _size(path, shown), source, args.preset, progress.stage)
+        given = given_at(path)
+        if isinstance(given.source, bytes):
+            if args.save or args.static:
+                inspect_stream(iter([given.source]), limits_of(args.limits))
+            return alone(name, given.source)
+        content = made(name, given.size, given.source, args.preset, progress.stage)
+    for note in content.facts["notes"]:
+        console.note(f"{path}: {note}")
     console.note(f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}")
     return content
 
 
-def _against(name: str, path: str, args: argparse.Namespace) -> Content:
-    """Compare a mesh, sequence or stream with another one, as they are."""
-    limits = limits_of(args.limits)
-    (before, original, size), (stream, shown, own) = (_side(it, limits) for it in (args.original, path))
+def _against(path: str, args: argparse.Namespace) -> Content:
+    """Compare a mesh, sequence or stream with another one."""
+    with about(args.original):
+        before = given_at(args.original)
     with about(path):
-        content = compared(name, stream or carried(shown), original, size=size, limits=limits, before=before)
-    if stream:
-        return content
-    layer = replace(content.layers[1], title=Path(path).suffix[1:].upper() or "Other", size=own or 0)
-    return replace(content, layers=(content.layers[0], layer), facts={**content.facts, "draco": None})
-
-
-def _side(path: str, limits: Limits) -> tuple[bytes | None, TriangleMesh | Frames, int | None]:
-    """Return a mesh or sequence, its stream if it is one, and the size of its file."""
-    with about(path):
-        if frames := open_sequence(path):
-            return None, frames, _size(path, frames)
-        data = b"".join(read_chunks(path))
-        if not data.startswith(MAGIC[: len(data)]):
-            if path == "-":
-                raise FormatError(_NO_STREAM)
-            return None, (mesh := read_mesh(path).mesh), _size(path, mesh)
-        header, chunks = peek_header(iter([data]))
-        if not header or not header.gop_frames:
-            return data, decode_whole(chunks, limits), len(data)
-        decoder = SequenceStream(chunks, limits=limits)
-        moving = [frame for _, frame in decoder.frames()]
-        return data, Frames(decoder.faces, len(moving), iter(moving)), len(data)
-
-
-def _size(path: str, source: TriangleMesh | Frames) -> int | None:
-    return size_with_parts(path, source.metadata) if isinstance(source, TriangleMesh) else size_of(path)
+        return against(before, given_at(path), limits_of(args.limits))
 
 
 def _growing(name: str, path: str) -> Growing:
@@ -145,7 +104,7 @@ def _growing(name: str, path: str) -> Growing:
     chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
     if not growing.begins():
-        raise FormatError(_NO_STREAM if path == "-" else f"{path} is not a BSM stream; only streams can be followed")
+        raise FormatError(NO_STREAM if path == "-" else f"{path} is not a BSM stream; only streams can be followed")
     return growing
 
 

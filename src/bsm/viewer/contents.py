@@ -6,7 +6,7 @@ import signal
 import time
 import warnings
 from bisect import bisect_left
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -18,21 +18,25 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.api import encode, encode_sequence
-from bsm.bitstream.errors import BsmError, BsmWarning, DependencyError, MeshError
+from bsm.bitstream.container.wire import MAGIC
+from bsm.bitstream.errors import BsmError, BsmWarning, DependencyError, FormatError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import compare, distances_to_surface, farthest_from_surface, surface_distance
+from bsm.codec.static.targets import Contract
 from bsm.comparison import in_order_of, pair, paired_frames
 from bsm.exits import worded
 from bsm.files.formats.polygons import MeshFile
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames
-from bsm.files.pipes import Input
+from bsm.files.pipes import Input, read_chunks, size_of
+from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
 
 DRACO_LEVEL = 10
 DRACO_BITS = range(4, 25)
+NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o - | ..."
 PRESETS = ("small", "balanced", "fine", "near-lossless")
 _EVERY = 0.1  # seconds between two reports of a process
 _ENCODING = 0.7  # of the time that a mesh takes
@@ -91,13 +95,15 @@ def compared(
     if bool(header and header.gop_frames) != isinstance(original, Frames):
         raise MeshError(f"{name} and its original must both be sequences, or both meshes")
     if isinstance(original, Frames):
+        from bsm.codec.sequence.options import PROMISES
+
         frames = np.array(list(original.frames))
         decoder = SequenceStream(Input(stream).chunks(), limits=limits)
         found, off = _over_time(name, decoder, frames, original.faces)
         before = before or carried(replace(original, frames=iter(frames)))
         first = Layer("Original", "" if size else "as plain arrays", size or 12 * frames.size // 3, before)
         second = Layer("BSM", preset or "", len(stream), stream, off)
-        return Content(name, (first, second), 1, {"preset": preset} | found)
+        return Content(name, (first, second), 1, {"preset": preset} | found | _promised(PROMISES, preset))
     from bsm.codec.look.measure import look
     from bsm.codec.static.options import PRESETS as ALL
 
@@ -128,26 +134,36 @@ def compared(
         facts["look"] = look(source, used).distance
         if alike and not original.attributes:
             rival, facts["draco"] = _rival(source, len(stream), facts["look"])
-    contract = ALL[preset].contract if preset else None
-    if contract is not None:
-        bounds = {"look": contract.look, "farthest": min(contract.farthest, contract.by_part)}
-        facts["promised"] = {bound: value for bound, value in bounds.items() if math.isfinite(value)}
+    facts |= _promised({known: options.contract for known, options in ALL.items()}, preset)
     return Content(name, (first, Layer("BSM", preset or "", len(stream), stream, off), *rival), 1, facts)
+
+
+def _promised(contracts: Mapping[str, Contract | None], preset: str | None) -> dict[str, Any]:
+    contract = contracts[preset] if preset else None
+    if contract is None:
+        return {}
+    bounds = {"look": contract.look, "farthest": min(contract.farthest, contract.by_part)}
+    return {"promised": {bound: value for bound, value in bounds.items() if math.isfinite(value)}}
 
 
 def _over_time(
     name: str, decoder: SequenceStream, before: Positions, faces: Faces
 ) -> tuple[dict[str, Any], npt.NDArray[np.float32] | None]:
-    """Return the largest error of each frame, as a fraction of the first one's diagonal, and that of each vertex."""
+    """Return the largest error of each frame, as a fraction of the first one's diagonal, the look of the worst of some,
+    and the error of each vertex."""
+    from bsm.codec.look.measure import look
+    from bsm.codec.sequence.step_search import KNOTS, shading_error
+
     decoded = np.array([frame for _, frame in decoder.frames()])
     if len(decoded) != len(before):
         raise MeshError(f"{name} has {len(decoded)} frames, and its original has {len(before)}")
     off = np.full(decoded.shape[:2], np.nan, np.float32)
     facts: dict[str, Any] = {"diagonal": float(np.linalg.norm(extent_of(before[0]))) or 1.0}
-    kept = np.unique(decoder.faces)
+    kept, some = np.unique(decoder.faces), np.linspace(0, len(before) - 1, min(KNOTS, len(before))).round().astype(int)
     try:
-        first, second, _ = paired_frames(before, faces, decoded, decoder.faces)
+        first, second, shared = paired_frames(before, faces, decoded, decoder.faces)
         errors = np.linalg.norm(first - second, axis=2).max(axis=1) / facts["diagonal"]
+        shaded = [shading_error(*both, shared) for both in zip(first, second, strict=True)]
         with suppress(MeshError):  # vertices that were merged have no error of their own
             ours, theirs, _ = paired_frames(decoded, decoder.faces, before, faces)
             off[:, kept] = np.linalg.norm(ours - theirs, axis=2)
@@ -157,7 +173,13 @@ def _over_time(
         used = np.unique(faces)
         back = [farthest_from_surface(t[used], d, decoder.faces) for d, t in zip(decoded, before, strict=True)]
         errors = np.maximum(np.nanmax(off, axis=1), back) / facts["diagonal"]
-        facts["apart"] = float(np.nanmean(off)) / facts["diagonal"]
+        facts["apart"], shaded = float(np.nanmean(off)) / facts["diagonal"], errors.tolist()
+    looks = []  # of the frames that an encoder draws, too
+    for frame in sorted({*some.tolist(), int(np.argmax(shaded))}):
+        with suppress(MeshError):  # nothing of it can be seen
+            then, now = TriangleMesh(before[frame], faces), TriangleMesh(decoded[frame], decoder.faces)
+            looks.append(look(then, now).moving)
+    facts |= {"look": max(looks), "drawn": len(looks)} if looks else {}
     facts |= {"farthest": float(errors.max()), "errors": errors.tolist()}
     return facts, off if off.size <= _MOST_COLORS and np.isfinite(off).any() else None
 
@@ -213,34 +235,91 @@ def made(
     return replace(content, facts={**content.facts, "seconds": seconds, "notes": notes, "less": less})
 
 
-def _work(pipe: Connection, name: str, size: int, mesh: MeshFile, preset: str) -> None:
-    """Encode an upload in a process; send reports, then the result or an error message."""
+@dataclass(frozen=True, eq=False)
+class Given:
+    """A sequence, a mesh file or the bytes of a stream, from a file of some size."""
+
+    name: str
+    source: Frames | MeshFile | bytes
+    size: int | None
+
+    def decoded(self, limits: Limits) -> tuple[bytes | None, TriangleMesh | Frames]:
+        """Return the stream, if it is one, and the mesh or sequence."""
+        if not isinstance(self.source, bytes):
+            return None, self.source.mesh if isinstance(self.source, MeshFile) else self.source
+        header, chunks = peek_header(iter([self.source]))
+        if not header or not header.gop_frames:
+            return self.source, decode_whole(chunks, limits)
+        decoder = SequenceStream(chunks, limits=limits)
+        moving = [frame for _, frame in decoder.frames()]
+        return self.source, Frames(decoder.faces, len(moving), iter(moving))
+
+
+def given_at(path: str) -> Given:
+    """Open a sequence, a stream or a mesh file."""
+    if frames := open_sequence(path):
+        return Given(path, frames, size_of(path))
+    data = b"".join(read_chunks(path))
+    if MAGIC.startswith(data[: len(MAGIC)]):
+        return Given(path, data, len(data))
+    if path == "-":
+        raise FormatError(NO_STREAM)
+    found = read_mesh(path)
+    return Given(path, found, size_with_parts(path, found.mesh.metadata))
+
+
+def given_in(name: str, data: bytes) -> Given:
+    """Open a file that was sent."""
+    limits = Limits.service()
+    frames = open_sequence(data, "npz", limits=limits) if name.lower().endswith(".npz") else None
+    found = frames or (data if MAGIC.startswith(data[: len(MAGIC)]) else read_mesh(data, limits=limits))
+    return Given(PurePath(name).name, found, len(data))
+
+
+def against(before: Given, given: Given, limits: Limits) -> Content:
+    """Compare a mesh, sequence or stream with another one, as they are."""
+    (carrier, original), (stream, shown) = (each.decoded(limits) for each in (before, given))
+    name = PurePath(given.name).name
+    content = compared(name, stream or carried(shown), original, size=before.size, limits=limits, before=carrier)
+    first, second, *rivals = content.layers
+    title = "BSM" if stream else PurePath(name).suffix[1:].upper() or "Other"
+    second = replace(second, title=title, detail=name, size=given.size or 0)
+    layers = (replace(first, detail=PurePath(before.name).name), second, *(rivals if stream else ()))
+    files = [each.source for each in (before, given) if isinstance(each.source, MeshFile)]
+    said = {"notes": [note for file in files for note in file.notes], "less": any(file.dropped for file in files)}
+    return replace(content, layers=layers, facts={**content.facts, **said} | ({} if stream else {"draco": None}))
+
+
+def _work(pipe: Connection, files: Sequence[tuple[str, bytes]], preset: str) -> None:
+    """Encode an upload in a process, or compare two; send reports, then the result or an error message."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def report(stage: str, share: float) -> None:
         pipe.send({"stage": stage, "share": share})
 
     try:
-        pipe.send(made(name, size, mesh, preset, report))
+        first, second = given_in(*files[0]), given_in(*files[-1]) if len(files) > 1 else None
+        report("comparing" if second else "encoding", 0.0)
+        if second:
+            pipe.send(against(first, second, Limits.service()))
+        elif isinstance(first.source, bytes):
+            pipe.send(alone(first.name, first.source))
+        else:
+            pipe.send(made(first.name, len(files[0][1]), first.source, preset, report))
     except (BsmError, MemoryError) as error:
         pipe.send({"error": worded(error)})
 
 
-def uploaded(name: str, data: bytes, preset: str) -> Generator[dict[str, Any] | Content]:
-    """Encode a file dropped on the page, in a process that ends with this generator; yield its reports."""
-    yield {"stage": "reading", "share": 0.0}
-    try:
-        mesh = read_mesh(data, limits=Limits.service())
-    except (BsmError, MemoryError) as error:
-        yield {"error": worded(error)}
-        return
+def uploaded(files: Sequence[tuple[str, bytes]], preset: str) -> Generator[dict[str, Any] | Content]:
+    """Encode a file dropped on the page, or compare two, in a process that ends with this generator; yield reports."""
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
-    process = context.Process(target=_work, args=(there, PurePath(name).name, len(data), mesh, preset), daemon=True)
+    process = context.Process(target=_work, args=(there, files, preset), daemon=True)
     process.start()
     there.close()
     try:
-        report: Any = {"stage": "starting", "share": 0.0}
+        report: Any = {"stage": "reading", "share": 0.0}
+        yield report
         while isinstance(report, dict) and "stage" in report:
             if here.poll(_EVERY):
                 report = here.recv()

@@ -318,13 +318,14 @@ class _Handler(BaseHTTPRequestHandler):
         """Encode the mesh of an upload, and say line by line in JSON how far that is."""
         url = urlsplit(self.path)
         asked = parse_qs(url.query)
+        names, first = asked.get("name", ["mesh"]), asked.get("first", ["0"])[0]
         length = self.headers.get("Content-Length", "")
         # Pages of others may send here, too, but not in our name.
         if self.headers.get("Origin") != f"http://{self.server.host}":
             self.send_error(HTTPStatus.FORBIDDEN)
         elif url.path != UPLOAD or asked.get("preset", [""])[0] not in PRESETS:
             self.send_error(HTTPStatus.NOT_FOUND)
-        elif not _LENGTH.fullmatch(length):
+        elif not _LENGTH.fullmatch(length) or not _LENGTH.fullmatch(first):
             self.send_error(HTTPStatus.LENGTH_REQUIRED)
         elif int(length) > MOST_BYTES:
             self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
@@ -334,7 +335,8 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
             try:
-                self._answer(self._reported(asked.get("name", ["mesh"])[0], data, asked["preset"][0]), "text/plain")
+                files = [(names[0], data[: int(first)]), (names[-1], data[int(first) :])][-len(names) :]
+                self._answer(self._reported(files, asked["preset"][0]), "text/plain")
             finally:
                 self.server.encoding.release()
 
@@ -350,9 +352,9 @@ class _Handler(BaseHTTPRequestHandler):
         self.connection.settimeout(self.timeout)
         return bytes(data)
 
-    def _reported(self, name: str, data: bytes, preset: str) -> Iterator[bytes]:
+    def _reported(self, files: Sequence[tuple[str, bytes]], preset: str) -> Iterator[bytes]:
         """Lines of JSON: stage and share, at last an entry or an error."""
-        with closing(uploaded(name, data, preset)) as reports:
+        with closing(uploaded(files, preset)) as reports:
             for report in reports:
                 line = {"entry": self.server.dropped(report)} if isinstance(report, Content) else report
                 yield json.dumps(line).encode() + b"\n"

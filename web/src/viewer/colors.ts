@@ -18,20 +18,6 @@ const STEPS = Array.from({ length: 256 }, (_, i) => {
     return new Color(STOPS[at]).lerp(new Color(STOPS[at + 1]), place - at).toArray();
 });
 
-/** Positions of a stream's vertices, and its faces. */
-function meshOf({ header, index, parted, attributes: { position } }: BSMGeometry): { points: Float32Array; faces: Uint32Array } {
-    const points = new Float32Array(3 * (header?.vertices ?? 0));
-    for (let i = 0; i < position.count; i++) for (let d = 0; d < 3; d++) points[3 * (parted?.[i] ?? i) + d] = position.getComponent(i, d);
-    return { points, faces: Uint32Array.from(index?.array ?? [], (drawn) => parted?.[drawn] ?? drawn) };
-}
-
-/** How far each vertex of a stream is from that of another one; undefined where they do not have the same faces. */
-export function distances(stream: BSMGeometry, original: BSMGeometry): Float32Array | undefined {
-    const [{ points, faces }, before] = [meshOf(stream), meshOf(original)];
-    if (faces.length !== before.faces.length || faces.some((vertex, i) => vertex !== before.faces[i])) return undefined;
-    return Float32Array.from({ length: points.length / 3 }, (_, i) => Math.hypot(...[0, 1, 2].map((d) => points[3 * i + d] - before.points[3 * i + d])));
-}
-
 /** Of distances over a diagonal, a round number (1, 2 or 5 times a power of ten) that few exceed. */
 export function topOf(off: ArrayLike<number>, diagonal: number): number {
     const known = Float64Array.from(off).filter((far) => far >= 0).sort();

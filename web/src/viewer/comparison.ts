@@ -3,7 +3,8 @@ import { BufferAttribute, Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
 import { imagesOf, materialsOf, turnOf } from "../materials";
 import type { Pool } from "../pool";
-import { colorsOf, distances, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
+import { colorsOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
+import { distancesOf } from "./distances";
 import { element, percent, sized, type Content } from "./facts";
 import type { Form } from "./form";
 import { bytesOf } from "./inlined";
@@ -100,8 +101,8 @@ export class Comparison {
             wipe.value = String(Math.round(stage.wipe * Number(wipe.max)));
             form.pick("mode", "wipe");
         }
-        this.measure();
-        form.root.dataset.layers = String(layers.length);
+        await this.measure(mine);
+        if (mine()) form.root.dataset.layers = String(layers.length);
     }
 
     /** Have all sequences show a frame. */
@@ -110,15 +111,18 @@ export class Comparison {
     }
 
     /** Compare a stream with its original, unless Python has measured them. */
-    private measure(): void {
+    private async measure(mine: () => boolean): Promise<void> {
         const { content: { facts, main }, geometries: { 0: original, [main]: stream }, offs } = this;
-        if (main === 0 || facts.diagonal !== undefined || stream?.frames.length || !original || !stream) return;
-        offs[main] = distances(stream, original);
-        if (!offs[main]) return;
-        this.top = undefined;
+        if (main === 0 || facts.diagonal !== undefined || !original || !stream) return;
+        const found = await distancesOf(stream, original, mine);
+        if (!found) return;
+        const { off, errors, mean } = found;
         facts.diagonal = original.boundingBox!.getSize(new Vector3()).length() || 1;
-        facts.farthest = offs[main].reduce((most, far) => Math.max(most, far), 0) / facts.diagonal;
-        this.allow("error", true);
+        const [most, ...more] = [Math.max(...errors), ...errors].map((far) => far / facts.diagonal!);
+        Object.assign(facts, { farthest: most, errors: stream.frames.length > 0 ? more : [], apart: mean && mean / facts.diagonal, before: [original.header!.vertices, original.header!.faces] });
+        offs[main] = off.length > 0 ? off : undefined;
+        this.top = undefined;
+        this.allow("error", off.length > 0);
         this.stale = true;
     }
 

@@ -11,7 +11,13 @@ export interface Job {
     file: File;
     preset: string;
 }
-export type Report = { stage: string; share: number } | { error: string } | { original: Uint8Array; stream: Uint8Array; notes: string[]; less: boolean };
+export interface Result {
+    original: Uint8Array;
+    stream: Uint8Array;
+    notes: string[];
+    less: boolean;
+}
+export type Report = { stage: string; share: number } | { error: string } | Result;
 
 const ATTRIBUTES: Record<string, Pick<AttributeInput, "name" | "semantic">> = { normal: { name: "normal", semantic: "normal" }, uv: { name: "texcoord", semantic: "texcoord" }, color: { name: "color", semantic: "color" } };
 const PLY = /^(x|y|z|n[xyz]|(diffuse_)?(red|green|blue)|[rgb]|[uvst]|texture_[uv]|vertex_ind(ex|ices))$/;

@@ -1,9 +1,10 @@
 /** The numbers of the result card, in the words of the command line. */
-import type { Header } from "../index";
+import type { BSMGeometry } from "../geometry";
 import type { Place } from "./inlined";
 
 const SECOND = 1000;
 const CLOSE = 2; // look distance up to which two meshes are close
+const PIXEL = 1e-3; // of the diagonal: what a pixel is of a mesh that fills a large picture
 
 /** A mesh: its stream, the size of the file, and the error of each vertex, if it is known. */
 export interface Layer extends Place {
@@ -22,6 +23,8 @@ export interface Content {
         preset?: string | null;
         promised?: { look?: number; farthest?: number };
         look?: number;
+        /** Frames of a sequence whose looks were measured; `look` is the worst one. */
+        drawn?: number;
         farthest?: number;
         /** Of two surfaces with other faces: their mean distance; `farthest` is the largest one then, not that of vertices. */
         apart?: number;
@@ -72,21 +75,24 @@ export function element(tag: string, text: string, ...inside: Node[]): HTMLEleme
     return made;
 }
 
-/** What a look distance means, in words. */
-function verdictOf(look: number): string {
-    return look <= 1 ? "Looks the same" : look <= CLOSE ? "Close: differences show side by side" : "A preview";
+/** What was measured, in words: of looks only where they were. */
+function verdictOf({ look, farthest, diagonal = 1 }: Content["facts"], looks: string, unit: unknown): string {
+    if (look !== undefined) return `${look <= 1 ? "Looks the same" : look <= CLOSE ? "Close: differences show side by side" : "A preview"} (${looks})`;
+    if (!farthest) return farthest === 0 ? "No difference was measured" : "";
+    const far = typeof unit === "string" ? `${Number((farthest * diagonal).toPrecision(2))}\u00a0${unit}` : `${percent(farthest)} of the diagonal`;
+    return `${farthest <= PIXEL ? "Close: differences" : "Differences"} up to ${far}`;
 }
 
 /** Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all of the file is in the stream. */
-export function factsOf({ layers, main, facts }: Content, length: number, frames: number, header?: Header, took?: number): { plain?: number; size: number; claim: string; rows: Row[] } {
+export function factsOf({ layers, main, facts }: Content, length: number, { frames: { length: frames }, header, metadata }: BSMGeometry, took?: number): { plain?: number; size: number; claim: string; rows: Row[] } {
     const size = layers[main].size || length;
     const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
     const plain = main > 0 && !facts.less ? layers[0].size : undefined;
     const ratio = (plain ?? 0) / Math.max(size, 1);
-    const { look, farthest, apart, before, angle, seconds, promised = {}, draco, notes = [] } = facts;
+    const { look, drawn, farthest, apart, before, angle, seconds, promised = {}, draco, notes = [] } = facts;
     const looks = look === undefined ? "" : promised.look ? `${look.toFixed(2)} of ${promised.look}` : look.toFixed(2);
     const rows: Row[] = notes.map((note) => ["Note", note]);
-    if (look !== undefined) rows.push(["Look distance", looks, `${promised.look ? "promised; " : ""}at 1, both look the same`]);
+    if (look !== undefined) rows.push(["Look distance", looks, `${promised.look ? "promised; " : ""}${drawn ? `worst of ${drawn} frames drawn; ` : ""}at 1, both look the same`]);
     if (farthest !== undefined) rows.push([apart === undefined ? "Largest vertex error" : "Largest surface distance", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
     if (apart !== undefined) rows.push(["Mean surface distance", percent(apart), "the faces differ"]);
     if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
@@ -96,6 +102,6 @@ export function factsOf({ layers, main, facts }: Content, length: number, frames
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
-    const words = look === undefined ? "" : `${verdictOf(look)} (${looks})`;
+    const words = verdictOf(facts, looks, metadata.get("unit"));
     return { plain, size, claim: [words, size > 0 && ratio > 1 ? `${times(ratio)} times smaller` : ""].filter(Boolean).join(", "), rows };
 }

@@ -19,9 +19,15 @@ export class SequenceBar {
         form.on("loop", "change", ({ checked }) => this.sequence && (this.sequence.loop = checked));
     }
 
-    /** Start with another sequence; plot the largest error of each frame, if it is known. */
-    open({ errors = [], farthest }: Content["facts"]): void {
-        [this.sequence, this.shown, this.errors] = [undefined, -1, errors];
+    /** Start with another sequence. */
+    open(facts: Content["facts"]): void {
+        [this.sequence, this.shown] = [undefined, -1];
+        this.plot(facts);
+    }
+
+    /** Plot the largest error of each frame, if it is known. */
+    plot({ errors = [], farthest }: Content["facts"]): void {
+        this.errors = errors;
         const points = errors.map((error, i) => `L${i / (errors.length - 1)},${1 - error / (farthest || 1)}`);
         this.form.part("errors").toggleAttribute("hidden", points.length < 2);
         this.form.part("errors").querySelector("path")!.setAttribute("d", `M0,1${points.join("")}L1,1z`);

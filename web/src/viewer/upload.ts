@@ -1,10 +1,20 @@
-/** Show files that are opened or dropped on the page: its server encodes meshes. */
+/** Show a file that is opened or dropped on the page, or compare two of them: its server or a thread encodes meshes. */
 import type { Content } from "./facts";
 import type { Form } from "./form";
 import { bytesOf } from "./inlined";
 
-/** Encode a file; `report` is called with each stage and the share done. */
-export type Encode = (file: File, preset: string, report: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
+/** Encode a file, or compare two; `report` is called with each stage and the share done. */
+export type Encode = (files: File[], preset: string, report: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
+
+export const isStream = ({ name }: File): boolean => /\.bsm$/i.test(name);
+export const bytesIn = async (file: File): Promise<Uint8Array> => new Uint8Array(await file.arrayBuffer());
+
+/** A file, or one beside its original, as the streams that they are. */
+export function contentOf(files: File[], streams: Uint8Array[], facts: Content["facts"]): Content {
+    const main = files.length - 1;
+    const title = (name: string, i: number): string => (i < main ? "Original" : /[^.]*$/.exec(name)![0].toUpperCase());
+    return { name: files[main].name, main, facts, layers: files.map(({ name, size }, i) => ({ title: title(name, i), detail: main > 0 ? name : "", size, bytes: streams[i] })) };
+}
 
 export class Upload {
     private working = new AbortController();
@@ -16,7 +26,7 @@ export class Upload {
     ) {
         const { root } = form;
         form.on("cancel", "click", () => this.cancel());
-        form.on("file", "change", ({ files }) => files?.[0] && void this.take(files[0]));
+        form.on("file", "change", ({ files }) => files?.length && void this.take([...files]));
         const drop = form.part("drop");
         root.addEventListener("dragover", (event) => {
             event.preventDefault();
@@ -26,8 +36,8 @@ export class Upload {
         root.addEventListener("drop", (event) => {
             event.preventDefault();
             drop.hidden = true;
-            const file = event.dataTransfer?.files[0];
-            if (file) void this.take(file);
+            const files = [...(event.dataTransfer?.files ?? [])];
+            if (files.length > 0) void this.take(files);
         });
     }
 
@@ -35,18 +45,21 @@ export class Upload {
         this.working.abort();
     }
 
-    private async take(file: File): Promise<void> {
+    private async take(files: File[]): Promise<void> {
         const { form } = this;
         this.cancel();
         const { signal } = (this.working = new AbortController());
+        const names = files.map(({ name }) => name).join(" and ");
         form.say("problem", "");
         try {
-            const isStream = /\.bsm$/i.test(file.name);
-            const content = isStream ? { name: file.name, main: 0, facts: {}, layers: [{ title: "BSM", detail: "", size: file.size }] } : await this.encoded(file, signal);
-            const bytes = isStream ? new Uint8Array(await file.arrayBuffer()) : await bytesOf(content.layers[content.main]);
+            if (files.length > 2) throw new Error("Open one file, or two to compare them.");
+            if (isStream(files[0]) && !files.every(isStream)) files.reverse(); // a mesh is the original of a stream
+            const isHere = files.every(isStream) && (files.length === 1 || !this.encode);
+            const content = isHere ? contentOf(files, await Promise.all(files.map(bytesIn)), {}) : await this.encoded(files, signal);
+            const bytes = await bytesOf(content.layers[content.main]);
             if (!signal.aborted) this.show(content, bytes);
         } catch (error) {
-            if (!signal.aborted) form.say("problem", `${file.name} cannot be shown. ${error instanceof Error ? error.message : error}`);
+            if (!signal.aborted) form.say("problem", `${names} cannot be shown. ${error instanceof Error ? error.message : error}`);
         } finally {
             if (this.working.signal === signal) {
                 form.part("work").hidden = true;
@@ -55,17 +68,17 @@ export class Upload {
         }
     }
 
-    private encoded(file: File, signal: AbortSignal): Promise<Content> {
+    private encoded(files: File[], signal: AbortSignal): Promise<Content> {
         const { form } = this;
-        if (!this.encode) throw new Error(`This page opens only .bsm files. To view this mesh, run: bsm view ${file.name}`);
+        if (!this.encode) throw new Error(`This page opens only .bsm files. To view this mesh, run: bsm view ${files[1]?.name ?? files[0].name}${files[1] ? ` --original ${files[0].name}` : ""}`);
         [form.part("invite").hidden, form.part("work").hidden] = [true, false];
         const bar = form.root.querySelector("progress")!;
         const report = (stage: string, share: number): void => {
-            form.say("stage", `${file.name}: ${stage}`);
+            form.say("stage", `${files.map(({ name }) => name).join(" and ")}: ${stage}`);
             if (share > 0) bar.value = share;
             else bar.removeAttribute("value");
         };
         report("sending", 0);
-        return this.encode(file, form.control<HTMLSelectElement>("preset").value, report, signal);
+        return this.encode(files, form.control<HTMLSelectElement>("preset").value, report, signal);
     }
 }

@@ -307,7 +307,7 @@ export class View {
         this.fill();
         if (geometry.getIndex()) stage.shadow(geometry);
         this.headline();
-        const told = (error: unknown): void => this.form.say("problem", `The original cannot be shown. ${error instanceof Error ? error.message : error}`);
+        const told = (error: unknown): void => this.form.say("problem", `The original cannot be compared. ${error instanceof Error ? error.message : error}`);
         void (meshes.accompanied ? meshes.dress() : this.accompany()).catch(told);
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
@@ -344,7 +344,10 @@ export class View {
         const mine = (): boolean => this.content === content && !this.closed;
         meshes.accompanied = true;
         await meshes.accompany(pool, mine);
-        if (mine() && content.layers.length > 1 && arrival.whole && this.geometry.frames.length === 0) {
+        if (!mine()) return;
+        this.sequence.plot(content.facts);
+        this.headline();
+        if (content.layers.length > 1 && arrival.whole && this.geometry.frames.length === 0) {
             // Once more without drawing, to say how long decoding alone takes.
             const begin = performance.now();
             const geometry = await wholeOf(pool, arrival.bytes.slice());
@@ -358,7 +361,7 @@ export class View {
     private headline(): void {
         const { alone, arrival, content, form, geometry } = this;
         if (content.tiles) return;
-        const facts = factsOf(content, arrival.length, geometry.frames.length, geometry.header, alone ?? arrival.complete);
+        const facts = factsOf(content, arrival.length, geometry, alone ?? arrival.complete);
         const before = facts.plain === undefined ? [] : [element("s", `${sized(facts.plain)} → `)];
         form.part("figures").replaceChildren(...before, facts.size > 0 ? sized(facts.size) : "");
         form.say("claim", facts.claim);

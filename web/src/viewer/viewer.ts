@@ -1,9 +1,9 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { Pool } from "../pool";
-import type { Job, Report } from "./encoder";
+import type { Job, Report, Result } from "./encoder";
 import type { Content } from "./facts";
 import { bytesOf, encoder, fetched, inlined, served } from "./inlined";
-import type { Encode } from "./upload";
+import { bytesIn, contentOf, type Encode, isStream } from "./upload";
 import { View } from "./view";
 
 declare const LICENSES: string;
@@ -28,12 +28,13 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
 }
 
 /** Have the server encode a file; it stops when nobody listens. */
-const encode: Encode = async (file, preset, report, signal) => {
-    if (file.size > MOST_BYTES) throw new Error(`It has more than ${MOST_BYTES >> 20} MiB; use bsm encode, or bsm tile.`);
-    const query = new URLSearchParams({ name: file.name, preset });
+const encode: Encode = async (files, preset, report, signal) => {
+    const body = new Blob(files);
+    if (body.size > MOST_BYTES) throw new Error(`More than ${MOST_BYTES >> 20} MiB; use bsm encode, bsm tile, or bsm view --original.`);
+    const query = new URLSearchParams([["preset", preset], ["first", `${files[0].size}`], ...files.map(({ name }) => ["name", name])]);
     const decoder = new TextDecoder();
     let text = "";
-    for await (const piece of piecesOf(await fetched(`upload?${query}`, { method: "POST", body: file, signal }))) {
+    for await (const piece of piecesOf(await fetched(`upload?${query}`, { method: "POST", body, signal }))) {
         text += decoder.decode(piece, { stream: true });
         for (let end; (end = text.indexOf("\n")) >= 0; text = text.slice(end + 1)) {
             const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as { stage: string; share: number; error?: string; entry?: Content };
@@ -46,21 +47,33 @@ const encode: Encode = async (file, preset, report, signal) => {
 };
 
 /** Encode a file in a thread of the page; it ends when nobody listens. */
-const encodeHere: Encode = (file, preset, report, signal) => {
-    const [worker, begin] = [new Worker(encoder!, { type: "module", name: "BSM encoder" }), performance.now()];
-    return new Promise<Content>((resolve, fail) => {
+function inThread(job: Job, report: (stage: string, share: number) => void, signal: AbortSignal): Promise<Result> {
+    const worker = new Worker(encoder!, { type: "module", name: "BSM encoder" });
+    return new Promise<Result>((resolve, fail) => {
         signal.addEventListener("abort", () => fail(signal.reason), { once: true });
         worker.onerror = ({ message }) => fail(new Error(message || "The encoder cannot be loaded."));
-        worker.onmessage = ({ data }: MessageEvent<Report>) => {
-            if ("error" in data) return fail(new Error(data.error));
-            if ("stage" in data) return report(data.stage, data.share);
-            const { original, stream, notes, less } = data;
-            const layers = [{ title: "Original", detail: "", size: file.size, bytes: original }, { title: "BSM", detail: preset, size: stream.length, bytes: stream }];
-            resolve({ name: file.name, main: 1, layers, facts: { notes, less, seconds: (performance.now() - begin) / 1000 } });
-        };
-        const job: Job = { file, preset };
+        worker.onmessage = ({ data }: MessageEvent<Report>) => ("error" in data ? fail(new Error(data.error)) : "stage" in data ? report(data.stage, data.share) : resolve(data));
         worker.postMessage(job);
     }).finally(() => worker.terminate());
+}
+
+/** Encode a file, or two without loss, which are compared. */
+const encodeHere: Encode = async (files, preset, report, signal) => {
+    const [begin, streams, facts] = [performance.now(), [] as Uint8Array[], { notes: [] as string[], less: false }];
+    for (const file of files) {
+        if (isStream(file)) {
+            streams.push(await bytesIn(file));
+            continue;
+        }
+        const { original, stream, notes, less } = await inThread({ file, preset: files.length > 1 ? "lossless" : preset }, report, signal);
+        streams.push(stream);
+        facts.notes.push(...notes.map((note) => (files.length > 1 ? `${file.name}: ${note}` : note)));
+        facts.less ||= less;
+        if (files.length > 1) continue;
+        const layers = [{ title: "Original", detail: "", size: file.size, bytes: original }, { title: "BSM", detail: preset, size: stream.length, bytes: stream }];
+        return { name: file.name, main: 1, layers, facts: { ...facts, seconds: (performance.now() - begin) / 1000 } };
+    }
+    return contentOf(files, streams, facts);
 };
 
 async function fillPage(list: HTMLElement): Promise<void> {
