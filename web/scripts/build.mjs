@@ -96,7 +96,7 @@ function licenses(packages) {
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENSES: JSON.stringify(licenses(BUNDLED)) };
-    const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define, plugins: [await inlined()] })).replaceAll("</script", "<\\/script");
+    const script = (await smaller(await bundle(join(SOURCES, "viewer/viewer.ts"), { define, plugins: [await inlined()] }))).replaceAll("</script", "<\\/script");
     const built = {
         "errors.js": await plain("errors.ts", []),
         "bsm.js": await plain("index.ts", [beside("errors")]),
@@ -122,7 +122,7 @@ async function products() {
         ...(await Promise.all(Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]))),
         [join(WEB, "built/LICENSES.txt"), `${licenses(BUNDLED)}\n`],
         [join(VIEWER, "viewer.js"), script],
-        [join(VIEWER, "encoder.js"), await bundle(join(SOURCES, "viewer/encoder.ts"))],
+        [join(VIEWER, "encoder.js"), await smaller(await bundle(join(SOURCES, "viewer/encoder.ts")))],
     ];
 }
 

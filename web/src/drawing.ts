@@ -206,25 +206,14 @@ export class Drawing {
     }
 
     private renewNormal(vertex: number): void {
-        const { faces, waiting, normals, points: p } = this;
+        const { faces, waiting, normals, points } = this;
         const { starts, members } = this.around;
-        let [x, y, z] = [0, 0, 0];
+        normals.fill(0, 3 * vertex, 3 * vertex + 3);
         for (let k = starts[vertex]; k < starts[vertex + 1]; k++) {
             const face = Math.floor(members[k] / 3);
-            if (waiting[face] > 0) continue;
-            const a = 3 * faces[3 * face];
-            const b = 3 * faces[3 * face + 1];
-            const c = 3 * faces[3 * face + 2];
-            const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-            const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
-            x += uy * vz - uz * vy;
-            y += uz * vx - ux * vz;
-            z += ux * vy - uy * vx;
+            if (waiting[face] === 0) addNormal(normals, points, faces, 3 * face, vertex);
         }
-        const length = Math.sqrt(x * x + y * y + z * z) || 1;
-        normals[3 * vertex] = x / length;
-        normals[3 * vertex + 1] = y / length;
-        normals[3 * vertex + 2] = z / length;
+        toLength1(normals, 3 * vertex);
     }
 
     private cornersOf(faces: ArrayLike<number>): Uint32Array {
@@ -281,40 +270,31 @@ export class Drawing {
     }
 }
 
+/** Add the normal of a face, as long as twice its area, to those of its corners, or of one of them. */
+function addNormal(n: Float32Array, p: ArrayLike<number>, faces: Int32Array, corner: number, only = -1): void {
+    const [a, b, c] = [3 * faces[corner], 3 * faces[corner + 1], 3 * faces[corner + 2]];
+    const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
+    const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
+    for (let k = 0; k < 3; k++) {
+        const to = only < 0 ? 3 * faces[corner + k] : 3 * only;
+        n[to] += uy * vz - uz * vy;
+        n[to + 1] += uz * vx - ux * vz;
+        n[to + 2] += ux * vy - uy * vx;
+        if (only >= 0) return;
+    }
+}
+
+function toLength1(n: Float32Array, at: number): void {
+    const length = Math.sqrt(n[at] * n[at] + n[at + 1] * n[at + 1] + n[at + 2] * n[at + 2]) || 1;
+    for (let d = at; d < at + 3; d++) n[d] /= length;
+}
+
 /** Normals of all vertices, shape (n, 3); faces that lack a corner count for nothing. */
-function normalsOf(faces: Int32Array, origin: Int32Array, p: ArrayLike<number>): Float32Array {
-    const n = new Float32Array(p.length);
-    for (let k = 0; k < faces.length; k += 3) {
-        if (origin[faces[k]] < 0 || origin[faces[k + 1]] < 0 || origin[faces[k + 2]] < 0) continue;
-        const a = 3 * faces[k];
-        const b = 3 * faces[k + 1];
-        const c = 3 * faces[k + 2];
-        const ux = p[b] - p[a];
-        const uy = p[b + 1] - p[a + 1];
-        const uz = p[b + 2] - p[a + 2];
-        const vx = p[c] - p[a];
-        const vy = p[c + 1] - p[a + 1];
-        const vz = p[c + 2] - p[a + 2];
-        const x = uy * vz - uz * vy;
-        const y = uz * vx - ux * vz;
-        const z = ux * vy - uy * vx;
-        n[a] += x;
-        n[a + 1] += y;
-        n[a + 2] += z;
-        n[b] += x;
-        n[b + 1] += y;
-        n[b + 2] += z;
-        n[c] += x;
-        n[c + 1] += y;
-        n[c + 2] += z;
-    }
-    for (let i = 0; i < n.length; i += 3) {
-        const length = Math.sqrt(n[i] * n[i] + n[i + 1] * n[i + 1] + n[i + 2] * n[i + 2]) || 1;
-        n[i] /= length;
-        n[i + 1] /= length;
-        n[i + 2] /= length;
-    }
-    return n;
+function normalsOf(faces: Int32Array, origin: Int32Array, points: ArrayLike<number>): Float32Array {
+    const normals = new Float32Array(points.length);
+    for (let k = 0; k < faces.length; k += 3) if (origin[faces[k]] >= 0 && origin[faces[k + 1]] >= 0 && origin[faces[k + 2]] >= 0) addNormal(normals, points, faces, k);
+    for (let i = 0; i < normals.length; i += 3) toLength1(normals, i);
+    return normals;
 }
 
 function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "high"> {

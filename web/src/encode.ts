@@ -1,4 +1,5 @@
 /** Meshes to streams: the encoder in C, compiled to WebAssembly. `encode` runs it in a worker, `encodeHere` where it is called. */
+import { compiled } from "./source";
 
 /** The quality of an attribute: "exact", a number of bits, the largest error, or of normals degrees or "recompute". */
 export type Quality = "exact" | "recompute" | { bits: number } | { bound: number } | { percent: number } | { degrees: number };
@@ -163,27 +164,15 @@ export function encodeWith(module: WebAssembly.Module, mesh: MeshInput, options:
     return new Uint8Array(calls.memory.buffer).slice(at, at + calls.encode_size());
 }
 
-let compiled: Promise<WebAssembly.Module> | undefined;
+let loaded: Promise<WebAssembly.Module> | undefined;
 
 /** The compiled encoder. */
 export function loadEncoder(wasm: EncodeOptions["wasm"] = new URL("./encode.wasm", import.meta.url)): Promise<WebAssembly.Module> {
     if (wasm instanceof WebAssembly.Module) return Promise.resolve(wasm);
     if (typeof wasm !== "string" && !(wasm instanceof URL)) return WebAssembly.compile(wasm);
-    const load = async (): Promise<WebAssembly.Module> => {
-        if (`${wasm}`.startsWith("file:")) {
-            const fs = "node:fs/promises";
-            const { readFile } = (await import(/* @vite-ignore */ fs)) as { readFile(path: URL): Promise<BufferSource> };
-            return WebAssembly.compile(await readFile(new URL(wasm)));
-        }
-        const response = await fetch(wasm);
-        if (!response.ok) throw new Error(`${wasm}: ${response.status}`);
-        return WebAssembly.compile(await response.arrayBuffer());
-    };
-    compiled ??= load().catch((error: unknown) => {
-        compiled = undefined;
-        throw error;
-    });
-    return compiled;
+    loaded ??= compiled(new URL(wasm, globalThis.document?.baseURI ?? globalThis.location?.href));
+    loaded.catch(() => (loaded = undefined));
+    return loaded;
 }
 
 /** Encode in this thread, which waits for that. */

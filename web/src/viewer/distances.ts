@@ -1,5 +1,5 @@
 /** How far a mesh is from its original: vertex by vertex where the faces agree, and from its surface where they do not. */
-import { Triangle, Vector3 } from "three";
+import { Box3, Triangle, Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
 
 const [LEAF, MOST] = [4, 2 ** 23]; // faces of a leaf; faces of a mesh, and vertices of all frames that have colors
@@ -17,7 +17,7 @@ export interface Distances {
     mean?: number;
 }
 
-/** Positions and faces of a stream, and the vertices that faces use. */
+/** Positions and faces of a frame, and the vertices that faces use. */
 interface Body {
     points: Float32Array;
     faces: Uint32Array;
@@ -32,6 +32,7 @@ function bodyOf({ frames, index, parted, attributes: { position } }: BSMGeometry
     const faces = Uint32Array.from(whole, (drawn) => shape.vertices?.[drawn] ?? drawn);
     const count = faces.reduce((most, vertex) => Math.max(most, vertex + 1), 0);
     if (count === 0) throw new Error("There are no triangles to compare.");
+    if (faces.length > 3 * MOST) throw new Error(`There are more than ${MOST} triangles; use bsm compare.`);
     const [points, seen] = [new Float32Array(3 * count), new Uint8Array(count)];
     whole.forEach((drawn, i) => (points.set(positions.subarray(3 * drawn, 3 * drawn + 3), 3 * faces[i]), (seen[faces[i]] = 1)));
     return { points, faces, used: Uint32Array.from(seen.keys()).filter((vertex) => seen[vertex]) };
@@ -41,105 +42,99 @@ function bodyOf({ frames, index, parted, attributes: { position } }: BSMGeometry
 class Tree {
     /** The face that was the nearest one. */
     face = 0;
+    private readonly boxes: Box3[];
     private readonly order: Float64Array;
-    private readonly boxes: Float32Array;
-    private readonly leaves: number;
     private readonly triangle = new Triangle();
     private readonly place = new Vector3();
 
     constructor(private readonly points: Float32Array, private readonly faces: Uint32Array) {
-        const count = faces.length / 3;
-        if (count > MOST) throw new Error(`There are more than ${MOST} triangles; use bsm compare.`);
-        const [middles, low, high] = [new Float32Array(faces.length), [Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-        for (let i = 0; i < middles.length; i++) {
-            const d = i % 3;
-            for (let corner = i - d; corner < i - d + 3; corner++) middles[i] += points[3 * faces[corner] + d] / 3;
-            [low[d], high[d]] = [Math.min(low[d], middles[i]), Math.max(high[d], middles[i])];
-        }
-        const cell = (i: number): number => SPREAD[Math.min(CELLS - 1, Math.floor((CELLS * (middles[i] - low[i % 3])) / (high[i % 3] - low[i % 3] || 1)))];
-        this.order = Float64Array.from({ length: count }, (_, face) => (cell(3 * face) + 2 * cell(3 * face + 1) + 4 * cell(3 * face + 2)) * MOST + face).sort().map((key) => key % MOST);
-        this.leaves = 2 ** Math.ceil(Math.log2(Math.max(1, count / LEAF)));
-        const boxes = (this.boxes = new Float32Array(6 * (2 * this.leaves - 1)).map((_, i) => (i % 6 < 3 ? Infinity : -Infinity)));
-        const widen = (i: number, value: number): number => (boxes[i] = i % 6 < 3 ? Math.min(boxes[i], value) : Math.max(boxes[i], value));
-        for (let i = 0; i < 18 * count; i++) widen(6 * (this.leaves - 1 + Math.floor(i / 18 / LEAF)) + (i % 6), points[3 * faces[3 * this.order[Math.floor(i / 18)] + (Math.floor(i / 6) % 3)] + (i % 3)]);
-        for (let i = boxes.length - 1; i >= 6; i--) widen(6 * ((Math.floor(i / 6) - 1) >> 1) + (i % 6), boxes[i]);
+        const [whole, count] = [new Box3().setFromArray(points), faces.length / 3];
+        const size = whole.getSize(new Vector3()).clampScalar(Number.MIN_VALUE, Infinity);
+        const along = Float64Array.from({ length: count }, (_, face) => {
+            const cell = this.at(face).getMidpoint(this.place).sub(whole.min).divide(size).multiplyScalar(CELLS).floor().clampScalar(0, CELLS - 1);
+            return (SPREAD[cell.x] + 2 * SPREAD[cell.y] + 4 * SPREAD[cell.z]) * MOST + face;
+        });
+        this.order = along.sort().map((key) => key % MOST);
+        const inner = 2 ** Math.ceil(Math.log2(Math.max(1, count / LEAF))) - 1;
+        const boxes = (this.boxes = Array.from({ length: 2 * inner + 1 }, () => new Box3()));
+        this.order.forEach((face, k) => {
+            const { a, b, c } = this.at(face);
+            boxes[inner + Math.floor(k / LEAF)].expandByPoint(a).expandByPoint(b).expandByPoint(c);
+        });
+        for (let node = inner - 1; node >= 0; node--) boxes[node].union(boxes[2 * node + 1]).union(boxes[2 * node + 2]);
     }
 
     /** How far a point is; `face` is the nearest one then. */
     distance(point: Vector3): number {
+        const { boxes, order } = this;
         let best = Infinity;
         const measure = (face: number): void => {
-            const { a, b, c } = this.triangle;
-            [a, b, c].forEach((corner, i) => corner.fromArray(this.points, 3 * this.faces[3 * face + i]));
-            const far = this.triangle.closestPointToPoint(point, this.place).distanceToSquared(point);
+            const far = this.at(face).closestPointToPoint(point, this.place).distanceTo(point);
             if (far < best) [best, this.face] = [far, face];
         };
         measure(this.face); // neighbors are near the same one
         const nodes = [0];
         while (nodes.length > 0) {
             const node = nodes.pop()!;
-            if (this.apart(node, point) >= best) continue;
-            const [left, leaf] = [2 * node + 1, node - this.leaves + 1];
-            if (leaf < 0) nodes.push(...(this.apart(left, point) < this.apart(left + 1, point) ? [left + 1, left] : [left, left + 1]));
-            else this.order.subarray(LEAF * leaf, LEAF * (leaf + 1)).forEach(measure);
+            const [left, leaf] = [2 * node + 1, node - (boxes.length - 1) / 2];
+            if (boxes[node].distanceToPoint(point) >= best) continue;
+            if (leaf >= 0) order.subarray(LEAF * leaf, LEAF * (leaf + 1)).forEach(measure);
+            else nodes.push(...(boxes[left].distanceToPoint(point) < boxes[left + 1].distanceToPoint(point) ? [left + 1, left] : [left, left + 1]));
         }
-        return Math.sqrt(best);
+        return best;
     }
 
-    private apart(node: number, { x, y, z }: Vector3): number {
-        const gap = (value: number, d: number): number => Math.max(this.boxes[6 * node + d] - value, 0, value - this.boxes[6 * node + 3 + d]);
-        return gap(x, 0) ** 2 + gap(y, 1) ** 2 + gap(z, 2) ** 2;
+    private at(face: number): Triangle {
+        const { triangle: { a, b, c }, points, faces } = this;
+        [a, b, c].forEach((corner, i) => corner.fromArray(points, 3 * faces[3 * face + i]));
+        return this.triangle;
     }
 }
 
 /** Each face, from its least vertex on. */
-function* written(faces: Uint32Array, name = (vertex: number): number => vertex): Generator<string> {
-    for (let i = 0; i < faces.length; i += 3) {
-        const [a, b, c] = [name(faces[i]), name(faces[i + 1]), name(faces[i + 2])];
-        yield (a < b && a < c ? [a, b, c] : b < c ? [b, c, a] : [c, a, b]).join();
-    }
+function written(faces: Uint32Array): string[] {
+    const turned = ([a, b, c]: Uint32Array): number[] => (a < b && a < c ? [a, b, c] : b < c ? [b, c, a] : [c, a, b]);
+    return Array.from({ length: faces.length / 3 }, (_, face) => turned(faces.subarray(3 * face, 3 * face + 3)).join());
 }
 
-/** The vertex of the original that each vertex is, or nothing where the faces are others. */
-function* matched(now: Body, then: Body): Generator<void, ((vertex: number) => number) | undefined> {
+/** The vertex of the original that each one is; undefined where the faces are others. */
+function* matched(now: Body, then: Body): Generator<void, ArrayLike<number> | undefined> {
     if (now.faces.length !== then.faces.length || now.used.length !== then.used.length) return undefined;
-    if (now.faces.every((vertex, i) => vertex === then.faces[i])) return (vertex) => vertex;
+    const [point, same] = [new Vector3(), Uint32Array.from({ length: now.points.length / 3 }, (_, vertex) => vertex)];
+    if (now.faces.every((vertex, i) => vertex === then.faces[i])) return same;
     const tree = new Tree(then.points, Uint32Array.from({ length: 3 * then.used.length }, (_, i) => then.used[Math.floor(i / 3)])); // of points
-    const [names, point, taken] = [new Map<number, number>(), new Vector3(), new Set<number>()];
     for (const vertex of now.used) {
         tree.distance(point.fromArray(now.points, 3 * vertex));
-        names.set(vertex, then.used[tree.face]);
-        taken.add(then.used[tree.face]);
+        same[vertex] = then.used[tree.face];
         yield;
     }
     const known = new Set(written(then.faces));
-    if (taken.size < now.used.length) return undefined;
-    for (const face of written(now.faces, (vertex) => names.get(vertex)!)) if (!known.has(face)) return undefined;
-    return (vertex) => names.get(vertex)!;
+    const isOnto = new Set(now.used.map((vertex) => same[vertex])).size === now.used.length;
+    return isOnto && written(now.faces.map((vertex) => same[vertex])).every((face) => known.has(face)) ? same : undefined;
 }
 
 function* measured(stream: BSMGeometry, original: BSMGeometry): Generator<void, Distances> {
-    const [count, before] = [stream, original].map(({ frames }) => frames.length);
+    const [{ length: count }, { length: before }, vertices] = [stream.frames, original.frames, stream.header!.vertices];
     if (count !== before) throw new Error(count * before > 0 ? `It has ${count} frames, and its original has ${before}.` : "One is a sequence, the other one is not.");
-    const vertices = stream.header!.vertices;
-    const isOne = stream.frames.every(({ shape }) => shape === stream.frames[0].shape) && vertices * count <= MOST;
+    const isOne = vertices * count <= MOST && stream.frames.every(({ shape }) => shape === stream.frames[0].shape);
     const off = new Float32Array(isOne ? vertices * Math.max(count, 1) : 0).fill(NaN);
-    const [errors, point]: [number[], Vector3] = [[], new Vector3()];
-    let [same, sum, apart]: [((vertex: number) => number) | undefined, number, number] = [undefined, 0, 0];
+    const [errors, point, other] = [[] as number[], new Vector3(), new Vector3()];
+    let [sum, apart] = [0, 0];
+    let [now, then, same]: [Body?, Body?, ArrayLike<number>?] = [];
     for (let frame = 0; frame < Math.max(count, 1); frame++) {
-        const [now, then] = [bodyOf(stream, frame), bodyOf(original, frame)];
-        if (frame === 0 || stream.frames[frame].shape !== stream.frames[frame - 1].shape || original.frames[frame].shape !== original.frames[frame - 1].shape) same = yield* matched(now, then);
-        const tree = same ? undefined : new Tree(then.points, then.faces);
+        const last = [now?.faces, then?.faces];
+        [now, then] = [bodyOf(stream, frame), bodyOf(original, frame)];
+        if (![now, then].every(({ faces }, i) => last[i]?.length === faces.length && faces.every((vertex, k) => vertex === last[i]![k]))) same = yield* matched(now, then);
+        const [tree, back] = same ? [] : [new Tree(then.points, then.faces), new Tree(now.points, now.faces)];
         let most = 0;
         for (const vertex of now.used) {
             point.fromArray(now.points, 3 * vertex);
-            const far = same ? Math.hypot(...[0, 1, 2].map((d) => now.points[3 * vertex + d] - then.points[3 * same!(vertex) + d])) : tree!.distance(point);
+            const far = same ? point.distanceTo(other.fromArray(then.points, 3 * same[vertex])) : tree!.distance(point);
             off[frame * vertices + vertex] = far;
             if (far > most) most = far;
             if (tree) [sum, apart] = [sum + far, apart + 1];
             yield;
         }
-        const back = tree && new Tree(now.points, now.faces);
         for (const vertex of back ? then.used : []) {
             most = Math.max(most, back!.distance(point.fromArray(then.points, 3 * vertex)));
             yield;
