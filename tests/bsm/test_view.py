@@ -30,7 +30,9 @@ import pytest
 import bsm
 from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
+from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.evaluation.curve import decode_draco, encode_draco
+from bsm.files.sequence import open_sequence
 from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Layer, compared, uploaded
 from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Tiled, written_to
 from tests.bitstream.streams import frame_ends
@@ -407,6 +409,54 @@ def test_an_upload_says_what_was_left_out_and_saves_nothing_by_it():
     assert any("lines" in note for note in lined.facts["notes"]) and lined.facts["less"]
 
 
+def test_notes_are_the_same_in_the_shell_in_python_and_in_the_page(tmp_path, capsys, recwarn):
+    path, page = tmp_path / "lined.obj", tmp_path / "page.html"
+    path.write_text("o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nl 1 2\np 4\n")
+    assert main(["view", str(path), "--save", str(page)]) == 0
+    viewed = capsys.readouterr().err.splitlines()
+    (entry,) = listed(page.read_text("utf-8"))
+    assert main(["encode", str(path), "-o", str(tmp_path / "lined.bsm")]) == 0
+    encoded = capsys.readouterr().err
+    recwarn.clear()
+    bsm.encode(path)
+    warned = [str(warning.message) for warning in recwarn]
+    notes = entry["facts"]["notes"]
+    assert len(notes) > 0 and all(note in encoded for note in notes)
+    assert [f"{path}: {note}" for note in notes] == warned and all(
+        any(line in said for said in viewed) for line in warned
+    )
+    assert entry["facts"]["less"]
+    bsm.save(bsm.decode(tmp_path / "lined.bsm"), tmp_path / "other.ply")
+    assert main(["view", str(tmp_path / "other.ply"), "--original", str(path), "--save", str(page), "-f"]) == 0
+    (entry,) = listed(page.read_text("utf-8"))
+    said = capsys.readouterr().err
+    assert entry["facts"]["notes"] == [f"lined.obj: {note}" for note in notes] and entry["facts"]["less"]
+    assert all(note in said for note in entry["facts"]["notes"])
+
+
+def test_two_files_that_are_sent_are_compared(tmp_path):
+    mesh = torus()
+    bsm.save(mesh, tmp_path / "a.ply")
+    given, stream = (tmp_path / "a.ply").read_bytes(), bsm.encode(mesh, preset="small")
+    expected = compared("b.bsm", stream, bsm.load(tmp_path / "a.ply"), size=len(given))
+    with serving() as server:
+        ours = {"Host": server.host, "Origin": f"http://{server.host}", "Content-Length": str(len(given + stream))}
+        query = f"?preset=small&name=a.ply&name=b.bsm&first={len(given)}"
+        answer = sent(server, ours, given + stream, query)
+        entry = json.loads(answer.splitlines()[-1])["entry"]
+        assert (entry["name"], entry["facts"]["look"]) == ("b.bsm", expected.facts["look"])
+        shown = [(layer["title"], layer["detail"], layer["size"]) for layer in entry["layers"][:2]]
+        assert shown == [("Original", "a.ply", len(given)), ("BSM", "b.bsm", len(stream))]
+        assert urllib.request.urlopen(server.address + entry["layers"][1]["url"]).read() == stream
+        assert b" 411 " in sent(server, ours, query=query.replace("first=", "first=-")).splitlines()[0]
+        swapped = json.loads(sent(server, ours, given + stream, query.replace("first=", "first=9")).splitlines()[-1])
+        assert [*swapped] == ["error"]
+    frames, faces = bending(5)
+    np.savez(tmp_path / "sway.npz", positions=frames, faces=faces)
+    *_, mixed = uploaded([("sway.npz", (tmp_path / "sway.npz").read_bytes()), ("b.bsm", stream)], "small")
+    assert "both" in mixed["error"]
+
+
 def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):
     bsm.save(torus(), tmp_path / "ball.ply")
     data = (tmp_path / "ball.ply").read_bytes()
@@ -489,6 +539,26 @@ def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monk
             page.close()
 
 
+def pairs_to_drop(folder: Path, mesh: bsm.TriangleMesh, source: Path) -> list[list[Any]]:
+    """Files that a page is to compare, and the row and value of its table: a mesh and its stream, in any order, two
+    meshes whose faces are in another order, and two with other faces."""
+    stream, back, other = folder / "pair.bsm", folder / "back.ply", folder / "other.obj"
+    stream.write_bytes(bsm.encode(mesh, preset="small"))
+    bsm.save(bsm.decode(stream), back)
+    coarse = torus(60, 40)
+    bsm.save(coarse, other)
+    far = 100 * bsm.compare(mesh, stream).max_error_relative
+    apart = max(
+        distances_to_surface(mesh.positions, coarse.positions, coarse.faces).max(),
+        distances_to_surface(coarse.positions, mesh.positions, mesh.faces).max(),
+    )
+    return [
+        [[str(source), str(stream)], "Largest vertex error", far],
+        [[str(source), str(back)], "Largest vertex error", far],
+        [[str(source), str(other)], "Largest surface distance", 100 * apart / mesh.diagonal],
+    ]
+
+
 @pytest.mark.slow
 @needs_packages
 def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
@@ -507,7 +577,14 @@ def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
     with ThreadingHTTPServer(("127.0.0.1", 0), serve) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         address = f"http://127.0.0.1:{server.server_port}/"
-        given = {"address": address, "name": name, "files": list(map(str, files)), "folder": str(folder)}
+        pairs = pairs_to_drop(tmp_path, mesh, files[0])
+        given = {
+            "address": address,
+            "name": name,
+            "files": list(map(str, files)),
+            "folder": str(folder),
+            "pairs": pairs,
+        }
         javascript("static", BSM_STATIC=json.dumps(given))
         server.shutdown()
     for path in files:
@@ -526,8 +603,20 @@ def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
 @needs_packages
 def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
     bsm.save(torus(), tmp_path / "ball.ply")
+    first, _, last = pairs_to_drop(tmp_path, torus(), tmp_path / "ball.ply")
+    positions, faces = bending(12)
+    np.savez(tmp_path / "sway.npz", positions=positions, faces=faces)
+    moving = tmp_path / "sway.bsm"
+    moving.write_bytes(bsm.encode_sequence(positions, faces, step=0.01))
+    content = compared("sway", moving.read_bytes(), open_sequence(str(tmp_path / "sway.npz")))
+    still = compared("other", bsm.encode(tmp_path / "other.obj", preset="lossless"), torus())
+    pairs = [
+        [first[0][::-1], "pair.bsm", *first[1:]],
+        [last[0], "other.obj", last[1], 100 * still.facts["farthest"]],
+        [[str(moving), str(tmp_path / "sway.npz")], "sway.bsm", first[1], 100 * content.facts["farthest"]],
+    ]
     with serving() as server:
-        given = {"address": server.address, "mesh": str(tmp_path / "ball.ply")}
+        given = {"address": server.address, "mesh": str(tmp_path / "ball.ply"), "pairs": pairs}
         javascript("drop", BSM_DROP=json.dumps(given))
 
 
@@ -569,6 +658,10 @@ def test_sequences_are_encoded_and_compared_frame_by_frame(tmp_path, capsys):
     assert main(["compare", str(tmp_path / "sway.npz"), str(stream), "--json"]) == 0
     expected = [frame["max_error_relative"] for frame in json.loads(capsys.readouterr().out)["frames"]]
     facts = entry["facts"]
+    assert main(["compare", str(tmp_path / "sway.npz"), str(stream), "--json", "--look"]) == 0
+    worst = json.loads(capsys.readouterr().out)["look_worst"]
+    assert facts["look"] == pytest.approx(worst, rel=1e-6) and facts["drawn"] == 7, "so few frames are all drawn"
+    assert 0 < facts["look"] <= facts["promised"]["look"] == 1 and facts["promised"]["farthest"] == 0.01
     assert facts["errors"] == pytest.approx(expected) and facts["farthest"] == max(facts["errors"]) > 0
     original = str(tmp_path / "sway_%d.ply")
     assert main(["view", str(stream), "--original", original, "--save", str(page), "-f"]) == 0

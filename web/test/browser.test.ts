@@ -7,7 +7,7 @@ import test, { after, before, describe } from "node:test";
 import { fileURLToPath } from "node:url";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, contentOf, FLAGS, PATIENCE, rowsOf, savedPage, silhouette, VECTORS, viewerScript } from "./shared";
+import { base64, CHROMIUM, contentOf, drop, FLAGS, PATIENCE, rowsOf, savedPage, silhouette, tableOf, VECTORS, viewerScript } from "./shared";
 
 const STREAM = "good-labels";
 /** One of the specification, and a real one if it is named. */
@@ -29,15 +29,6 @@ function colorsIn(png: Buffer): { red: number; green: number; redHeight: number;
         }
     }
     return { red: counts[0] / all, green: counts[1] / all, redHeight: heights[0] / counts[0], greenHeight: heights[1] / counts[1] };
-}
-
-/** Drop a file on a page. */
-function drop(page: Page, name: string, bytes: Uint8Array): Promise<void> {
-    return page.evaluate(([name, data]) => {
-        const transfer = new DataTransfer();
-        transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
-        document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    }, [name, base64(bytes)] as const);
 }
 
 describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, () => {
@@ -316,11 +307,38 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     });
 
     test("opens a stream that is dropped on it, and says that a saved page does not encode", async () => {
-        await drop(page, "other.bsm", readFileSync(join(VECTORS, "good-grid.bsm")));
+        await drop(page, { "other.bsm": readFileSync(join(VECTORS, "good-grid.bsm")) });
         await page.waitForFunction(() => document.querySelector("h1")!.textContent === "other.bsm");
         await state("complete");
-        await drop(page, "ball.ply", new Uint8Array(10));
+        await drop(page, { "ball.ply": new Uint8Array(10) });
         await page.waitForFunction(() => document.querySelector("[role=alert]")!.textContent!.includes("bsm view ball.ply"));
+        assert.deepEqual(complaints, []);
+    });
+
+    test("compares two streams that are dropped on it", async () => {
+        const read = (name: string): Buffer => readFileSync(join(VECTORS, `${name}.bsm`));
+        const said = async (claim: RegExp): Promise<void> => void (await page.waitForFunction((text) => new RegExp(text).test(document.querySelector("[data-part=claim]")!.textContent!), claim.source));
+        await drop(page, { "a.bsm": read("good-labels"), "b.bsm": read("good-labels") });
+        await said(/^No difference was measured$/);
+        assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
+        assert.deepEqual(await page.locator("[data-part=layers] label").allInnerTexts().then((all) => all.map((text) => text.split(",")[1].trim())), ["a.bsm", "b.bsm"]);
+        assert.match((await tableOf(page))["Largest vertex error"], /^0.%/);
+        await drop(page, { "a.bsm": read("good-labels"), "b.bsm": read("good-tetrahedron") });
+        await said(/^Differences up to [\d.]+.% of the diagonal/);
+        const table = await tableOf(page);
+        assert.ok(parseFloat(table["Largest surface distance"]) > parseFloat(table["Mean surface distance"]), JSON.stringify(table));
+        assert.match(table.Original, /vertices [\d,]+ triangles/);
+        await page.locator("canvas").press("e");
+        await page.getByText("Distance from the original's surface").waitFor();
+        await drop(page, { "a.bsm": read("good-sequence-learnt"), "b.bsm": read("good-sequence-learnt") });
+        await said(/^No difference was measured$/);
+        assert.ok(await page.locator("[data-part=errors]").isVisible());
+        await drop(page, { "a.bsm": read("good-sequence-learnt"), "b.bsm": read("good-grid") });
+        await page.waitForFunction(() => /cannot be compared.*sequence/.test(document.querySelector("[role=alert]")!.textContent!));
+        await drop(page, { "a.bsm": read("good-grid"), "b.bsm": read("good-grid"), "c.bsm": read("good-grid") });
+        await page.waitForFunction(() => /a.bsm and b.bsm and c.bsm cannot be shown. Open one file, or two/.test(document.querySelector("[role=alert]")!.textContent!));
+        await drop(page, { "b.ply": new Uint8Array(10), "a.bsm": read("good-grid") });
+        await page.waitForFunction(() => document.querySelector("[role=alert]")!.textContent!.includes("bsm view a.bsm --original b.ply"));
         assert.deepEqual(complaints, []);
     });
 
@@ -329,7 +347,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await state("complete");
         const streams = page.getByRole("combobox", { name: "Stream" });
         assert.ok(await page.locator("h1").isHidden());
-        await drop(page, "other.bsm", readFileSync(join(VECTORS, "good-light.bsm")));
+        await drop(page, { "other.bsm": readFileSync(join(VECTORS, "good-light.bsm")) });
         await page.getByRole("heading", { name: "other.bsm" }).waitFor();
         assert.equal(await streams.inputValue(), "");
         await streams.selectOption("whole");
@@ -349,7 +367,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await fresh.waitForFunction(() => "send" in window);
         await send(whole.subarray(0, 100));
         await taken(100);
-        await drop(fresh, "other.bsm", grid);
+        await drop(fresh, { "other.bsm": grid });
         await fresh.waitForSelector("body[data-state=complete]");
         await send(whole.subarray(100));
         await fresh.waitForTimeout(300);

@@ -1,14 +1,15 @@
 /** A mesh that is dropped on the page of `bsm view` is encoded by its server, and shown beside its stream. */
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
+import { basename } from "node:path";
 import { describe, test } from "node:test";
 import { chromium } from "playwright-core";
-import { base64, CHROMIUM, FLAGS, PATIENCE } from "./shared";
+import { CHROMIUM, drop as dropped, FLAGS, PATIENCE, tableOf } from "./shared";
 
 const given = process.env.BSM_DROP;
 
 describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`) }, () => {
-    const { address, mesh } = JSON.parse(given ?? "{}") as { address: string; mesh: string };
+    const { address, mesh, pairs } = JSON.parse(given ?? "{}") as { address: string; mesh: string; pairs: [paths: string[], title: string, row: string, percent: number][] };
 
     test("is encoded with a bar, and both are shown; another one can be canceled while it is sent and while it is encoded", async () => {
         const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
@@ -19,12 +20,7 @@ describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `
             page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
             await page.goto(address);
             await page.getByText("nothing leaves it").waitFor();
-            const drop = (): Promise<void> =>
-                page.evaluate((data) => {
-                    const transfer = new DataTransfer();
-                    transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], "ball.ply"));
-                    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-                }, base64(readFileSync(mesh)));
+            const drop = (): Promise<void> => dropped(page, { "ball.ply": readFileSync(mesh) });
             await drop();
             await page.getByRole("progressbar").waitFor();
             assert.ok(await page.getByText("nothing leaves it").isHidden(), "the card that asks for a mesh hides the progress");
@@ -32,6 +28,13 @@ describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `
             assert.equal(await page.locator("h1").textContent(), "ball.ply");
             assert.match(await page.locator("[data-part=claim]").innerText(), /^Looks the same \([\d.]+ of 1\), [\d.]+ times smaller$/);
             assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
+            for (const [paths, title, row, percent] of pairs) {
+                await dropped(page, Object.fromEntries(paths.map((path) => [basename(path), readFileSync(path)])));
+                await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && Number(document.body.dataset.layers) >= 2, title, { timeout: PATIENCE });
+                assert.match(await page.locator("[data-part=claim]").innerText(), /^(Looks the same|Close: differences show side by side|A preview) \([\d.]+\)/);
+                const found = parseFloat((await tableOf(page))[row]);
+                assert.ok(Math.abs(found / percent - 1) < 0.01, `${paths}: ${row} ${found}, not ${percent}`);
+            }
             for (const stage of ["sending$", ": (?!sending)"]) {
                 await page.evaluate((stage) => {
                     const line = document.querySelector("[data-part=stage]")!;

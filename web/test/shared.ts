@@ -3,6 +3,7 @@ import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
+import type { Page } from "playwright-core";
 import { crc16, crc32 } from "../src/checksums";
 import { parseVarint } from "../src/varint";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
@@ -98,6 +99,20 @@ export function contentOf(name: string, bytes: Uint8Array): { name: string; main
 export function viewerScript(): string {
     const kernels = ["kernels", "kernels-scalar"].map((name) => [name, { data: base64(readFileSync(join(VIEWER, `${name}.wasm`))) }]);
     return `const KERNELS=${JSON.stringify(Object.fromEntries(kernels))};${readFileSync(join(VIEWER, "viewer.js"), "utf8")}`;
+}
+
+/** Drop files on a page. */
+export function drop(page: Page, files: Record<string, Uint8Array>): Promise<void> {
+    return page.evaluate((files) => {
+        const transfer = new DataTransfer();
+        for (const [name, data] of files) transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
+        document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }, Object.entries(files).map(([name, bytes]) => [name, base64(bytes)] as const));
+}
+
+/** The rows of the table on a page, by their names. */
+export function tableOf(page: Page): Promise<Record<string, string>> {
+    return page.locator("[data-part=facts]").evaluate((list) => Object.fromEntries([...list.querySelectorAll("dt")].map((name) => [name.textContent!, name.nextElementSibling!.textContent!])));
 }
 
 export function base64(bytes: Uint8Array): string {

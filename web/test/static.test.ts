@@ -5,12 +5,12 @@ import { basename, join } from "node:path";
 import { describe, test } from "node:test";
 import { chromium } from "playwright-core";
 import puppeteer from "puppeteer-core";
-import { base64, CHROMIUM, FIREFOX, FLAGS, PATIENCE, silhouette } from "./shared";
+import { base64, CHROMIUM, drop, FIREFOX, FLAGS, PATIENCE, silhouette, tableOf } from "./shared";
 
 const given = process.env.BSM_STATIC;
 
 describe("a page of files", { skip: !given && "bsm view has written none" }, () => {
-    const { address, name, files, folder } = JSON.parse(given ?? "{}") as { address: string; name: string; files: string[]; folder: string };
+    const { address, name, files, folder, pairs } = JSON.parse(given ?? "{}") as { address: string; name: string; files: string[]; folder: string; pairs: [paths: string[], row: string, percent: number][] };
 
     test("shows its mesh in Chromium, and encodes", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, async () => {
         const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
@@ -26,23 +26,29 @@ describe("a page of files", { skip: !given && "bsm view has written none" }, () 
             await page.addStyleTag({ content: ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #808890 !important }" });
             assert.ok(silhouette(await page.locator("canvas").screenshot()).share > 0.05);
             assert.ok(await page.locator("[name=keep]").isHidden(), "there is a file of this stream");
-            const drop = (path: string): Promise<void> =>
-                page.evaluate(([name, data]) => {
-                    const transfer = new DataTransfer();
-                    transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
-                    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-                }, [basename(path), base64(readFileSync(path))] as const);
+            const bytes = (path: string): [string, Buffer] => [basename(path), readFileSync(path)];
             for (const path of files) {
-                await drop(path);
+                await drop(page, Object.fromEntries([bytes(path)]));
                 await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2", basename(path));
                 assert.equal(await page.locator("[role=alert]").textContent(), "");
                 await page.waitForFunction(() => /Largest vertex error0\.0\d+/.test(document.querySelector("[data-part=facts]")!.textContent!));
+                assert.match(await page.locator("[data-part=claim]").innerText(), /^Close: differences up to 0\.0\d+.% of the diagonal, [\d.]+ times smaller$|^Close: differences up to [\d.]+.meters, [\d.]+ times smaller$/);
                 const saved = page.waitForEvent("download");
                 await page.locator("[name=keep]").evaluate((button: HTMLElement) => button.click());
                 await (await saved).saveAs(join(folder, `${basename(path)}.bsm`));
             }
+            for (const [paths, row, percent] of pairs) {
+                await drop(page, Object.fromEntries(paths.map(bytes)));
+                await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2", basename(paths[1]));
+                const found = parseFloat((await tableOf(page))[row]);
+                assert.ok(Math.abs(found / percent - 1) < 0.01, `${paths}: ${row} ${found}, not ${percent}`);
+                assert.equal(await page.locator("[role=alert]").textContent(), "");
+                assert.ok(await page.locator("[name=keep]").isHidden());
+                await page.locator("canvas").press("e");
+                await page.getByText(row.includes("surface") ? "Distance from the original's surface" : "Distance from the original", { exact: true }).waitFor();
+            }
             writeFileSync(join(folder, "corners.ply"), "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n");
-            await drop(join(folder, "corners.ply"));
+            await drop(page, Object.fromEntries([bytes(join(folder, "corners.ply"))]));
             await page.waitForFunction(() => /corners\.ply cannot be shown.*four corners/.test(document.querySelector("[role=alert]")!.textContent!));
             assert.deepEqual(complaints, []);
         } finally {

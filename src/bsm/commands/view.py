@@ -77,7 +77,13 @@ def _opened(
     if args.follow or (path == "-" and not (args.save or args.static or args.original)):
         return _growing(name, path)
     if args.original:
-        return _against(path, args)
+        with about(args.original):
+            before = given_at(args.original)
+        with about(path):
+            content = against(before, given_at(path), limits_of(args.limits))
+        for note in content.facts["notes"]:
+            console.note(note)
+        return content
     with about(path):
         given = given_at(path)
         if isinstance(given.source, bytes):
@@ -89,14 +95,6 @@ def _opened(
         console.note(f"{path}: {note}")
     console.note(f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}")
     return content
-
-
-def _against(path: str, args: argparse.Namespace) -> Content:
-    """Compare a mesh, sequence or stream with another one."""
-    with about(args.original):
-        before = given_at(args.original)
-    with about(path):
-        return against(before, given_at(path), limits_of(args.limits))
 
 
 def _growing(name: str, path: str) -> Growing:

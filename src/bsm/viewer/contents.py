@@ -285,8 +285,9 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
     title = "BSM" if stream else PurePath(name).suffix[1:].upper() or "Other"
     second = replace(second, title=title, detail=name, size=given.size or 0)
     layers = (replace(first, detail=PurePath(before.name).name), second, *(rivals if stream else ()))
-    files = [each.source for each in (before, given) if isinstance(each.source, MeshFile)]
-    said = {"notes": [note for file in files for note in file.notes], "less": any(file.dropped for file in files)}
+    read = [(PurePath(each.name).name, each.source) for each in (before, given) if not isinstance(each.source, bytes)]
+    notes = [f"{which}: {note}" for which, source in read for note in source.notes]
+    said = {"notes": notes, "less": any(source.dropped for _, source in read if isinstance(source, MeshFile))}
     return replace(content, layers=layers, facts={**content.facts, **said} | ({} if stream else {"draco": None}))
 
 
