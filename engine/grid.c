@@ -83,7 +83,7 @@ static bool begin_twins(GridField *field, Arena *arena) {
     while (INT64_C(1) << (twins->head_bits - 2) < n && twins->head_bits < 26) twins->head_bits++;
     int64_t heads = INT64_C(1) << twins->head_bits;
     if (!TAKE(arena, n * images, twins->twin) || !TAKE_ZEROS(arena, n, twins->has) || !TAKE(arena, heads, twins->head)
-        || !TAKE(arena, n, twins->next))
+        || !TAKE(arena, n, twins->next) || !TAKE_ZEROS(arena, 1 << (NEAR_BITS - 6), twins->near))
         return false;
     for (int64_t i = 0; i < heads; i++) twins->head[i] = -1;
     return true;

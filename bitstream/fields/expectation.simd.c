@@ -23,11 +23,13 @@ typedef __attribute__((vector_size(64))) int64_t Long;
 typedef __attribute__((vector_size(64))) double Inverse;
 typedef __attribute__((vector_size(32), __aligned__(4), may_alias)) int32_t UnalignedNumber;
 enum { PARTS = 1, INPUT_PARTS = WEIGHT_ROW / 8 };
+#define LANE(x, i) (x)[0][i]
 #else
 typedef int32_t Number;
 typedef int32_t UnalignedNumber;
 typedef int64_t Inverse;
 enum { PARTS = PREDICTIONS, INPUT_PARTS = WEIGHT_ROW };
+#define LANE(x, i) (x)[i]
 #endif
 
 #define EACH_PART(i) for (int i = 0; i < PARTS; i++)
@@ -39,8 +41,7 @@ typedef struct { /* a value under way */
     Number prediction[PARTS];
     Inverse inverse[PARTS]; /* of the scales: 2^38 by 1/4096 */
     Number input[INPUT_PARTS];
-    int32_t means[MODEL_ROW], counts[MODEL_ROW]; /* of each prediction */
-    uint32_t hits[MODEL_ROW];
+    uint32_t hits[MODEL_ROW]; /* of each prediction */
 } Work;
 
 INLINE Number numbers_at(const int32_t *row, int i) { return ((const UnalignedNumber *)row)[i]; }
@@ -195,21 +196,22 @@ INLINE int32_t find_scales(Work *w) {
     const int32_t *row = w->model->scales.data + MODEL_ROW * e->scale_context;
     const uint32_t *hits = w->model->hits.data + MODEL_ROW * e->hit_context;
     int32_t typical = 0;
-    for (int j = 0; j < MODEL_ROW; j++) {
-        w->means[j] = row[j];
-        w->counts[j] = row[PREDICTIONS];
-        w->hits[j] = hits[j];
+    Number mean[PARTS], count[PARTS];
+    EACH_PART(i) {
+        mean[i] = numbers_at(row, i);
+        count[i] = mean[i] * 0 + row[PREDICTIONS];
     }
+    for (int j = 0; j < PREDICTIONS; j++) w->hits[j] = hits[j];
     for (int i = 0; i < TWIN_PREDICTIONS && e->contexts > CONTEXTS; i++) { /* V 17.7 */
         if (e->twin[i] < 0) continue;
         const int32_t *own = w->model->twins.data + TWIN_ROW * e->twin[i];
-        w->means[TWIN_AT[i]] = own[0];
-        w->counts[TWIN_AT[i]] = own[1];
+        LANE(mean, TWIN_AT[i]) = own[0];
+        LANE(count, TWIN_AT[i]) = own[1];
         w->hits[TWIN_AT[i]] = (uint32_t)own[2];
     }
     EACH_PART(i) {
         w->prediction[i] = numbers_at(e->prediction, i);
-        w->inverse[i] = inverse_of(numbers_at(w->means, i), numbers_at(w->counts, i), first_scale(e), &typical);
+        w->inverse[i] = inverse_of(mean[i], count[i], first_scale(e), &typical);
     }
     return typical;
 }

@@ -14,11 +14,21 @@ enum {
     MOST_BEYOND = 96,  /* of all such */
     LOOKED_UP = 16,     /* images by which a vertex with a twin is sought among the known ones, too */
     ECHO_VISITS = 4,
+    ECHO_BITS = 14,
+    PROBES = 8,
     MOST_ECHO = 256, /* distances of flaps, in 1/64 of what they may differ by */
     NEAREST_ECHOES = 4,
+    NOT_ALIKE = 1 << 20,
     UNIT_BITS = 16,
     SURE = ONE / 8 * 7, /* trust from which on an image is enough */
+    LANES = 8,
+    ABOVE = 1 << 30, /* more than any coordinate of an image */
 };
+
+/* Numbers of so many images. */
+typedef __attribute__((vector_size(64), __aligned__(8), may_alias)) double Reals;
+typedef __attribute__((vector_size(32), __aligned__(4), may_alias)) int32_t Numbers;
+typedef __attribute__((vector_size(32), __aligned__(4), may_alias)) uint32_t Wholes;
 
 /* The greatest number whose square is at most x < 2^62: exact, however a processor rounds. */
 INLINE int64_t root_of(int64_t x) {
@@ -97,7 +107,8 @@ static void set_turned(ConstInts span, const int32_t *number, Image *image) {
     }
 }
 
-void image_of(const Image *image, const int32_t *place, int32_t *to) {
+/* Where the image of a place is, in 1/16. */
+INLINE void image_of(const Image *image, const int32_t *place, int32_t *to) {
     for (int j = 0; j < AXES; j++) {
         int64_t sum = 1 << (TURN_BITS - 5);
         for (int k = 0; k < AXES; k++) sum += (int64_t)image->turn[j][k] * place[k];
@@ -133,12 +144,40 @@ void list_images(ConstInts span, ConstInts2 numbers, Twins *twins) {
         images++;
     }
     twins->images = images;
+    for (int32_t i = 0; i < images; i++)
+        for (int j = 0; j < AXES; j++) {
+            const Image *inverse = twins->image + twins->image[i].inverse;
+            for (int k = 0; k < AXES; k++) twins->back[j][k][i] = inverse->turn[j][k];
+            twins->back[j][AXES][i] = ((double)ABOVE + inverse->shift[j] + 1.0 / 2) * (1 << (TURN_BITS - 4));
+        }
 }
 
-/* Which chain holds the known vertices of a cell. */
-INLINE uint32_t chain_of(const Twins *t, int32_t x, int32_t y, int32_t z) {
+/* Which chain of 2^bits holds what has these three cells. */
+INLINE uint32_t chain_of(int32_t x, int32_t y, int32_t z, int bits) {
     uint32_t mixed = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ (uint32_t)z * 83492791u;
-    return mixed * 2654435769u >> (32 - t->head_bits);
+    return mixed * 2654435769u >> (32 - bits);
+}
+
+/* For the cell of a place (1/16). */
+INLINE uint32_t cell_chain(const int32_t *place, int bits) {
+    return chain_of(place[0] >> (4 + CELL_BITS), place[1] >> (4 + CELL_BITS), place[2] >> (4 + CELL_BITS), bits);
+}
+
+/* Of each image the place (1/16) that it takes to x, and the bit of `near` of that place's cell. As `image_of` has it:
+ * sums below 2^53 are exact, and above 0, so that they are rounded down. */
+KERNEL void move_back(const Twins *t, const int32_t *x, int32_t place[AXES][MOST_IMAGES], uint32_t *bits) {
+    static const uint32_t FACTOR[AXES] = {73856093u, 19349663u, 83492791u};
+    for (int i = 0; i < t->images; i += LANES) {
+        Wholes mixed = {0};
+        for (int j = 0; j < AXES; j++) {
+            Reals sum = *(const Reals *)(t->back[j][AXES] + i);
+            for (int k = 0; k < AXES; k++) sum += *(const Reals *)(t->back[j][k] + i) * (double)x[k];
+            Numbers own = __builtin_convertvector(sum * (1.0 / (1 << (TURN_BITS - 4))), Numbers) - ABOVE;
+            *(Numbers *)(place[j] + i) = own;
+            mixed ^= (Wholes)(own >> (4 + CELL_BITS)) * FACTOR[j];
+        }
+        *(Wholes *)(bits + i) = mixed * 2654435769u >> (32 - NEAR_BITS);
+    }
 }
 
 /* The nearest known vertex whose twin by `image` is not known yet, within REACH of a place (1/16); -1: none. */
@@ -152,7 +191,7 @@ static int32_t nearest_free(const Twins *t, const int32_t *x, int32_t image, con
     for (int32_t a = first[0]; a <= last[0]; a++)
         for (int32_t b = first[1]; b <= last[1]; b++)
             for (int32_t c = first[2]; c <= last[2]; c++) {
-                uint32_t chain = chain_of(t, a, b, c);
+                uint32_t chain = chain_of(a, b, c, t->head_bits);
                 int32_t u = t->head[chain];
                 for (int visits = 0; u >= 0 && visits < MOST_VISITS; visits++, u = t->next[u]) {
                     int64_t square = 0;
@@ -191,6 +230,7 @@ static int add_beyond(Twins *t, const Corners *corners, const Ints2 *values, int
     for (int32_t k = first; k < end; k++) {
         int32_t after = vertex[next_corner(corners->corners.data[k])];
         int32_t before = vertex[previous_corner(corners->corners.data[k])];
+        if ((after != w) & (before != w)) continue;
         if (after == w && corners->rank.data[before] < now) add_candidate(t, values, image, before, 2);
         if (before == w && corners->rank.data[after] < now) add_candidate(t, values, image, after, 2);
     }
@@ -257,10 +297,13 @@ static void add_product(const int64_t *a, const int64_t *b, int64_t *to) {
     }
 }
 
+/* a / b towards zero: exact below 2^53, since a quotient that is not whole is at least 1 / b away from one that is. */
+INLINE int64_t quotient_of(int64_t a, int64_t b) { return (int64_t)((double)a / (double)b); }
+
 static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, int32_t v, Frame *f) {
     const int32_t *a = values->data + AXES * (int64_t)flap.a, *b = values->data + AXES * (int64_t)flap.b,
                   *c = values->data + AXES * (int64_t)flap.c;
-    int64_t along[AXES], beside[AXES], up[AXES], squares[3] = {0, 0, 0}, most = 0;
+    int64_t along[AXES], beside[AXES], up[AXES], squares[3] = {0, 0, 0}, most = 1;
     for (int j = 0; j < AXES; j++) {
         along[j] = b[j] - a[j];
         beside[j] = c[j] - a[j];
@@ -272,9 +315,8 @@ static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, in
     }
     for (int i = 0; i < 3; i++) f->length[i] = (int32_t)root_of(squares[i] << 8);
     add_product(along, beside, up);
-    for (int j = 0; j < AXES; j++) most = largest(most, up[j] < 0 ? -up[j] : up[j]);
-    int down = 0;
-    while (most >> down >= 1 << 20) down++;
+    for (int j = 0; j < AXES; j++) most |= up[j] < 0 ? -up[j] : up[j];
+    int down = (int)largest(44 - __builtin_clzll((uint64_t)most), 0);
     int64_t square = 0;
     for (int j = 0; j < AXES; j++) {
         up[j] = up[j] >> down;
@@ -285,8 +327,8 @@ static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, in
     if (!f->is_there) return;
     int64_t ex[AXES], ez[AXES], ey[AXES];
     for (int j = 0; j < AXES; j++) {
-        ex[j] = along[j] * (1 << (UNIT_BITS + 4)) / f->length[0];
-        ez[j] = up[j] * (1 << (UNIT_BITS + 4)) / height;
+        ex[j] = quotient_of(along[j] * (1 << (UNIT_BITS + 4)), f->length[0]);
+        ez[j] = quotient_of(up[j] * (1 << (UNIT_BITS + 4)), height);
     }
     add_product(ez, ex, ey);
     for (int j = 0; j < AXES; j++) {
@@ -294,9 +336,8 @@ static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, in
         f->unit[1][j] = (int32_t)(ey[j] >> UNIT_BITS);
         f->unit[2][j] = (int32_t)ez[j];
     }
-    f->degree[0] = (uint8_t)least(faces_at(corners, v), 12);
-    f->degree[1] = (uint8_t)least(faces_at(corners, flap.a), 12);
-    f->degree[2] = (uint8_t)least(faces_at(corners, flap.b), 12);
+    f->degrees = (uint32_t)(least(faces_at(corners, v), 12) << 16 | least(faces_at(corners, flap.a), 12) << 8
+        | least(faces_at(corners, flap.b), 12));
 }
 
 /* Classes of lengths (1/16): sixteen to the octave, and half a class. */
@@ -305,22 +346,51 @@ INLINE int32_t length_class(int32_t length) {
     return 32 * exponent + (x >> (exponent + 2)) - 32;
 }
 
-INLINE uint32_t echo_chain(const int32_t *class) {
-    uint32_t mixed = (uint32_t)class[0] * 73856093u ^ (uint32_t)class[1] * 19349663u ^ (uint32_t)class[2] * 83492791u;
-    return mixed * 2654435769u >> 18;
+/* How far two flaps are from being congruent; NOT_ALIKE beyond what counts. Without branches, which are a toss-up. */
+INLINE uint32_t difference(const Echo *echo, const Frame *f, int32_t age) {
+    uint32_t sum = 0, may = (uint32_t)(f->length[0] >> 5) + 24, other = echo->degrees ^ f->degrees;
+    for (int i = 0; i < 3; i++) sum += (uint32_t)size_of(echo->length[i] - f->length[i]);
+    other = (other + 0x0f0f0f) >> 4 & 0x010101; /* a bit for each that differs */
+    uint32_t away = 64 * sum / may + 19 * (2 * (other >> 16) + (other >> 8 & 1) + (other & 1))
+        + 3 * (uint32_t)bit_length((uint32_t)age);
+    uint32_t beyond = 0u - (sum > MOST_ECHO / 64 * may);
+    return (away & ~beyond) | (NOT_ALIKE & beyond);
 }
 
-typedef struct {
-    int32_t away, place[AXES];
-} Alike;
-
-/* How far two flaps are from being congruent. */
-INLINE int32_t difference(const Twins *t, const Echo *echo, const Frame *f) {
-    int64_t sum = 0, may = (f->length[0] >> 5) + 24;
-    for (int i = 0; i < 3; i++) sum += size_of(echo->length[i] - f->length[i]);
-    if (64 * sum > MOST_ECHO * may) return INT32_MAX;
-    return (int32_t)(64 * sum / may) + 38 * (echo->degree[0] != f->degree[0]) + 19 * (echo->degree[1] != f->degree[1])
-        + 19 * (echo->degree[2] != f->degree[2]) + 3 * bit_length((uint32_t)(t->echoes - echo->number));
+/* The nearest echoes, in order: how far each is << 40, when it was visited << 32, its number. */
+static void find_alike(const Twins *t, Frame *f, uint64_t *near) {
+    int32_t oldest = (int32_t)largest(t->echoes - MOST_ECHOES, 0), number[PROBES], class[2][3];
+    uint64_t order[PROBES];
+    int open = 0;
+    for (int k = 0; k < 3; k++) {
+        int32_t fine = length_class(f->length[k]);
+        class[0][k] = fine >> 1;
+        class[1][k] = class[0][k] + 2 * (fine & 1) - 1;
+    }
+    f->chain = chain_of(class[0][0], class[0][1], class[0][2], ECHO_BITS);
+    for (int i = 0; i < PROBES; i++) {
+        number[open] = t->echo_head[chain_of(class[i & 1][0], class[i >> 1 & 1][1], class[i >> 2][2], ECHO_BITS)];
+        order[open] = (uint64_t)i * ECHO_VISITS;
+        open += number[open] > oldest;
+    }
+    for (int i = 0; i < NEAREST_ECHOES; i++) near[i] = (uint64_t)NOT_ALIKE << 40;
+    for (int visits = 0; visits < ECHO_VISITS && open > 0; visits++) { /* of all chains in turn */
+        int left = 0;
+        for (int i = 0; i < open; i++) {
+            const Echo *echo = t->echo + (number[i] & (MOST_ECHOES - 1));
+            uint64_t own = (uint64_t)difference(echo, f, t->echoes - number[i]) << 40 | order[i] << 32
+                | (uint64_t)number[i];
+            for (int k = 0; k < NEAREST_ECHOES; k++) {
+                uint64_t nearer = own < near[k] ? own : near[k];
+                own = own < near[k] ? near[k] : own;
+                near[k] = nearer;
+            }
+            number[left] = echo->below;
+            order[left] = order[i] + 1;
+            left += echo->below > oldest;
+        }
+        open = left;
+    }
 }
 
 /* Flaps alike among those remembered: a vertex in the same place beside each is foretold (V 17.5). */
@@ -329,48 +399,29 @@ static void seek_echoes(Twins *t, const Corners *corners, const Ints2 *values, c
     int32_t best = INT32_MAX;
     for (int i = 0; i < around->flaps && i < 2; i++) {
         Frame *f = t->frame + i;
+        uint64_t near[NEAREST_ECHOES];
         set_frame(corners, values, around->flap[i], v, f);
         if (!f->is_there) continue;
-        Alike near[NEAREST_ECHOES];
-        int found = 0;
-        int32_t class[3], other[3];
-        for (int k = 0; k < 3; k++) {
-            int32_t fine = length_class(f->length[k]);
-            class[k] = fine >> 1;
-            other[k] = class[k] + ((fine & 1) ? 1 : -1);
-        }
-        for (int probe = 0; probe < 8; probe++) {
-            int32_t at[3];
-            for (int k = 0; k < 3; k++) at[k] = probe >> k & 1 ? other[k] : class[k];
-            int32_t number = t->echo_head[echo_chain(at)];
-            for (int visits = 0; number > t->echoes - MOST_ECHOES && number > 0 && visits < ECHO_VISITS; visits++) {
-                const Echo *echo = t->echo + (number & (MOST_ECHOES - 1));
-                int32_t away = difference(t, echo, f);
-                if (away < INT32_MAX && (found < NEAREST_ECHOES || away < near[found - 1].away)) {
-                    int place = found < NEAREST_ECHOES ? found++ : found - 1;
-                    for (; place > 0 && near[place - 1].away > away; place--) near[place] = near[place - 1];
-                    near[place] = (Alike){away, {echo->place[0], echo->place[1], echo->place[2]}};
-                }
-                number = echo->below;
-            }
-        }
-        for (int k = 0; k < found; k++) {
-            int64_t weight = 65536 >> least(near[k].away >> 5, 16);
+        find_alike(t, f, near);
+        for (int k = 0; k < NEAREST_ECHOES && near[k] >> 40 < NOT_ALIKE; k++) {
+            int32_t away = (int32_t)(near[k] >> 40);
+            int64_t weight = 65536 >> least(away >> 5, 16);
+            const int32_t *in_frame = t->echo[near[k] & (MOST_ECHOES - 1)].place;
             for (int j = 0; j < AXES; j++) {
                 int64_t off = 0;
-                for (int axis = 0; axis < AXES; axis++) off += (int64_t)near[k].place[axis] * f->unit[axis][j];
+                for (int axis = 0; axis < AXES; axis++) off += (int64_t)in_frame[axis] * f->unit[axis][j];
                 int32_t place = limited(f->middle[j] + (off >> UNIT_BITS));
                 sum[j] += weight * place;
-                if (near[k].away < best) t->echoed[1][j] = place;
+                if (away < best) t->echoed[1][j] = place;
             }
             weights += weight;
-            if (near[k].away < best) best = near[k].away;
+            if (away < best) best = away;
         }
     }
     if (weights == 0) return;
     int32_t apart = 0;
     for (int j = 0; j < AXES; j++) {
-        t->echoed[0][j] = (int32_t)(sum[j] / weights);
+        t->echoed[0][j] = (int32_t)quotient_of(sum[j], weights);
         apart += size_of(t->echoed[0][j] - t->echoed[1][j]);
     }
     int kind = (best >= 26) + (best >= 51) + (best >= 96) + (best >= 160);
@@ -424,12 +475,33 @@ static void remember_flap(Twins *t, const Frame *f, const int32_t *place, bool t
     Echo *echo = t->echo + (number & (MOST_ECHOES - 1));
     int32_t class[3];
     *echo = (Echo){.length = {f->length[0], f->length[1 + turned], f->length[2 - turned]},
-        .place = {turned ? -place[0] : place[0], place[1], place[2]}, .number = number,
-        .degree = {f->degree[0], f->degree[1 + turned], f->degree[2 - turned]}};
+        .place = {turned ? -place[0] : place[0], place[1], place[2]},
+        .degrees = turned ? (f->degrees & 0xff0000) | (f->degrees & 255) << 8 | (f->degrees >> 8 & 255) : f->degrees};
     for (int k = 0; k < 3; k++) class[k] = length_class(echo->length[k]) >> 1;
-    int32_t *head = t->echo_head + echo_chain(class);
+    int32_t *head = t->echo_head + (turned ? chain_of(class[0], class[1], class[2], ECHO_BITS) : f->chain);
     echo->below = *head;
     *head = number;
+}
+
+/* Twins of v among the known vertices, by images in turn. */
+static void look_up(Twins *t, const Ints2 *values, int32_t v) {
+    const int32_t images = t->images;
+    const uint32_t has = t->has[v];
+    int32_t place[AXES][MOST_IMAGES], sought[MOST_IMAGES + 1];
+    uint32_t bits[MOST_IMAGES];
+    int lookups = has != 0 ? (int)least(LOOKED_UP, images) : images, count = 0, image = t->turn;
+    move_back(t, values->data + AXES * (int64_t)v, place, bits);
+    for (int k = 0; k < lookups; k++) {
+        image = image + 1 < images ? image + 1 : 0;
+        sought[count] = image;
+        count += (int)(t->near[bits[image] >> 6] >> (bits[image] & 63) & ~has >> image & 1);
+    }
+    t->turn = image;
+    for (int k = 0; k < count; k++) {
+        int32_t i = sought[k], at[AXES] = {place[0][i], place[1][i], place[2][i]};
+        int32_t u = nearest_free(t, values->data, t->image[i].inverse, at);
+        if (u >= 0) join(t, v, u, i);
+    }
 }
 
 void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t v) {
@@ -447,19 +519,17 @@ void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t
         for (int j = 0; j < AXES; j++) near = near && size_of(c->place[j] - FINE * x[j]) <= MATCH;
         if (near) join(t, v, c->vertex, c->image);
     }
-    int lookups = t->images > 0 && t->has[v] != 0 ? (int)least(LOOKED_UP, t->images) : t->images;
-    for (int k = 0; k < lookups; k++) {
-        t->turn = t->turn + 1 < t->images ? t->turn + 1 : 0;
-        int32_t place[AXES], inverse = t->image[t->turn].inverse;
-        if (t->has[v] >> t->turn & 1) continue;
-        image_of(t->image + inverse, x, place);
-        int32_t u = nearest_free(t, values->data, inverse, place);
-        if (u >= 0) join(t, v, u, t->turn);
-    }
     if (t->images > 0) {
-        uint32_t chain = chain_of(t, x[0] >> CELL_BITS, x[1] >> CELL_BITS, x[2] >> CELL_BITS);
+        look_up(t, values, v);
+        uint32_t chain = chain_of(x[0] >> CELL_BITS, x[1] >> CELL_BITS, x[2] >> CELL_BITS, t->head_bits);
         t->next[v] = t->head[chain];
         t->head[chain] = v;
+        for (int i = 0; i < 8; i++) {
+            int32_t at[AXES];
+            for (int j = 0; j < AXES; j++) at[j] = FINE * x[j] + (i >> j & 1 ? REACH : -REACH);
+            uint32_t bit = cell_chain(at, NEAR_BITS);
+            t->near[bit >> 6] |= UINT64_C(1) << (bit & 63);
+        }
     }
     for (int i = 0; i < around->flaps && i < 2; i++) {
         const Frame *f = t->frame + i;

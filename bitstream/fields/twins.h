@@ -13,6 +13,7 @@ enum {
     MOST_ECHOES = 1 << 13, /* flaps that are remembered, a power of two */
     ECHO_HEADS = 1 << 14,
     TWIN_BYTES = 32, /* more than a transform takes in a payload */
+    NEAR_BITS = 18, /* bits of `near`, as a power of two */
 };
 
 typedef struct { /* a transform, or the inverse of one */
@@ -26,13 +27,14 @@ typedef struct { /* a transform, or the inverse of one */
  * (2^-16), and how many faces are at the vertex and at the ends of the edge. */
 typedef struct {
     bool is_there;
+    uint32_t chain; /* of echoes alike */
     int32_t length[3], middle[3], unit[3][3];
-    uint8_t degree[3];
+    uint32_t degrees; /* a byte each, at most 12 */
 } Frame;
 
 typedef struct { /* a flap, and where its vertex was in the frame of its coded edge, in 1/16 */
-    int32_t length[3], place[3], below, number;
-    uint8_t degree[3];
+    int32_t length[3], place[3], below;
+    uint32_t degrees;
 } Echo;
 
 typedef struct {
@@ -43,9 +45,11 @@ typedef struct {
 typedef struct Twins {
     int32_t images, head_bits, echoes;
     Image image[MOST_IMAGES];
+    double back[3][4][MOST_IMAGES]; /* turn and shift of the inverse of each */
     int32_t *twin;        /* n x images: of which vertex each is the image */
     int32_t *head, *next; /* known vertices by cell of space: 1 << head_bits, n */
     uint32_t *has;        /* n: by which images each vertex has a twin */
+    uint64_t *near;       /* a bit for each cell of space from which a known vertex is within reach, and others */
     int32_t turn;         /* the image that was looked up last */
     Echo *echo;           /* MOST_ECHOES */
     int32_t *echo_head;   /* ECHO_HEADS */
@@ -60,8 +64,6 @@ typedef struct Twins {
 int64_t code_transforms(Coder coder, ConstInts largest, Ints2 numbers);
 /* The transforms and their inverses. */
 void list_images(ConstInts largest, ConstInts2 numbers, Twins *twins);
-/* Where the image of a place is, in 1/16. */
-void image_of(const Image *image, const int32_t *place, int32_t *to);
 
 /* What a vertex with these surroundings may be: its base is in 1/16. */
 void seek_twins(Twins *twins, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,

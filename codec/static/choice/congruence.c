@@ -147,8 +147,7 @@ static bool triangle_of(const Space *s, ConstInts2 faces, ConstInts degrees, int
         if (!(side[k] > LEAST_SIDE)) return false;
     }
     double area[3];
-    for (int i = 0; i < 3; i++)
-        area[i] = edge[0][(i + 1) % 3] * edge[1][(i + 2) % 3] - edge[0][(i + 2) % 3] * edge[1][(i + 1) % 3];
+    cross_of_face(s->positions.data, face, area);
     for (int k = 0; k < 3; k++) {
         t->vertex[k] = face[(first + k) % 3];
         t->degree[k] = degrees.data[t->vertex[k]];
@@ -180,15 +179,13 @@ static bool are_alike(const Triangle *a, const Triangle *b) {
 /* The axes of a triangle as columns, and its middle. */
 static void stand(const Space *s, const Triangle *t, bool mirror, double axes[3][3], double *middle) {
     const double *x[3];
-    double along[3], other[3], up[3], length = 0.0, height = 0.0;
+    double along[3], up[3], length, height;
     for (int k = 0; k < 3; k++) x[k] = s->positions.data + 3 * (int64_t)t->vertex[k];
     for (int i = 0; i < 3; i++) {
         along[i] = x[1][i] - x[0][i];
-        other[i] = x[2][i] - x[0][i];
         middle[i] = (x[0][i] + x[1][i] + x[2][i]) / 3.0;
     }
-    for (int i = 0; i < 3; i++)
-        up[i] = along[(i + 1) % 3] * other[(i + 2) % 3] - along[(i + 2) % 3] * other[(i + 1) % 3];
+    cross3(x[0], x[1], x[2], up);
     length = __builtin_sqrt(dot3(along, along)), height = __builtin_sqrt(dot3(up, up));
     for (int i = 0; i < 3; i++) along[i] /= length, up[i] /= height;
     for (int i = 0; i < 3; i++) {
@@ -262,16 +259,20 @@ static void collect_votes(const Space *s, ConstInts2 faces, ConstInts degrees, i
     }
 }
 
+/* Keep a motion if it is among those with most votes, in order; returns how many are kept. */
+static int64_t keep(Motion *pool, int64_t count, int64_t most, Motion m) {
+    if (count == most && pool[count - 1].votes >= m.votes) return count;
+    int64_t end = count < most ? count + 1 : count, at = end - 1;
+    for (; at > 0 && pool[at - 1].votes < m.votes; at--) pool[at] = pool[at - 1];
+    pool[at] = m;
+    return end;
+}
+
 /* The motions with most votes, and mirrors at the middle of the box. */
 static int64_t choose_pool(const Space *s, Motion *votes) {
     int64_t count = 0, most = POOL - 3;
-    for (int64_t i = 0; i < VOTES; i++) {
-        Motion m = votes[i];
-        if (m.votes < 3 || (count == most && votes[count - 1].votes >= m.votes)) continue;
-        int64_t at = count < most ? count++ : count - 1;
-        for (; at > 0 && votes[at - 1].votes < m.votes; at--) votes[at] = votes[at - 1];
-        votes[at] = m;
-    }
+    for (int64_t i = 0; i < VOTES; i++)
+        if (votes[i].votes >= 3) count = keep(votes, count, most, votes[i]);
     double low[3], high[3];
     for (int i = 0; i < 3; i++) low[i] = high[i] = s->positions.data[i];
     for (int64_t k = 0; k < 3 * s->positions.rows; k++) {
@@ -295,10 +296,7 @@ static int64_t sort_pool(const Space *s, Motion *pool, int64_t count, int64_t mo
     for (int64_t i = 0; i < count; i++) {
         Motion m = pool[i];
         m.votes = count_moved(s, &m, stride, reach);
-        if (m.votes < least_moved || (left == most && pool[left - 1].votes >= m.votes)) continue;
-        int64_t at = left < most ? left++ : left - 1;
-        for (; at > 0 && pool[at - 1].votes < m.votes; at--) pool[at] = pool[at - 1];
-        pool[at] = m;
+        if (m.votes >= least_moved) left = keep(pool, left, most, m);
     }
     return left;
 }

@@ -88,17 +88,13 @@ def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int
     quaternion = _quaternion(-turn if mirrored else turn)
     bits = min(int(max(span.max(), 1)).bit_length() + 2, MOST_FINENESS)
     which = int(np.abs(quaternion).argmax())
-    unit = np.rint(quaternion / quaternion[which] * (1 << bits)).astype(np.int64)
-    a, b, c, d = (int(q) for q in unit)
-    square = a * a + b * b + c * c + d * d
-    coded = np.array([
-        [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)],
-        [2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)],
-        [2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d],
-    ]) / square * (-1.0 if mirrored else 1.0)  # fmt: skip
+    unit = np.rint(quaternion / quaternion[which] * (1 << bits))
+    a, v = unit[0], unit[1:]
+    spun = (a * a - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * a * np.cross(v, np.eye(3)).T
+    coded = spun / (unit @ unit) * (-1.0 if mirrored else 1.0)
     middle = span / 2.0
     quarters = np.rint(4.0 * (turn @ middle + shift - coded @ middle)).astype(np.int64) + 12 * int(max(span.max(), 1))
-    others = np.delete(unit, which) + (1 << bits)
+    others = np.delete(unit, which).astype(np.int64) + (1 << bits)
     if (quarters < 0).any() or (quarters > 24 * max(span.max(), 1)).any():
         return None
     return [AXIS_KINDS + int(mirrored), which, *others, *quarters]
