@@ -34,7 +34,7 @@ from bsm.bitstream.container.wire import (
     write_map,
     write_varint,
 )
-from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError
 
 Frames = list[tuple[int, bytes]]
 
@@ -128,13 +128,26 @@ def write_stream(packets: list[Packet]) -> bytes:
     return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])
 
 
-def stream_of(frames: Frames, version: int = VERSION, positions: bytes = b"") -> bytes:
-    """The stream of these frames, with an END that fits them, and has a checksum of positions if that is given."""
+def stream_of(frames: Frames, version: int | None = None, positions: bytes = b"") -> bytes:
+    """The stream of these frames, with an END that fits them, and has a checksum of positions if that is given.
+
+    Without a version it has the least that its headers need (F 2.2), as encoders write it.
+    """
+    version = VERSION + any(map(_is_later, frames)) if version is None else version
     body = MAGIC + bytes([version]) + b"".join(write_frame(kind, payload) for kind, payload in frames)
     sums = zlib.crc32(body).to_bytes(4, "little") + positions
     return body + write_frame(FrameType.END, write_varint(len(frames)) + sums)
 
 
+def _is_later(frame: tuple[int, bytes]) -> bool:
+    """Whether a frame is a header with a field that 1.0 does not have, as far as it can be read."""
+    try:
+        return frame[0] == FrameType.HEADER and not LATER.isdisjoint(header_entries(frame[1]))
+    except (BsmError, TypeError, ValueError):
+        return False
+
+
+LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence")}
 PARTS = {"paper": tuple(fields_of(Paper)), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""
 PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part in enumerate(parts)}

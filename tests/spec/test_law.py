@@ -14,6 +14,7 @@ import bsm
 from bsm.bitstream._kernels import priors
 from bsm.cli import main
 from tests.engine.decoding import build, decode, of_sequence, released
+from tools.surgery import frames_of
 from tools.vectors.example import NAME, example
 from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
 from tools.vectors.meshes import shuffled, torus
@@ -116,6 +117,18 @@ def test_streams_of_version_0_are_named(commit, tmp_path, capsys, monkeypatch):
 def test_a_later_minor_version_is_read_and_reported(capsys):
     assert main(["info", str(FOLDER / "good-minor.bsm")]) == 0
     assert "version 1.15, core only" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "later", sorted((FOLDER.parent / "1.1").glob("good-congruence-*-later.bsm")), ids=lambda path: path.stem
+)
+def test_a_minor_version_that_is_too_small_changes_nothing(later):
+    """Streams with congruent parts are of 1.1; those that say 1.0 are decoded to the same (F 2.2)."""
+    earlier = later.with_name(later.name.replace("-later", ""))
+    new, old = later.read_bytes(), earlier.read_bytes()
+    assert (new[4], old[4]) == (0x11, 0x10) and frames_of(new) == frames_of(old)
+    with np.load(later.with_suffix(".npz")) as one, np.load(earlier.with_suffix(".npz")) as other:
+        assert all(np.array_equal(one[name], other[name]) for name in one)
 
 
 def test_the_vectors_of_1_0_are_what_they_were():
