@@ -56,7 +56,6 @@ FLOORS = {
         ("container",),
     ),
     "bsm.codec.static": (
-        ("work",),
         ("coding", "targets", "units"),
         ("preamble_encoding",),
         ("attributes",),

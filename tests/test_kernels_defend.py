@@ -98,7 +98,7 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     cases: tuple[tuple[TriangleMesh, dict[str, Any]], ...] = (
         (mesh, {"bits": 12, "key_seed": "svd", "partition": "metis"}),
         (mesh, {"step": 0.01, "smoothing": 1.0}),
-        (mesh, {"quick": True, "contract": None, "grid": 9, "keep_order": True}),
+        (mesh, {"effort": "quick", "contract": None, "grid": 9, "keep_order": True}),
         (mesh, {"exact": True, "contract": None}),
         (tangled(), {"grid": 9}),
     )

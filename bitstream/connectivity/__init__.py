@@ -1,1 +1,1 @@
-"""Faces, order and partition of a mesh to bytes and back."""
+"""Faces, order and partition of a mesh as bytes."""

@@ -1,1 +1,1 @@
-"""The frames of a stream: their types and order, reading and writing."""
+"""The frames of a stream: their types and order."""

@@ -1,4 +1,4 @@
-"""The smallest pieces of the format: varints, checksums, tags and frames, as twins of writing and parsing."""
+"""The smallest pieces of the format: varints, checksums, tags and frames."""
 
 import binascii
 import struct

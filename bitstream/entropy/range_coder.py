@@ -14,7 +14,7 @@ POSITION = _kernels.constant("CODER_POSITION")
 
 
 class Coder(NamedTuple):
-    """A range coder over a buffer; made by `start_writing`, or by a reader's `start_reading`."""
+    """A range coder over a buffer; made by `start_writing`."""
 
     state: npt.NDArray[np.int64]
     data: npt.NDArray[np.uint8]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -47,17 +46,6 @@ FAR = 1e3  # times as far away as most vertices: the stray vertex of a scan
 Paint = Callable[[Canvas, Faces, Matrix], list[Picture]]
 
 
-def _earlier(name: str, now: str) -> property:
-    """A number of earlier versions of `Look`, as the closest one of this version."""
-
-    def read(look: Look) -> float:
-        message = f"Look.{name} is deprecated; use Look.{now}, which has another scale"
-        warnings.warn(message, DeprecationWarning, stacklevel=2)
-        return float(getattr(look, now))
-
-    return property(read, doc=f"Deprecated: `{now}` is returned.")
-
-
 @public
 @dataclass(frozen=True)
 class Look:
@@ -84,10 +72,6 @@ class Look:
     distance: float
     unlike: float
     gone: float
-
-    dissimilarity = _earlier("dissimilarity", "unlike")
-    visible = _earlier("visible", "unlike")
-    striking = _earlier("striking", "gone")
 
     @property
     def moving(self) -> float:

@@ -1,1 +1,1 @@
-"""The encoder and decoder of a mesh that moves."""
+"""The encoder of a mesh that moves."""

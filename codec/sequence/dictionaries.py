@@ -5,11 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
-from bsm.codec.basis.laplacian import Factor, Held, cotangent_weights, hold
+from bsm.codec.basis.laplacian import Factor, Held, cotangent_weights, hold, iteration_memory
 from bsm.codec.signal.chain import Suspended, continued, key_dictionary
 from bsm.codec.signal.transform import project, reconstruct
 from bsm.codec.static.coding import Scheme
-from bsm.codec.static.work import block_memory
 from bsm.codec.threads import ordered_map
 
 PART_MEMORY, ROW_MEMORY = 6000.0, 352.0  # bytes that decoders keep for a part, and for each row
@@ -46,7 +45,7 @@ class Part:
     @property
     def making(self) -> float:
         """Bytes for making its dictionary, that itself included."""
-        return block_memory(self.held.laplacian, self.width)
+        return iteration_memory(self.held.laplacian.fronts, self.width)
 
     def coefficients(self, values: Matrix, ends: Matrix) -> Matrix:
         """Return coefficients, (c_i, m), of values here, (n_i, m), minus their extension from `ends`, (k_i, m)."""

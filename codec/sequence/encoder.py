@@ -25,7 +25,7 @@ from bsm.codec.sequence.attributes import Bound, MovingAttributeEncoder, with_fi
 from bsm.codec.sequence.frames import Group, next_group
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, RunEncoder, finest_step
+from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, Kept, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Frame, JoinedRun, Run, RunSplitter, joined_runs, kind_of
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.sequence.verification import ExpectedFrame, SequenceVerifier
@@ -37,7 +37,6 @@ from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.verification import Original
 from bsm.codec.static.ways.block_coder import as_of_decoders
-from bsm.codec.static.work import Kept
 
 KEPT_MESHES = 8  # by decoders, of the meshes so far
 

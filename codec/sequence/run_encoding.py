@@ -22,8 +22,7 @@ from bsm.codec.signal.transform import LARGEST_LEVEL, smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Sizing, blended, encode_blocks
-from bsm.codec.static.work import Kept, mesh_memory
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Sizing, blended, encode_blocks, mesh_memory
 
 FIRST_STEP = 0.3
 """Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
@@ -40,6 +39,15 @@ PASS = 0.4  # share of the next attempt in the remaining progress of a search
 LEVELS = 0.6  # of the time of an attempt, the share before frames are looked at
 
 NEAR = 0.8, 1.15  # a first frame is reused for steps within these factors of its own
+
+
+@dataclass
+class Kept:
+    """What decoders have of a stream: vertices, the memory that their meshes take, and the bytes that have arrived."""
+
+    vertices: int = 0
+    memory: float = 0.0
+    received: int = 0
 
 
 @dataclass(eq=False)

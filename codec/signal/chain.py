@@ -1,7 +1,7 @@
 """A chain: a key block and the blocks that follow it, each of which may look back as far as the key block.
 
-Encoder and decoder step through the same chain with the same calls: `around`, `dictionary`, `commit`. Chains are
-independent, which bounds the loss by a damaged block and lets chains run in parallel.
+The encoder steps through a chain with the calls `around`, `dictionary`, `commit`; the decoder is engine/chain.c. Chains
+are independent, which bounds the loss by a damaged block and lets chains run in parallel.
 
 Not in the paper: a block is predicted from the known vertices around it, and its dictionary uses these. Every edge that
 leaves the block to a known vertex is a spring of stiffness 1 to where that vertex is, as every edge is in the quadratic

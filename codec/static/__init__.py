@@ -1,1 +1,1 @@
-"""The encoder and decoder of a static mesh."""
+"""The encoder of a static mesh."""

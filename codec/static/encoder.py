@@ -2,8 +2,9 @@
 
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -33,7 +34,11 @@ class Attempt:
     """A whole stream, and what its decoder will make of it."""
 
     draft: Draft
-    comparison: Comparison
+    compare: Callable[[], Comparison]
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        return self.compare()
 
     @property
     def frames(self) -> tuple[bytes, ...]:
@@ -263,9 +268,12 @@ class Encoder:
         return self._input.search(Contract(WIDEST), None).seen(attempt.draft)
 
     def _judged(self, draft: Draft) -> Attempt:
+        return Attempt(draft, partial(self._compared, draft))
+
+    def _compared(self, draft: Draft) -> Comparison:
         units = self._input.prepared.units
         found = self._reference.compare(units.into(draft.decoded))
-        return Attempt(draft, replace(found, rms=found.rms * units.scale, max_error=found.max_error * units.scale))
+        return replace(found, rms=found.rms * units.scale, max_error=found.max_error * units.scale)
 
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""

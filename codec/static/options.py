@@ -143,13 +143,11 @@ class EncodeOptions:
         "quick": only positions on a grid, coded by a small model, which decode fast; also with `grid` and
         `grid_cell`. "normal". "best": also blocks of several sizes and more steps, for the smallest file. It takes
         several times as long, and larger blocks are slower to decode.
-    quick : bool
-        The same as ``effort="quick"``.
     exact : bool
         Keep every position exactly in single precision.
     congruence : bool
         Let the decoder also predict positions on a grid from congruent parts of the mesh, where that makes the stream
-        smaller; without effect with `exact`, `grid`, `grid_cell` and `quick`. Such streams are of version 1.1; False
+        smaller; without effect with `exact`, `grid`, `grid_cell` and "quick". Such streams are of version 1.1; False
         writes what decoders of 1.0 read.
     grid : int, optional
         Round every position to a grid with this many bits along the longest side.
@@ -196,7 +194,6 @@ class EncodeOptions:
     target: Target | None = None
     contract: Contract | None = BALANCED
     effort: str = "normal"
-    quick: bool = False
     exact: bool = False
     congruence: bool = True
     grid: int | None = None
@@ -211,15 +208,11 @@ class EncodeOptions:
         check_options(self, CHOICES, RANGES)
         if self.target is not None:
             self.target._require_kind(TARGETS, "a mesh")
-        if self.quick and self.effort == "best":
-            raise OptionError("quick means effort 'quick', and excludes another effort")
-        object.__setattr__(self, "effort", "quick" if self.quick else self.effort)
-        object.__setattr__(self, "quick", self.effort == "quick")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
         if self.paper.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
-        if self.exact and (self.grid is not None or self.grid_cell is not None or self.quick):
-            raise OptionError("exact, grid and quick exclude each other")
+        if self.exact and (self.grid is not None or self.grid_cell is not None or self.effort == "quick"):
+            raise OptionError("exact, grid and effort quick exclude each other")
         if self.grid is not None and self.grid_cell is not None:
             raise OptionError("give a grid by its bits or by the length of its cells, not both")
         if self.grid_origin is not None and self.grid_cell is None:
@@ -228,8 +221,8 @@ class EncodeOptions:
             raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
         if self.is_grid and (self.target is not None or self.sets_coding):
             raise OptionError("a grid excludes targets and options of blocks")
-        if self.quick and self.sets_coding:
-            raise OptionError("quick uses a grid; it excludes options of blocks")
+        if self.effort == "quick" and self.sets_coding:
+            raise OptionError("effort quick uses a grid; it excludes options of blocks")
 
     @property
     def promise(self) -> Contract | None:
@@ -301,9 +294,6 @@ def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
     """The options with fields changed, those of `Paper` among them; a given c replaces one that follows the error."""
     if "doi" not in changes and (changes.get("keep") is not None or changes.get("coefficients") is not None):
         changes["doi"] = None
-    if "effort" in changes or "quick" in changes:
-        quick = changes.get("quick", False)
-        changes = {"quick": quick, "effort": "normal", **changes}
     of_paper = {field.name: changes.pop(field.name) for field in fields(Paper) if field.name in changes}
     if of_paper:
         changes["paper"] = replace(changes.get("paper", options.paper), **of_paper)

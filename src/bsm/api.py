@@ -94,8 +94,8 @@ def encode(
     >>> len(small) <= 3000
     True
     """
-    from bsm.codec.static.encoder import Encoder
     from bsm.codec.static.options import EncodeOptions
+    from bsm.simplification import encode_source
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
     entries = checked_metadata(metadata)
@@ -103,16 +103,9 @@ def encode(
         source = with_metadata(without_provenance(as_mesh(mesh)), chosen, entries)
         if lengths := in_own_unit(keywords, source.metadata, source):
             chosen = keywords_to.encode_options(**{**keywords, **lengths})
-        if simplify:
-            from bsm.simplification import encode_simplified
-
-            found = encode_simplified(source, chosen or EncodeOptions(), reported)
-            encoder, data = found.encoder, b"".join(found.attempt.frames)
-        else:
-            encoder = Encoder(source, chosen)
-            data = b"".join(encoder.chunks(reported))
-    warn(encoder.losses)
-    return data
+        found = encode_source(source, chosen or EncodeOptions(), reported, simplify=simplify)
+    warn(found.encoder.losses)
+    return b"".join(found.attempt.frames)
 
 
 def encode_many(

@@ -20,7 +20,6 @@ class _Shared(TypedDict, total=False):
     max_error: float | str | None
     nmsve_db: float | None
     overlap: float
-    quick: bool
     theta: float | None
     threads: int | None
 

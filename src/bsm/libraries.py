@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from traceback import walk_stack
 from types import MappingProxyType
@@ -71,14 +71,9 @@ def told(found: MeshFile) -> TriangleMesh:
 def _of_library(mesh: Any) -> MeshFile:
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
         return _of_arrays(*mesh)
-    if hasattr(mesh, "visual") and hasattr(mesh, "vertex_attributes"):
-        return polygons_of(mesh).checked(DEFAULT_LIMITS)
-    if hasattr(mesh, "fv_indices") and hasattr(mesh, "halfedge_to_vertex_indices"):
-        return of_openmesh(mesh).checked(DEFAULT_LIMITS)
-    if hasattr(mesh, "graph") and hasattr(mesh, "geometry"):
-        return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS)
-    if hasattr(mesh, "cells") and hasattr(mesh, "cell_sets"):
-        return _of_meshio(mesh)
+    for first, second, read in _LIBRARIES:
+        if hasattr(mesh, first) and hasattr(mesh, second):
+            return read(mesh).checked(DEFAULT_LIMITS)
     points, faces = _attribute(mesh, _POINTS), _attribute(mesh, _FACES)
     if points is not None and faces is None and hasattr(mesh, "extract_surface"):
         raise MeshError("this is a mesh of cells: give its surface, mesh.extract_surface()")
@@ -132,22 +127,25 @@ def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
 def _of_arrays(
     positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING, left: Sequence[str] = ()
 ) -> MeshFile:
-    more: Any = (columns, metadata, left)
     try:
         table = np.asarray(faces)
     except ValueError:  # lists of different lengths
         rows = [as_array(face, f"face {number}").reshape(-1) for number, face in enumerate(faces)]
-        return _of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows), *more)
-    if table.ndim == 1 and table.size and table.dtype.kind in "iu":
-        return _of_polygons(positions, *_split(table.astype(np.int64)), *more)
-    if left and not table.size:
-        return _of_polygons(positions, *np.zeros((2, 0), np.int64), *more)
-    if table.ndim == 2 and (table.shape[1] > 3 or (table.shape[1] == 3 and len(table) and any(more))):
-        return _of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1), *more)
-    return MeshFile(TriangleMesh(positions, table))
+        sizes, corners = np.array([len(row) for row in rows]), np.concatenate(rows)
+    else:
+        wide = table.ndim == 2 and table.shape[1] > 3
+        if table.ndim == 1 and table.size and table.dtype.kind in "iu":
+            sizes, corners = _split(table.astype(np.int64))
+        elif left and not table.size:
+            sizes, corners = np.zeros((2, 0), np.int64)
+        elif wide or (table.ndim == 2 and table.shape[1] == 3 and len(table) and any((columns, metadata, left))):
+            sizes, corners = np.full(len(table), table.shape[1]), table.reshape(-1)
+        else:
+            return MeshFile(TriangleMesh(positions, table))
+    return _of_polygons(positions, sizes, corners, columns, metadata, left).checked(DEFAULT_LIMITS)
 
 
-def _of_meshio(mesh: Any) -> MeshFile:
+def _of_meshio(mesh: Any) -> Polygons:
     """The surface of a meshio mesh, in the order of its blocks of cells."""
     kinds = [block.type for block in mesh.cells]
     if solid := [kind for kind in kinds if kind not in (*_SURFACES, *_NO_SURFACES)]:
@@ -172,6 +170,15 @@ def _of_meshio(mesh: Any) -> MeshFile:
     return _of_polygons(mesh.points, sizes, corners, columns, left=left)
 
 
+_LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
+    ("visual", "vertex_attributes", polygons_of),
+    ("fv_indices", "halfedge_to_vertex_indices", of_openmesh),
+    ("graph", "geometry", lambda scene: joined(scene, DEFAULT_LIMITS)),
+    ("cells", "cell_sets", _of_meshio),
+)
+"""Two attributes that the meshes of a library have, and how they are read."""
+
+
 def _of_polygons(
     positions: Any,
     sizes: Ints,
@@ -179,15 +186,14 @@ def _of_polygons(
     columns: Sequence[Column] = (),
     metadata: Metadata = _NOTHING,
     left: Sequence[str] = (),
-) -> MeshFile:
+) -> Polygons:
     points = as_array(positions, "positions", np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     if corners.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {corners.dtype}")
     flat = corners.astype(np.int64)
-    polygons = Polygons(points, sizes.astype(np.int64), flat, (), tuple(left), tuple(columns), metadata)
-    return polygons.checked(DEFAULT_LIMITS)
+    return Polygons(points, sizes.astype(np.int64), flat, (), tuple(left), tuple(columns), metadata)
 
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:

@@ -75,7 +75,7 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 
 
 def sequence_options(
-    *, preset: str | None = None, low_delay: int = 0, effort: str = "normal", quick: bool | None = None, **keywords: Any
+    *, preset: str | None = None, low_delay: int = 0, effort: str = "normal", **keywords: Any
 ) -> SequenceOptions:
     from bsm.codec.sequence.options import PROMISES, SequenceOptions
     from bsm.codec.static.targets import Contract, Target
@@ -87,9 +87,9 @@ def sequence_options(
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, Target)
     together = checked("low_delay", low_delay, int)
     base = SequenceOptions(step=named("preset", SEQUENCE_STEPS, name), low_delay=together)
-    quick = bool(quick) or named("effort", {"quick": True, "normal": False, "best": False}, effort)
+    quick = named("effort", {"quick": True, "normal": False, "best": False}, effort)
     if quick and (bounds or given.get("target") is not None):
-        raise OptionError("quick does not search for a step; it excludes bounds and targets")
+        raise OptionError("effort quick does not search for a step; it excludes bounds and targets")
     if preset is not None and (given.get("target") is not None or given.get("step") is not None):
         raise OptionError(f"a target or a step of a sequence replaces the preset {preset}: give one of both")
     if bounds:

@@ -36,7 +36,7 @@ ENOUGH = 1.2  # times the triangles that were asked for, above which simplifying
 
 
 @dataclass(frozen=True, eq=False)
-class Simplified:
+class Encoded:
     """The chosen stream; how many triangles the original had, and how far the surfaces are apart, if it has fewer."""
 
     encoder: Encoder
@@ -46,12 +46,15 @@ class Simplified:
     notes: tuple[str, ...] = ()  # about the original
 
 
-def encode_simplified(mesh: TriangleMesh, options: EncodeOptions, progress: Progress) -> Simplified:
-    """Encode a mesh with all and with fewer and fewer triangles; return the smallest stream that keeps the promise."""
+def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress, *, simplify: bool) -> Encoded:
+    """Encode a mesh; to `simplify`, also with fewer and fewer triangles: the smallest stream that keeps the promise."""
+    if not simplify:
+        encoder = Encoder(mesh, options)
+        return Encoded(encoder, encoder.result(progress), len(mesh.faces))
     source = Source(mesh, options)
     with progress.part("encoding all triangles", 0.3):
         encoder = Encoder(mesh, options)
-        best = Simplified(encoder, encoder.result(progress), len(source.whole.faces))
+        best = Encoded(encoder, encoder.result(progress), len(source.whole.faces))
     for times in TIMES if not degenerate(source.whole.faces).all() else ():
         with progress.part(f"encoding 1 of {times} triangles", 0.5):
             found = source.encoded(len(source.whole.faces) // times, progress)
@@ -125,12 +128,12 @@ class Source:
         attributes = tuple(replace(attribute, values=attribute.values[nearest]) for attribute in whole.attributes)
         return TriangleMesh(new * scale + low, faces, attributes, whole.metadata), reach
 
-    def encoded(self, target: int, progress: Progress) -> Simplified | None:
+    def encoded(self, target: int, progress: Progress) -> Encoded | None:
         """Return the smallest stream of about `target` triangles that was found to keep the promise, if any."""
         mesh, reach = self.simplified(target)
         if len(mesh.faces) > ENOUGH * target:
             return None
-        best: Simplified | None = None
+        best: Encoded | None = None
         promise, lost, off = self.promise, self.look(mesh), self.apart(mesh, reach)[0]
         for _ in range(TRIES):
             if not (lost < AIM and off < AIM):
@@ -154,7 +157,7 @@ class Source:
                 continue
             if best is None or attempt.size < best.attempt.size:
                 encoder.look = seen * promise.look if self._looks else None
-                best = Simplified(encoder, attempt, len(self.whole.faces), apart, self._input.joined.notes)
+                best = Encoded(encoder, attempt, len(self.whole.faces), apart, self._input.joined.notes)
             if seen >= CLOSE or not self._looks:
                 break
         return best

@@ -331,7 +331,7 @@ def test_whatever_a_tree_holds_is_an_error_of_ours():
             try:
                 document = Document(glb(wrong, data))
                 count_primitives(document)
-                compress(document, {"grid": 4, "quick": True})
+                compress(document, {"grid": 4, "effort": "quick"})
             except bsm.BsmError:
                 refused += 1
     assert tried > 150 and refused > tried / 5

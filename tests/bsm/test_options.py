@@ -7,7 +7,7 @@ import pytest
 
 import bsm
 from bsm.codec.sequence.options import PROMISES
-from bsm.codec.static.options import BALANCED, changed
+from bsm.codec.static.options import BALANCED
 from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 
@@ -161,19 +161,18 @@ def test_a_grid_excludes_a_preset_that_promises_a_look():
         encode_options(preset="fine", grid=4)
 
 
-def test_quick_is_another_name_of_an_effort() -> None:
-    assert encode_options(quick=True) == encode_options(effort="quick") and encode_options(effort="quick").quick
-    assert encode_options(quick=False) == encode_options(effort="normal") == encode_options()
-    assert changed(encode_options(quick=True), effort="best").effort == "best"
-    assert sequence_options(effort="quick") == sequence_options(quick=True)
-    for keywords in ({"effort": "best", "quick": True}, {"effort": "more"}):
+def test_efforts_are_named() -> None:
+    for build in (encode_options, sequence_options):
         with pytest.raises(bsm.OptionError, match="effort"):
-            encode_options(**keywords)
+            build(effort="more")
 
 
 def test_quick_sequences_search_for_nothing() -> None:
-    assert sequence_options().promise is not None and sequence_options(quick=False).promise is not None
-    assert sequence_options(quick=True).promise is None and sequence_options(quick=True, preset="fine").step < 0.002
+    assert sequence_options().promise is not None and sequence_options(effort="best").promise is not None
+    assert (
+        sequence_options(effort="quick").promise is None
+        and sequence_options(effort="quick", preset="fine").step < 0.002
+    )
     for keywords in ({"look": 1.0}, {"kg": 0.1}):
         with pytest.raises(bsm.OptionError, match="does not search for a step"):
-            sequence_options(quick=True, **keywords)
+            sequence_options(effort="quick", **keywords)

@@ -43,7 +43,7 @@ def streams():
 
 WORKS = {
     "encode": lambda streams, heard: bsm.encode(MESH, progress=heard),
-    "quick": lambda streams, heard: bsm.encode(MESH, quick=True, progress=heard),
+    "quick": lambda streams, heard: bsm.encode(MESH, effort="quick", progress=heard),
     "target": lambda streams, heard: bsm.encode(MESH, size="3kB", progress=heard),
     "decode": lambda streams, heard: bsm.decode(streams[0], progress=heard),
     "encode_sequence": lambda streams, heard: bsm.encode_sequence(FRAMES, MESH.faces, progress=heard),
@@ -141,7 +141,7 @@ def test_keywords_are_those_of_the_options():
         return {item.name for item in fields(kind)}
 
     meshes = named(bsm.EncodeOptions) | named(Paper) | {*options.TARGETS, *options.BOUNDS, "preset"}
-    sequences = named(bsm.SequenceOptions) | {*options.SEQUENCE_TARGETS, *options.BOUNDS, "preset", "quick", "effort"}
+    sequences = named(bsm.SequenceOptions) | {*options.SEQUENCE_TARGETS, *options.BOUNDS, "preset", "effort"}
     assert set(keywords["OptionKeywords"].__annotations__) == meshes
     assert set(keywords["EncodeKeywords"].__annotations__) == meshes | {"progress", "simplify"}
     assert set(keywords["SequenceKeywords"].__annotations__) == sequences

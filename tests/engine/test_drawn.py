@@ -143,7 +143,7 @@ def test_fields_are_written_where_and_as_the_caller_wants(decoder: ctypes.CDLL) 
     colors = bsm.Attribute("paint", np.arange(12, dtype=np.uint8).reshape(4, 3) * 20, semantic="color")
     uv = bsm.Attribute("uv", np.linspace(0, 1, 24, dtype=np.float32).reshape(12, 2), "corner", "texcoord", corners)
     made = bsm.TriangleMesh(mesh.positions, mesh.faces, attributes=(colors, uv))
-    stream = bsm.encode(made, bsm.EncodeOptions(quick=True, attributes={"*": "exact"}, keep_order=True))
+    stream = bsm.encode(made, bsm.EncodeOptions(effort="quick", attributes={"*": "exact"}, keep_order=True))
     decoded = bsm.decode(stream)
     options = Options(None, None, False, 0)
     options.stride, options.index_size = 48, 4
@@ -172,7 +172,7 @@ def test_floats_become_integers_of_normals_and_colors(decoder: ctypes.CDLL) -> N
     normals = np.array([[1, 0, 0], [0, -1, 0], [0.6, 0, -0.8], [0, 0, 1]], np.float32)
     carried = (bsm.Attribute("c", shades, semantic="color"), bsm.Attribute("n", normals, semantic="normal"))
     made = bsm.TriangleMesh(mesh.positions, mesh.faces, attributes=carried)
-    stream = bsm.encode(made, bsm.EncodeOptions(quick=True, attributes={"*": "exact"}, keep_order=True))
+    stream = bsm.encode(made, bsm.EncodeOptions(effort="quick", attributes={"*": "exact"}, keep_order=True))
     with drawn(decoder, stream, None, (COLOR, None, UINT16, 3, 0), (NORMAL, None, INT8, 3, 6)) as found:
         assert found.stride == 10 and found.attributes[0] == 0
         assert np.array_equal(found.vertex(0), np.rint(65535 * shades.clip(0, 1).astype(np.float64)))

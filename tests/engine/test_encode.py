@@ -75,7 +75,7 @@ def test_qualities_are_those_of_python(encoder, name, word, amount, text):
 def test_cells_fit_those_of_python(encoder):
     mesh = torus(20, 12)
     found = encode(encoder, mesh, positions=CELLS, cell=0.01, origin=(5.0, 0.003, -1.0), quick=1)
-    assert found.data == bsm.encode(mesh, grid_cell=0.01, grid_origin=(5.0, 0.003, -1.0), quick=True)
+    assert found.data == bsm.encode(mesh, grid_cell=0.01, grid_origin=(5.0, 0.003, -1.0), effort="quick")
 
 
 PAGE = """

@@ -151,7 +151,7 @@ WRITTEN = {
     "fine": vars(bsm.PRESETS["fine"]),
     "small": vars(bsm.PRESETS["small"]),
     "grid14": {"grid": 14},
-    "quick": {"quick": True},
+    "quick": {"effort": "quick"},
     "ordered": {"keep_order": True},
     "exact": {"exact": True},
 }

@@ -334,7 +334,7 @@ def rewritten(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str, 
             small, plain = (folder / f"{number}.{kind}.{end}.glb" for end in ("small", "plain"))
             try:
                 document = read_document(str(path))
-                small.write_bytes(compress(document, {"preset": preset, "quick": True}).data)
+                small.write_bytes(compress(document, {"preset": preset, "effort": "quick"}).data)
                 plain.write_bytes(restore(read_document(str(small))))
             except bsm.BsmError as error:
                 yield path, f"refused: {error}", Counter()

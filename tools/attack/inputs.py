@@ -156,10 +156,10 @@ def _static_options(random: Random) -> EncodeOptions:
     given: dict[str, Any] = {"block_size": random.choice((12, 30, 30, 60, 100, 750)), "threads": 1}
     if way == 0:
         preset = vars(PRESETS[random.choice(sorted({*PRESETS} - {"none"}))])
-        return EncodeOptions(**{**preset, "quick": random.random() < 0.3, "threads": 1})
+        return EncodeOptions(**{**preset, "effort": random.choice(("quick", "normal", "normal")), "threads": 1})
     if way == 1:
-        keep, quick = random.random() < 0.3, random.random() < 0.5
-        return EncodeOptions(grid=random.randrange(1, 21), threads=1, keep_order=keep, quick=quick)
+        keep, effort = random.random() < 0.3, random.choice(("quick", "normal"))
+        return EncodeOptions(grid=random.randrange(1, 21), threads=1, keep_order=keep, effort=effort)
     if way == 2:
         given["target"] = Target(random.choice(TARGETS), random.choice((0.01, 1.0, 8.0, 400.0)))
     elif way == 3:

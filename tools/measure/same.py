@@ -34,7 +34,7 @@ WAYS: dict[str, dict[str, Any]] = {
     "large blocks": {"step": 1 / 512},
     "grid": {"grid": 10},
     "exact": {"exact": True},
-    "quick": {"quick": True},
+    "quick": {"effort": "quick"},
     "default": {},
 }
 ATTRIBUTES = {"dressed": "exact", "coarser": "9bits"}

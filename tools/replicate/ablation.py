@@ -112,7 +112,7 @@ TOOLS: dict[str, Tool] = {
     "blocks of 450 (of 225)": Tool({"block_size": 225}),
     "learnt priors": Tool({}, [(adaptive.CoefficientModel, "__post_init__", _unlearnt)], decodes=False),
     "mixing of contexts (grid14, fast profile)": Tool(
-        {}, options={"grid": 14, "quick": True}, against={"preset": "grid14"}
+        {}, options={"grid": 14, "effort": "quick"}, against={"preset": "grid14"}
     ),
     "best effort (not in the default)": Tool({}, options={"effort": "best"}),
 }

@@ -27,7 +27,7 @@ PRESETS: dict[str, dict[str, Any]] = {
     "near-lossless": {"preset": "near-lossless"},
     "small": {"preset": "small"},
     "grid14": {"preset": "grid14"},
-    "quick": {"quick": True},
+    "quick": {"effort": "quick"},
 }
 CURVE = ("small", "default", "fine", "near-lossless")
 """The presets whose bytes and qualities are our line where lines are compared."""

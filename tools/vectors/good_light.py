@@ -62,7 +62,7 @@ def _good(probes: str, make: Callable[[], bytes]) -> Good:
 LIGHT: dict[str, Good] = {
     "good-light": _good("a grid of 11 bits", lambda: light(small())),
     "good-light-quick": Good(
-        "what the encoder writes to be decoded quickly", lambda: encode(torus(16, 12), EncodeOptions(quick=True))
+        "what the encoder writes to be decoded quickly", lambda: encode(torus(16, 12), EncodeOptions(effort="quick"))
     ),
     "good-light-tetrahedron": _good("four vertices on a grid of one bit", lambda: light(tetrahedron(), bits=1)),
     "good-light-fine": _good("a grid of 20 bits", lambda: light(small(), bits=20)),

@@ -9,7 +9,6 @@ import numpy.typing as npt
 from bsm._engine import Field
 from bsm._engine import quantized as whole_numbers
 from bsm.bitstream._kernels import constant
-from bsm.bitstream.attributes import values as coders
 from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration, entries_of
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError, TargetError
@@ -58,11 +57,25 @@ class QuantizedValues:
     note: str
 
 
+def octahedral_normals(levels: Words, size: int) -> Matrix:
+    """The unit vectors, shape (n, 3), of levels, shape (n, 2): points on an octahedron (Meyer et al., EGSR 2010)."""
+    points = unfolded(levels, size).astype(np.float64)
+    return np.asarray(points / np.sqrt((points * points).sum(axis=1, keepdims=True)))
+
+
+def unfolded(levels: Words, size: int) -> Words:
+    """The points of levels on an octahedron of this size."""
+    flat = np.asarray(levels, np.int64) - size
+    height = size - np.abs(flat).sum(axis=1, keepdims=True)
+    inside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
+    return np.hstack([np.where(height < 0, inside, flat), height])
+
+
 def restored(declaration: Declaration, levels: Words) -> Values:
     """Values of levels, shape (k, words) (A 5)."""
     kind = np.dtype(KINDS[declaration.kind])
     if declaration.coding == OCTAHEDRAL:
-        return coders.octahedral_normals(levels, declaration.largest[0] // 2).astype(kind)
+        return octahedral_normals(levels, declaration.largest[0] // 2).astype(kind)
     offset = np.array(declaration.offsets)
     if declaration.coding == BITS:
         return _of_bits(levels + offset.astype(np.int64), kind)

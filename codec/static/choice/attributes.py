@@ -51,7 +51,7 @@ class Input:
             parts,
             keep_order=options.keep_order,
             splits=self.joined.splits,
-            light=options.quick,
+            light=options.effort == "quick",
             congruence=options.congruence,
         )
 

@@ -160,8 +160,10 @@ class Search:
         prepared, options = self._prepared, self._options
         few = prepared.graph.size < FEW_VERTICES and self._measures.normals is None
         grids: list[Way] = [grid] if few else [Gridded(prepared, bounds, 1.0), grid]
-        if options.quick or not prepared.has_low_frequencies:
-            return grids[:1] if options.quick else grids
+        if options.effort == "quick":
+            return grids[:1]
+        if not prepared.has_low_frequencies:
+            return grids
         blocks: list[Way] = [Refined(prepared, options, bounds)]
         if bounds.contract.angle < ANY_ANGLE:
             blocks.append(Refined(prepared, options, bounds, settled=False))

@@ -1,1 +1,1 @@
-"""The parts of a static stream: blocks, refinement, grids; encode and decode of each side by side."""
+"""The parts of a static stream: blocks, refinement, grids."""

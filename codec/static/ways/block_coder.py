@@ -11,6 +11,7 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.arrays import Basis, Indices, Matrix
+from bsm.codec.basis.laplacian import factor_cost, iteration_memory, solve_cost
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import Blend, degree_weights
 from bsm.codec.progress import Progress
@@ -18,10 +19,11 @@ from bsm.codec.signal.chain import Chain, Surroundings
 from bsm.codec.signal.transform import project, reconstruct
 from bsm.codec.static.coding import Ground, Scheme
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.work import block_cost, block_memory, ground_cost, mesh_memory
 from bsm.codec.threads import ordered_map
 
 FRAME = 5  # bytes of a block's frame besides its levels, at least
+# Nanoseconds of a processor core by which decoders estimate: a block, each of its rows, each edge of these, each level.
+BLOCK, ROW, LOOK, LEVEL = 1.45e5, 600.0, 25.0, 90.0
 Charge = Callable[[float], None]
 """Takes the work in nanoseconds before it is done, and may refuse it by raising `LimitError`."""
 
@@ -113,12 +115,13 @@ class ChainEncoder:
         levels = coding.choose(coefficients, self._sizes is not None)
         decoded = coding.positions(ground, levels)
         coded = len(levels)
-        work = block_cost(block.size, scheme.blocks.edges_of(index), 3 * coded) + chain.work(around, coded)
-        work += ground_cost(around.laplacian, coded)
+        work = BLOCK + ROW * block.size + LOOK * scheme.blocks.edges_of(index) + LEVEL * 3 * coded
+        fronts = around.laplacian.fronts  # known vertices are extended into the block, and its coefficients added
+        work += chain.work(around, coded) + factor_cost(fronts) + solve_cost(fronts, 3) + 1.5 * block.size * coded
         chain.commit(block, np.ascontiguousarray(dictionary[:, :coded]), decoded)
         packet = packets.Block(index, coded, coding.write(levels))
         result = DecodedBlock(index, block.vertices, decoded, degree_weights(block.degrees))
-        return CodedBlock(packet, result, work, block_memory(around.laplacian, coded))
+        return CodedBlock(packet, result, work, iteration_memory(fronts, coded))
 
 
 def encode_blocks(
@@ -160,6 +163,11 @@ def patience(limits: str, vertices: int) -> Charge:
             most.check_work(spent, vertices)
 
     return charge
+
+
+def mesh_memory(vertices: int, faces: int) -> float:
+    """Bytes that decoders take for a mesh, by their estimate."""
+    return 200.0 * vertices + 60.0 * faces
 
 
 def admit(limits: str, prepared: Prepared, blocks: Sequence[CodedBlock]) -> None:

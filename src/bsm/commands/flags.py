@@ -97,7 +97,6 @@ ENCODE_FLAGS = (
     Setting("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
     Setting("grid_origin", numbers(3), "X,Y,Z", "a point of the grid (default 0,0,0)"),
     Setting("effort", str, "quick|normal|best", "quick: faster, larger files; best: slower, smaller (default normal)"),
-    Setting("quick", bool, "", "same as --effort quick"),
     Setting("keep_order", bool, "", "store the order of vertices and faces; PC2 and MDD keep that of vertices"),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
@@ -178,13 +177,15 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("coding")
     for setting in ENCODE_FLAGS:
         setting.add(group)
-    add, repeated = adder(group), {"action": "append", "default": argparse.SUPPRESS}
+    add, unset = adder(group), {"default": argparse.SUPPRESS}
+    repeated = {"action": "append", **unset}
+    add("--quick", "", "same as --effort quick", dest="effort", action="store_const", const="quick", **unset)
     quality = "quality of an attribute: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none. The name * means "
     quality += "all others; *=none also drops materials and images. May be repeated"
     add("--attribute", "NAME=QUALITY", quality, dest="attributes", type=named_quality, **repeated)
     advanced = "an advanced setting; --help-all lists them. May be repeated"
     add("--set", "NAME=VALUE", advanced, type=named_setting, **repeated)
-    show = {"action": HelpAll, "nargs": 0, "default": argparse.SUPPRESS}
+    show = {"action": HelpAll, "nargs": 0, **unset}
     adder(parser)("--help-all", "", "show this help with all settings", **show)
     group = parser.add_argument_group(
         "sequences",

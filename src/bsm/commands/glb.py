@@ -62,7 +62,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         raise OptionError("--quick rounds positions to a grid; leave out --preset lossless")
     if args.one_grid and args.preset != PRESETS[-1]:
         raise OptionError(f"--one-grid shares the grid of --preset {PRESETS[-1]}; leave out the preset")
-    options = {"preset": args.preset, "quick": quick and args.preset != "lossless", "attributes": _qualities(args)}
+    options = {"preset": args.preset, "attributes": _qualities(args)}
+    options |= {"effort": "quick"} if quick and args.preset != "lossless" else {}
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
     refuse_collisions((args.input, *document.files), filter(None, (args.output, str(beside or ""))))
     with console.progress("encoding") as progress:

@@ -17,7 +17,6 @@ from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.static.encoder import Attempt, Encoder
 from bsm.codec.static.targets import ANY_ANGLE
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
@@ -31,7 +30,7 @@ from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import asked_unit, in_own_unit
 from bsm.libraries import PROVENANCE, has_provenance, with_metadata
 from bsm.options import encode_options, sequence_options
-from bsm.simplification import Simplified, encode_simplified
+from bsm.simplification import Encoded, encode_source
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
@@ -95,17 +94,13 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     mesh = replace(mesh, metadata=known)
     if job.simplify and job.permutation:
         raise OptionError("--permutation orders all vertices, and --simplify leaves some out")
-    overwrite, found = job.may_replace(job.output), None
     with (
-        open_output(job.output, overwrite=overwrite, follow=job.follow) as file,
+        open_output(job.output, overwrite=job.may_replace(job.output), follow=job.follow) as file,
         console.progress("encoding") as progress,
     ):
-        if job.simplify:
-            found = encode_simplified(mesh, chosen, progress)
-        encoder = found.encoder if found else Encoder(mesh, chosen)
-        result = found.attempt if found else encoder.result(progress)
-        for chunk in result.frames:
-            file.write(chunk)
+        found = encode_source(mesh, chosen, progress, simplify=job.simplify)
+        encoder, result = found.encoder, found.attempt
+        file.writelines(result.frames)
     seconds = time.perf_counter() - begin
     images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
     smaller = "" if job.images or 2 * images < result.size else "; --images webp:85 makes them smaller"
@@ -113,18 +108,18 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     notes = [
         *source.notes,
         *generations,
-        *(found.notes if found else ()),
+        *found.notes,
         *encoder.notes,
         *(["left out: materials, images"] if left_out else []),
         *([f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []),
         *([f"no look is promised; measured: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
     vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
-    errors, numbers = _errors(result, found, mesh.diagonal or 1.0, *asked_unit(job.options, mesh.metadata))
+    errors, numbers = _errors(found, job.simplify, mesh.diagonal or 1.0, *asked_unit(job.options, mesh.metadata))
     taken, bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
-    other = encoder.binding not in ("", "look") and not (found and found.apart is not None)
+    other = encoder.binding not in ("", "look") and found.apart is None
     binds = f"the {encoder.binding} binds, " if other else ""
     _finish(
         job,
@@ -141,21 +136,21 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     return {"input": job.input, "output": None if job.dry_run else job.output, **counts, **sizes, **numbers, **ends}
 
 
-def _errors(result: Attempt, found: Simplified | None, diagonal: float, unit: str, per_own: float) -> tuple[str, Facts]:
+def _errors(found: Encoded, simplify: bool, diagonal: float, unit: str, per_own: float) -> tuple[str, Facts]:
     """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
-    apart, error = None if found is None else found.apart, result.comparison
+    apart, error = found.apart, found.attempt.comparison
     relative = error.max_error_relative if apart is None else apart / diagonal
     share, value = f"{100 * relative:.3g} % of the diagonal", relative * diagonal * per_own
     words = f"{value:.3g} {unit} ({share})" if unit else share
     facts: Facts = dict.fromkeys(("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before"))
     facts |= {"max_error_relative": relative, "error_of": "vertices" if apart is None else "surfaces"}
     facts |= {"max_error": value, "unit": unit} if unit else {}
-    if found is not None and apart is not None:
+    if apart is not None:
         words = f"{found.before} faces before simplifying, surfaces {words} apart where measured"
         return words, facts | {"faces_before": found.before}
     facts |= {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
     facts["nmsve_paper_db"] = finite(error.nmsve_paper_db)
-    kept = "; all triangles are kept" if found else ""
+    kept = "; all triangles are kept" if simplify else ""
     return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", facts
 
 

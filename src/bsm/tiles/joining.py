@@ -120,7 +120,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             mesh = TriangleMesh(moved.astype(np.float64), faces, tiles.attributes(table), {"up": "z"})
             data = write_glb(mesh, name).data
             if content == "bsm":
-                data = compress(Document(data), {"grid_cell": tiles.lattice.cell, "quick": True}).data
+                data = compress(Document(data), {"grid_cell": tiles.lattice.cell, "effort": "quick"}).data
             write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             progress(number, len(known))
     placed = placement({name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}, "tileset")

@@ -4,7 +4,6 @@ import math
 import multiprocessing
 import signal
 import time
-import warnings
 from bisect import bisect_left
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import suppress
@@ -19,13 +18,14 @@ import numpy.typing as npt
 
 from bsm.api import encode, encode_sequence
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import BsmError, BsmWarning, DependencyError, FormatError, MeshError
+from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import compare, distances_to_surface, farthest_from_surface, surface_distance
 from bsm.codec.static.targets import Contract
 from bsm.comparison import in_order_of, pair, paired_frames
+from bsm.console import Progress
 from bsm.exits import worded
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.mesh import read_mesh, size_with_parts
@@ -33,6 +33,9 @@ from bsm.files.motion.frames import Frames
 from bsm.files.pipes import Input, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.libraries import without_provenance
+from bsm.options import encode_options
+from bsm.simplification import encode_source
 
 DRACO_LEVEL = 10
 DRACO_BITS = range(4, 25)
@@ -219,10 +222,9 @@ def made(
     source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
     notes, less = list(given.notes), isinstance(given, MeshFile) and bool(given.dropped)
     if isinstance(source, TriangleMesh):
-        with warnings.catch_warnings(record=True) as lost:
-            warnings.simplefilter("always", BsmWarning)
-            stream = encode(source, preset=preset)
-        notes += [str(warning.message) for warning in lost]
+        found = encode_source(without_provenance(source), encode_options(preset=preset), Progress(""), simplify=False)
+        stream = b"".join(found.attempt.frames)
+        notes += found.encoder.losses
     else:
         frames = np.array(list(source.frames))
         source = replace(source, frames=iter(frames))

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm._engine import Corners
-from bsm.bitstream.attributes.values import octahedral_normals
-from bsm.codec.static.attributes.levels import quantized
+from bsm.codec.static.attributes.levels import octahedral_normals, quantized
 from bsm.codec.static.attributes.quality import Quality
 from tests.bitstream.fields.fields import decode, encode, field_of
 from tools.measure.grids import welded

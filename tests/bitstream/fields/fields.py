@@ -8,7 +8,6 @@ import numpy.typing as npt
 from hypothesis import strategies as st
 
 from bsm._engine import Field
-from bsm.bitstream.attributes.values import _unfolded
 from bsm.bitstream.container.header import (
     COLOR,
     FACE,
@@ -20,7 +19,7 @@ from bsm.bitstream.container.header import (
     VERTEX,
     Declaration,
 )
-from bsm.codec.static.attributes.levels import Surface
+from bsm.codec.static.attributes.levels import Surface, unfolded
 from bsm.codec.static.attributes.levels import field_of as attribute_field
 from bsm.codec.static.ways.grid import grid_field, levels_field
 from tests.shapes import Faces, grid_faces
@@ -35,7 +34,7 @@ COLUMNS = {"grid": 3, "light": 3, "levels": 3, "texcoord": 2, "normal": 2}
 
 def canonical_levels(levels: Ints, size: int) -> Ints:
     """The pairs, shape (n, 2), that a decoder gives for the directions of `levels`, shape (n, 2)."""
-    points = _unfolded(np.asarray(levels, np.int64), size)
+    points = unfolded(np.asarray(levels, np.int64), size)
     flat = points[:, :2]
     outside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
     return (np.where(points[:, 2:] < 0, outside, flat) + size).astype(np.int32)

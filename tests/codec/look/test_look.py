@@ -277,13 +277,6 @@ def test_the_work_of_a_picture_is_bounded_however_often_its_pixels_are_covered()
     assert copies.pixels < LEAST_PIXELS / 4
 
 
-def test_numbers_of_earlier_versions_are_still_there():
-    seen = look(MESH, noisy(MESH, 0.001))
-    for name, now in (("dissimilarity", seen.unlike), ("visible", seen.unlike), ("striking", seen.gone)):
-        with pytest.warns(DeprecationWarning, match=name):
-            assert getattr(seen, name) == now > 0.0
-
-
 def test_threads_change_nothing():
     worse = noisy(MESH, 0.001)
     assert look(MESH, worse, threads=1) == look(MESH, worse, threads=4)

@@ -70,7 +70,7 @@ def test_a_mesh_without_congruent_parts_is_coded_as_by_1_0():
 
 def test_grids_that_are_asked_for_and_light_ones_are_coded_as_by_1_0():
     mesh = copies(bumpy(5), mirrors()[:1])
-    for options in (EncodeOptions(grid=12), EncodeOptions(exact=True), EncodeOptions(quick=True)):
+    for options in (EncodeOptions(grid=12), EncodeOptions(exact=True), EncodeOptions(effort="quick")):
         assert encode(mesh, replace(options, congruence=True)) == encode(mesh, replace(options, congruence=False))
     assert [version_of(encode(mesh, EncodeOptions(congruence=both))) for both in (True, False)] == [17, 16]
 

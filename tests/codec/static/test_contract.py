@@ -95,14 +95,14 @@ def test_any_bounds_are_kept(seed: int, farthest: float, angle: float) -> None:
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
 @pytest.mark.parametrize("mesh", [torus(48, 30), noisy(torus(48, 30), 0.002)], ids=["torus", "noise"])
 def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: bsm.TriangleMesh, preset: str) -> None:
-    header = assert_kept(mesh, replace(bsm.PRESETS[preset], quick=True)).draft().header
+    header = assert_kept(mesh, replace(bsm.PRESETS[preset], effort="quick")).draft().header
     assert header.grid and header.light
 
 
 @pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])
 def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -> None:
     plain, light = (
-        bsm.Encoder(torus(80, 40), encode_options(quick=quick, **option)).draft() for quick in (False, True)
+        bsm.Encoder(torus(80, 40), encode_options(effort=effort, **option)).draft() for effort in ("normal", "quick")
     )
     assert light.header == replace(plain.header, light=1) and not plain.header.light
     first, other = (bsm.decode(b"".join(draft.frames)) for draft in (plain, light))
@@ -113,7 +113,7 @@ def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -
 @pytest.mark.parametrize("option", [{"step": 0.01}, {"bits": 12}, {"keep": 0.1}])
 def test_quick_decoding_excludes_options_of_blocks(option: dict[str, float]) -> None:
     with pytest.raises(bsm.OptionError, match="quick"):
-        encode_options(quick=True, **option)
+        encode_options(effort="quick", **option)
 
 
 def test_a_bound_in_the_unit_of_the_mesh() -> None:
@@ -178,7 +178,7 @@ def test_small_parts_keep_their_shape() -> None:
         np.concatenate([large.positions, 0.04 * small.positions + (0.0, 0.0, large.diagonal)]),
         np.concatenate([large.faces, small.faces + len(large.positions)]),
     )
-    for way in (bsm.EncodeOptions(block_size=300), bsm.EncodeOptions(quick=True)):
+    for way in (bsm.EncodeOptions(block_size=300), bsm.EncodeOptions(effort="quick")):
         encoder = bsm.Encoder(mesh, replace(way, contract=bsm.Contract(0.02, 12.0, by_part=0.02)))
         moved = np.linalg.norm(bsm.decode(encoder.encode()).positions - encoder.mesh.positions, axis=1) / mesh.diagonal
         part = encoder.vertex_order >= len(large.positions)

@@ -90,7 +90,7 @@ def test_attributes_are_exact_unless_something_else_is_asked() -> None:
 
 
 def test_what_excludes_exact_positions() -> None:
-    for others in ({"grid": 12}, {"quick": True}, {"step": 0.01}):
+    for others in ({"grid": 12}, {"effort": "quick"}, {"step": 0.01}):
         with pytest.raises(OptionError):
             replace(LOSSLESS, **others)
 

@@ -110,7 +110,7 @@ def test_it_promises_nothing_and_has_no_grid(more):
         bsm.encode(MESH, preset="paper", **more)
     assert PRESETS["paper"].promise is None
     with pytest.raises(OptionError):
-        bsm.encode(MESH, preset="paper", quick=True)
+        bsm.encode(MESH, preset="paper", effort="quick")
 
 
 def test_a_fixed_size_and_a_size_that_follows_cost_about_the_papers_rate():

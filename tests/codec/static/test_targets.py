@@ -72,7 +72,7 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
 @pytest.mark.parametrize("kind, value", [("theta_deg", 4.0), ("size", 2500.0)])
 def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
     mesh = torus(60, 30)
-    attempt = Encoder(mesh, EncodeOptions(quick=True, contract=None, target=Target(kind, value))).result()
+    attempt = Encoder(mesh, EncodeOptions(effort="quick", contract=None, target=Target(kind, value))).result()
     assert attempt.header.grid and attempt.header.light
     assert getattr(attempt, kind, None) or getattr(attempt.comparison, kind) <= value
     assert attempt.size <= (value if kind == "size" else math.inf)
