@@ -11,6 +11,7 @@ growth   files that are large in one place, read at four times the size
 costly   small files of meshes that take long to encode, found by a search
 manifests  manifests and indexes of tiles, mutated by their grammar
 doors    files of others, read by other libraries and compared with what comes back from a stream
+meshes   random meshes by the encoder in C, with sanitizers
 judges   encoded meshes by the decoder of release 1.0 and by the reference decoder
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
@@ -19,10 +20,8 @@ from __future__ import annotations
 
 from tools.command import dispatch
 
-COMMANDS = {
-    name: f"{name}:main"
-    for name in ("fuzz", "sweep", "readers", "growth", "proof", "costly", "manifests", "uses", "doors", "judges")
-}
+ALIKE = "fuzz sweep readers growth proof costly manifests uses doors meshes judges"
+COMMANDS = {name: f"{name}:main" for name in ALIKE.split()}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 
 if __name__ == "__main__":

@@ -250,7 +250,7 @@ def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
     if not all(map(is_scene, paths)):
         return False
     from bsm.files.room import as_format_error
-    from bsm.gltf.compress import as_shares
+    from bsm.gltf.bundles import as_shares
     from bsm.gltf.document import read_document
 
     with as_format_error("glTF"):
