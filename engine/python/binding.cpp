@@ -86,6 +86,11 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
     throw nb::python_error();
 }
 
+nb::object error_of(const bsmdec_error &error, const nb::object &limits, const nb::object &state) {
+    return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
+        (int)error.status, text_of(error.message), error.offset, error.frame, error.block, limits, state);
+}
+
 // Python threads that share an object take turns: results are copied before the next call begins.
 struct Shared {
     std::recursive_mutex mutex; // a signal handler may call the decoder that it interrupts
@@ -236,7 +241,7 @@ class Decoder : public Shared {
     }
 
     // The loss of the last LOSS event, as an error.
-    nb::object loss() { return error_of(*bsmdec_last_loss(decoder)); }
+    nb::object loss() { return error_of(*bsmdec_last_loss(decoder), given, state()); }
 
   private:
     bsmdec *decoder;
@@ -258,12 +263,7 @@ class Decoder : public Shared {
         return made.numpy;
     }
 
-    nb::object error_of(const bsmdec_error &error) {
-        return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
-            (int)error.status, text_of(error.message), error.offset, error.frame, error.block, given, state());
-    }
-
-    [[noreturn]] void raise_error() { raise(error_of(*bsmdec_last_error(decoder))); }
+    [[noreturn]] void raise_error() { raise(error_of(*bsmdec_last_error(decoder), given, state())); }
 
     void check(bsmdec_status status) {
         if (status == BSMDEC_OK) return;
@@ -288,11 +288,8 @@ class Output {
 
     template <typename Work> void run(Work work) {
         if (unlocked(work)) return;
-        const bsmdec_error &error = *encoding_error(encoding);
-        nb::module_ limits = nb::module_::import_("bsm.bitstream.limits");
-        nb::object found = limits.attr("decoder_error")((int)error.status, text_of(error.message), -1, -1, -1,
-            limits.attr("DEFAULT_LIMITS"), nb::make_tuple(0, 0, 0, 0, 0, 0, 0));
-        raise(found);
+        nb::object limits = nb::module_::import_("bsm.bitstream.limits").attr("DEFAULT_LIMITS");
+        raise(error_of(*encoding_error(encoding), limits, nb::make_tuple(0, 0, 0, 0, 0, 0, 0)));
     }
 
     nb::list payloads() const {
@@ -491,82 +488,71 @@ class Field : public Shared, Output {
 
 }  // namespace
 
+// Types of Python in signatures.
+#define SIG(text) nb::sig("def " text)
+#define ARRAY(kind) "numpy.typing.NDArray[numpy." #kind "]"
+#define BYTES ARRAY(uint8)
+#define INTS ARRAY(int32)
+#define LONGS ARRAY(int64)
+#define DOUBLES ARRAY(float64)
+#define CHANGES "tuple[" INTS ", " DOUBLES ", " ARRAY(bool_) "]"
+
 NB_MODULE(_engine, m) {
     nb::set_leak_warnings(false); /* the traceback of an error keeps its decoder until the process ends */
     m.attr("version") = BSM_VERSION;
     numpy_empty = nb::object(nb::module_::import_("numpy").attr("empty")).release();
     m.def("write_faces", faces_to_bytes, "faces"_a, "vertices"_a, "merged"_a.none() = nb::none(),
-        nb::sig("def write_faces(faces: numpy.typing.NDArray[numpy.int32], vertices: int, "
-                "merged: numpy.typing.NDArray[numpy.int32] | None = None) -> tuple[bytes, "
-                "numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], "
-                "numpy.typing.NDArray[numpy.int32]]"));
+        SIG("write_faces(faces: " INTS ", vertices: int, merged: " INTS " | None = None) -> tuple[bytes, " INTS ", "
+            INTS ", " INTS "]"));
     m.def("write_order", order_to_bytes, "faces"_a, "coded"_a, "vertices"_a, "face_places"_a,
         "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none(),
-        nb::sig("def write_order(faces: numpy.typing.NDArray[numpy.int32], coded: numpy.typing.NDArray[numpy.int32], "
-                "vertices: numpy.typing.NDArray[numpy.int32], face_places: numpy.typing.NDArray[numpy.int32], "
-                "source: numpy.typing.NDArray[numpy.int32] | None = None, "
-                "corners: numpy.typing.NDArray[numpy.int32] | None = None, "
-                "loose: numpy.typing.NDArray[numpy.float64] | None = None) -> bytes"));
+        SIG("write_order(faces: " INTS ", coded: " INTS ", vertices: " INTS ", face_places: " INTS ", source: " INTS
+            " | None = None, corners: " INTS " | None = None, loose: " DOUBLES " | None = None) -> bytes"));
     m.def("quantized", quantized, "values"_a, "kind"_a, "semantic"_a, "quality"_a, "amount"_a,
-        nb::sig("def quantized(values: typing.Any, kind: int, semantic: int, quality: int, amount: float) -> "
-                "tuple[int, list[int], list[float], float, numpy.typing.NDArray[numpy.int64], "
-                "tuple[float, float, int, int, bool]]"));
+        SIG("quantized(values: typing.Any, kind: int, semantic: int, quality: int, amount: float) -> tuple[int, "
+            "list[int], list[float], float, " LONGS ", tuple[float, float, int, int, bool]]"));
     m.def("rounded", rounded, "positions"_a, "bits"_a, "cell"_a, "origin"_a,
-        nb::sig("def rounded(positions: numpy.typing.NDArray[numpy.float64], bits: int, cell: float, "
-                "origin: numpy.typing.NDArray[numpy.float64]) -> tuple[tuple[float, float, float], float, "
-                "tuple[int, int, int], numpy.typing.NDArray[numpy.int32]]"));
+        SIG("rounded(positions: " DOUBLES ", bits: int, cell: float, origin: " DOUBLES
+            ") -> tuple[tuple[float, float, float], float, tuple[int, int, int], " INTS "]"));
     nb::class_<Corners>(m, "Corners")
         .def(nb::init<Rows<int32_t, 3>, int64_t>(), "faces"_a, "vertices"_a)
         .def("join", in_turn(&Corners::join), "numbers"_a,
-            nb::sig("def join(self, numbers: numpy.typing.NDArray[numpy.int32]) -> "
-                    "tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.int32], "
-                    "numpy.typing.NDArray[numpy.int32]]"))
+            SIG("join(self, numbers: " INTS ") -> tuple[" BYTES ", " INTS ", " INTS "]"))
         .def("seams", in_turn(&Corners::seams), "own"_a, "last"_a.none() = nb::none(),
             "before_last"_a.none() = nb::none(),
-            nb::sig("def seams(self, own: numpy.typing.NDArray[numpy.uint8], "
-                    "last: numpy.typing.NDArray[numpy.uint8] | None = None, "
-                    "before_last: numpy.typing.NDArray[numpy.uint8] | None = None) -> bytes"));
+            SIG("seams(self, own: " BYTES ", last: " BYTES " | None = None, before_last: " BYTES
+                " | None = None) -> bytes"));
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
             "transforms"_a.none() = nb::none())
         .def("levels", in_turn(&Field::levels))
         .def("attribute", in_turn(&Field::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
-        .def("write", in_turn(&Field::write), "count"_a, nb::sig("def write(self, count: int) -> list[bytes]"))
+        .def("write", in_turn(&Field::write), "count"_a, SIG("write(self, count: int) -> list[bytes]"))
         .def("read", in_turn(&Field::read), "payload"_a, "count"_a,
-            nb::sig("def read(self, payload: bytes, count: int) -> numpy.typing.NDArray[numpy.int32]"))
-        .def_prop_ro("order", in_turn(&Field::order), nb::sig("def order(self) -> typing.Any"));
+            SIG("read(self, payload: bytes, count: int) -> " INTS))
+        .def_prop_ro("order", in_turn(&Field::order), SIG("order(self) -> typing.Any"));
     nb::class_<Decoder>(m, "Decoder")
         .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1,
             "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)
         .def("push", in_turn(&Decoder::push), "bytes"_a)
         .def("finish", in_turn(&Decoder::finish))
         .def("next", in_turn(&Decoder::next), "wanted"_a,
-            nb::sig("def next(self, wanted: int) -> tuple[int, int, int, int, int]"))
-        .def("skim", in_turn(&Decoder::skim), nb::sig("def skim(self) -> tuple[str, list[int]] | None"))
-        .def("faces", in_turn(&Decoder::faces), "count"_a,
-            nb::sig("def faces(self, count: int) -> numpy.typing.NDArray[numpy.int32]"))
-        .def("positions", in_turn(&Decoder::positions), "count"_a,
-            nb::sig("def positions(self, count: int) -> numpy.typing.NDArray[numpy.float64]"))
-        .def("changes", in_turn(&Decoder::changes),
-            nb::sig("def changes(self) -> tuple[numpy.typing.NDArray[numpy.int32], "
-                    "numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool_]]"))
-        .def("loose", in_turn(&Decoder::loose),
-            nb::sig("def loose(self) -> tuple[numpy.typing.NDArray[numpy.int32], "
-                    "numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool_]]"))
-        .def("losses", in_turn(&Decoder::losses),
-            nb::sig("def losses(self) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]"))
+            SIG("next(self, wanted: int) -> tuple[int, int, int, int, int]"))
+        .def("skim", in_turn(&Decoder::skim), SIG("skim(self) -> tuple[str, list[int]] | None"))
+        .def("faces", in_turn(&Decoder::faces), "count"_a, SIG("faces(self, count: int) -> " INTS))
+        .def("positions", in_turn(&Decoder::positions), "count"_a, SIG("positions(self, count: int) -> " DOUBLES))
+        .def("changes", in_turn(&Decoder::changes), SIG("changes(self) -> " CHANGES))
+        .def("loose", in_turn(&Decoder::loose), SIG("loose(self) -> " CHANGES))
+        .def("losses", in_turn(&Decoder::losses), SIG("losses(self) -> tuple[" INTS ", " INTS "]"))
         .def("metadata", in_turn(&Decoder::metadata), "index"_a,
-            nb::sig("def metadata(self, index: int) -> tuple[str, typing.Any]"))
+            SIG("metadata(self, index: int) -> tuple[str, typing.Any]"))
         .def("attribute_count", in_turn(&Decoder::attribute_count))
         .def("attribute", in_turn(&Decoder::attribute), "index"_a,
-            nb::sig("def attribute(self, index: int) -> tuple[str, int, int, typing.Any, typing.Any, bool] | None"))
+            SIG("attribute(self, index: int) -> tuple[str, int, int, typing.Any, typing.Any, bool] | None"))
         .def("values", in_turn(&Decoder::values), "index"_a,
-            nb::sig("def values(self, index: int) -> tuple[str, int, int, typing.Any, "
-                    "numpy.typing.NDArray[numpy.int32], typing.Any]"))
-        .def("header", in_turn(&Decoder::header),
-            nb::sig("def header(self) -> list[float]"))
-        .def("state", in_turn(&Decoder::state),
-            nb::sig("def state(self) -> list[float]"))
-        .def("loss", in_turn(&Decoder::loss), nb::sig("def loss(self) -> typing.Any"));
+            SIG("values(self, index: int) -> tuple[str, int, int, typing.Any, " INTS ", typing.Any]"))
+        .def("header", in_turn(&Decoder::header), SIG("header(self) -> list[float]"))
+        .def("state", in_turn(&Decoder::state), SIG("state(self) -> list[float]"))
+        .def("loss", in_turn(&Decoder::loss), SIG("loss(self) -> typing.Any"));
 }
