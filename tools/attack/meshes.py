@@ -24,7 +24,8 @@ KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "floa
 
 def attribute(rng: np.random.Generator, name: str, rows: dict[str, int]) -> Attribute:
     """Few or many different values, of any size."""
-    domain, semantic = str(rng.choice(list(rows))), str(rng.choice(["generic", "color", "normal", "texcoord"]))
+    domain: Any = str(rng.choice(list(rows)))
+    semantic: Any = str(rng.choice(["generic", "color", "normal", "texcoord"]))
     kind = np.dtype(str(rng.choice(KINDS)))
     shape = (
         rows[domain],
@@ -47,7 +48,8 @@ def mesh_of(rng: np.random.Generator) -> TriangleMesh:
     positions[rng.random(vertices) < 0.2] = positions[0]
     rows = {"vertex": vertices, "corner": 3 * faces, "face": faces}
     attributes = [attribute(rng, f"a{i}", rows) for i in range(int(rng.integers(0, 4)))]
-    return TriangleMesh(positions, rng.integers(0, vertices, (faces, 3)), attributes)
+    corners = rng.integers(0, vertices, (faces, 3)).astype(np.int32)
+    return TriangleMesh(positions, corners, tuple(attributes))
 
 
 def main(argv: list[str] | None = None) -> int:
