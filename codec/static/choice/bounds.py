@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -48,6 +49,7 @@ class Measures:
         self.prepared = prepared
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
+        self.reaches = lru_cache(1)(partial(reaches, prepared))
         self._threads = threads
         self.normals = normals
         self.near = near or Nearing(None)
@@ -116,7 +118,7 @@ class Bounds:
     def __init__(self, measures: Measures, contract: Contract) -> None:
         self.measures = measures
         self.contract = contract
-        self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
+        self.reaches = measures.reaches(contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
         self._last: tuple[Matrix, tuple[float, float, float, float]] | None = None
 

@@ -24,6 +24,7 @@ from bsm.codec.static.ways.grid import Grid, encode_grid, grid_field, sampled_ra
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
+LEAST_SAVED = 0.03  # of the bytes, by congruent parts: a share that is worth another try
 SAMPLE = 1 << 11
 """Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
 
@@ -47,21 +48,16 @@ def congruent(prepared: Prepared, draft: Draft) -> Draft:
     if places is None or header.light or not may_repeat(prepared):
         return draft
     before = tuple(packet for packet in draft.body if not isinstance(packet, packets.Grid))
-    drafts = [draft]
-    for grid in _congruent(prepared, Grid(header.center, header.scale, header.grid), places):
-        body = (*before, *encode_grid(prepared.mesh.faces, grid, places))
-        drafts.append(replace(draft, header=replace(header, **grid.fields), body=body))
-    return min(drafts, key=lambda coded: coded.size)
-
-
-def _congruent(prepared: Prepared, grid: Grid, places: Levels) -> Iterator[Grid]:
-    """The grid with predictions by congruent parts where they may take fewer bytes."""
-    faces, transforms = prepared.mesh.faces, transforms_of(prepared, grid)
-    alone = replace(grid, transforms=transforms[:0])
-    if len(transforms):
-        yield replace(grid, transforms=transforms)
-    if len(places) <= SAMPLE or sampled_size(faces, alone, places) < sampled_size(faces, grid, places):
-        yield alone
+    least, faces, alone = draft, prepared.mesh.faces, Grid(header.center, header.scale, header.grid)
+    transforms = transforms_of(prepared, alone)
+    for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
+        grid = replace(alone, transforms=some)
+        if len(some) or len(places) <= SAMPLE or sampled_size(faces, grid, places) < sampled_size(faces, alone, places):
+            body = (*before, *encode_grid(faces, grid, places))
+            least = min(least, replace(draft, header=replace(header, **grid.fields), body=body), key=lambda d: d.size)
+        if least.size < (1.0 - LEAST_SAVED) * draft.size:
+            break
+    return least
 
 
 def sampled_size(faces: Faces, grid: Grid, places: Levels) -> int:

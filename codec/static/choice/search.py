@@ -12,13 +12,13 @@ from operator import itemgetter
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
-from bsm.codec.static.choice.grids import SAMPLE, Gridded, congruent, may_repeat, rounded
+from bsm.codec.static.choice.grids import LEAST_SAVED, SAMPLE, Gridded, congruent, may_repeat, rounded
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
-REFINED, LEAST_SAVED = 3, 0.03  # rounds of spending the bytes that congruent parts save, and a share that is worth one
+REFINED = 3  # rounds of spending the bytes that congruent parts save
 RUNGS = 6  # an octave: steps of small grids, the same for all promises, as some make more parts congruent by chance
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 ALIKE = 1.02  # bytes over the least, within which normals choose where a visual error is bounded
@@ -60,9 +60,13 @@ class Search:
         near = 1.0 if seen or contract.visual == math.inf else ALIKE
         ways = self._ways(bounds, grid)
         for way in ways:  # which may lead to others
-            leaning, gain = (saved, share) if isinstance(way, Gridded) else (0, 1.0)
-            if seen and isinstance(way, Gridded) and SHAPED * first.size > (least + leaning) / gain:
-                continue
+            leaning, gain = 0, 1.0
+            if isinstance(way, Gridded):
+                leaning, gain = saved, share
+                if seen and SHAPED * first.size > (least + leaning) / gain:
+                    continue
+                if share < SHAPED and way is not grid and way.at(grid.first).size > SHAPED * first.size:
+                    continue  # places that are chosen repeat less
             found = widest(way, bounds, (near * least + leaning) / gain, tries=self._tries)
             if found is not None:
                 kept.append(found)
@@ -72,11 +76,16 @@ class Search:
         if not kept:
             kept.append(self._last_resort(bounds))
         least = min(candidate.congruent.size for candidate in kept)
+        share = min(share, *(candidate.congruent.size / candidate.draft.size for candidate in kept))
         rung = math.floor(RUNGS * math.log2(grid.first))
         for finer in range(RUNGS + 1) if share < 1.0 and self._prepared.graph.size <= 2 * SAMPLE else ():
             candidate = grid.at(2.0 ** ((rung + 1 - finer) / RUNGS))
+            if (1.0 - LEAST_SAVED) * share * candidate.draft.size > least:
+                break
+            share = min(share, candidate.congruent.size / candidate.draft.size)
             if candidate.congruent.size < least and bounds.keeps(candidate.positions):
                 kept.append(candidate)
+                least = candidate.congruent.size
         most = near * min(self._size(candidate.congruent) for candidate in kept)
         alike = [candidate for candidate in kept if self._size(candidate.congruent) <= most]
         bent = self._measures.original.angle
@@ -184,11 +193,14 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
 
     def at(step: float) -> float | None:
         candidate, sure = way.at(step), math.inf
-        over, folded = bounds.excess(candidate), bounds.folds(candidate.positions)
+        folded = bounds.folds(candidate.positions)
         if most_bytes < math.inf and not (folded and bounds.contract.look == math.inf):
             # A step twice as wide saves three bits of a vertex at most, half as wide costs one.
             bits = math.log(2.0) * 8.0 * (candidate.size - most_bytes) / len(candidate.positions)
             sure = -bits * STEEPEST if bits < 0.0 else -bits / (3.0 * STEEPEST)
+        if sure < -1.0 and bounds.contract.look < math.inf:
+            return None  # no first step is so much too narrow
+        over = bounds.excess(candidate)
         if over <= 0.0 and bounds.keeps(candidate.positions):
             kept.append((folded, candidate))
         over = max(over, SLACK) if folded else over  # a finer step has fewer folds
