@@ -509,7 +509,7 @@ def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypat
         assert b" 404 " in sent(server, ours, query="?preset=../etc").splitlines()[0]
         with server.encoding:
             assert b" 503 " in sent(server, ours, data).splitlines()[0]
-        answer = sent(server, ours, data)
+        answer = sent(server, ours, data, f"?preset=small&first={len(data)}&name=a.ply")  # as the page asks
         lines = [json.loads(line) for line in answer.partition(b"\r\n\r\n")[2].splitlines()]
         paths = [layer["url"] for layer in lines[-1]["entry"]["layers"]]
         stream = urllib.request.urlopen(server.address + paths[1]).read()

@@ -1,5 +1,6 @@
-// Pictures of the page of `bsm view` in every state and size, dark and light: `npm run states -- FOLDER PAGE.html...` takes saved
-// pages. Says how much of each mesh cards and buttons cover, and whether anything is cut off; the exit code is 1 if so.
+// Pictures of the page of `bsm view` in every state and size, dark and light: `npm run states -- FOLDER PAGE...` takes saved pages,
+// and addresses of served ones; empty ones, too. Says how much of each mesh cards and buttons cover, and whether anything is cut
+// off or lies over another control; the exit code is 1 if so.
 import { mkdirSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -41,7 +42,7 @@ function pixelsOf(png) {
     return { width, height, at: (x, y) => rows[y].subarray(x * channels, x * channels + 3) };
 }
 
-const [folder, ...pages] = process.argv.slice(2).map((path) => resolve(process.env.INIT_CWD ?? ".", path));
+const [folder, ...pages] = process.argv.slice(2).map((path) => (/^https?:/.test(path) ? path : resolve(process.env.INIT_CWD ?? ".", path)));
 mkdirSync(folder, { recursive: true });
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: FLAGS });
 let [states, wrong] = [0, 0];
@@ -49,19 +50,26 @@ for (const path of pages) {
     for (const dark of [false, true]) {
         for (const [width, height] of SIZES) {
             const page = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
-            await page.goto(pathToFileURL(path).href);
-            await page.waitForSelector("body[data-state=complete]", { timeout: PATIENCE });
+            await page.goto(/^https?:/.test(path) ? path : pathToFileURL(path).href);
+            await page.waitForSelector("body:is([data-state=complete], [data-state=empty])", { timeout: PATIENCE });
+            const empty = await page.evaluate(() => document.body.dataset.state === "empty");
             const layers = await page.locator("[name=layer]").count();
             if (layers > 1) await page.waitForSelector(`body[data-layers="${layers}"]`, { timeout: PATIENCE });
             await page.waitForTimeout(1200); // edges become smooth
-            const name = `${basename(path, ".html")}-${width}x${height}${dark ? "-dark" : ""}`;
+            const name = `${empty ? "empty" : basename(path, ".html")}-${width}x${height}${dark ? "-dark" : ""}`;
             await page.screenshot({ path: join(folder, `${name}.png`) });
             const boxes = await page.evaluate(() =>
                 [...document.querySelectorAll(".bsm-card, .bsm-tools > *, .bsm-dock > *, .bsm-panel, .bsm-scale, .bsm-ruler, [role=alert]")]
                     .map((element) => element.getBoundingClientRect()).filter((box) => box.width * box.height > 0)
                     .map(({ left, top, right, bottom }) => ({ left, top, right, bottom })));
+            const over = await page.evaluate(() => {
+                const parts = [...document.querySelectorAll(".bsm-card, .bsm-tools > *, .bsm-dock > *, .bsm-note, .bsm-scale, .bsm-ruler, .bsm-tag, [role=alert]")]
+                    .map((element) => [element, element.getBoundingClientRect()]).filter(([, box]) => box.width * box.height > 0);
+                return parts.flatMap(([one, a], i) => parts.slice(i + 1).filter(([, b]) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1)
+                    .map(([other]) => `${one.dataset.part ?? one.className} over ${other.dataset.part ?? other.className}`));
+            });
             const outside = await page.evaluate(() =>
-                [...document.querySelectorAll(".bsm-ui button, .bsm-ui select, .bsm-ui label, .bsm-card, .bsm-tag")].filter((element) => {
+                [...document.querySelectorAll(".bsm-ui button, .bsm-ui select, .bsm-ui label, .bsm-card, .bsm-tag, .bsm-note")].filter((element) => {
                     const box = element.getBoundingClientRect();
                     return box.width * box.height > 0 && (box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1);
                 }).map((element) => element.getAttribute("aria-label") ?? element.textContent.trim()));
@@ -78,10 +86,10 @@ for (const path of pages) {
                 }
             }
             const share = covered / Math.max(all, 1);
-            const bad = all === 0 || share > MOST || edge > 0 || outside.length > 0;
+            const bad = (all === 0 && !empty) || share > MOST || edge > 0 || outside.length + over.length > 0;
             states++;
             wrong += bad;
-            const found = [`${(100 * share).toFixed(1)} % covered`, `mesh ${(100 * all / picture.width / picture.height).toFixed(1)} % of the page`, ...(edge > 0 ? ["cut off"] : []), ...outside.map((what) => `outside: ${what}`)];
+            const found = [`${(100 * share).toFixed(1)} % covered`, `mesh ${(100 * all / picture.width / picture.height).toFixed(1)} % of the page`, ...(edge > 0 ? ["cut off"] : []), ...outside.map((what) => `outside: ${what}`), ...over];
             console.log(`${bad ? "WRONG" : "right"} ${name}: ${found.join(", ")}`);
             await page.close();
         }

@@ -306,7 +306,7 @@ def _work(pipe: Connection, files: Sequence[tuple[str, bytes]], preset: str) -> 
         if second:
             pipe.send(against(first, second, Limits.service()))
         elif isinstance(first.source, bytes):
-            pipe.send(alone(first.name, first.source))
+            raise FormatError(f"{first.name} is a stream, which the page opens by itself, or empty")
         else:
             pipe.send(made(first.name, len(files[0][1]), first.source, preset, report))
     except (BsmError, MemoryError) as error:

@@ -335,7 +335,8 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
             try:
-                files = [(names[0], data[: int(first)]), (names[-1], data[int(first) :])][-len(names) :]
+                parts = [data] if len(names) == 1 else [data[: int(first)], data[int(first) :]]
+                files = list(zip(names, parts, strict=False))
                 self._answer(self._reported(files, asked["preset"][0]), "text/plain")
             finally:
                 self.server.encoding.release()

@@ -68,6 +68,7 @@ export class View {
         root.innerHTML = template;
         this.form = new Form(root);
         this.form.say("licenses", licenses);
+        this.form.part("encodes").hidden = !encode;
         if (presets.length > 0) this.form.control("preset").replaceChildren(...presets.map((name) => new Option(name)));
         try {
             this.stage = new Stage(root.querySelector("canvas")!);
