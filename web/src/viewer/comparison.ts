@@ -17,7 +17,7 @@ export class Comparison {
     /** Whether colors are to be computed again. */
     stale = false;
     /** Whether the stream's mesh is on the stage. */
-    shown = true;
+    shown = false;
     /** Whether the other meshes are there, or on their way. */
     accompanied = false;
     private content: Content = { name: "", main: 0, layers: [], facts: {} };
@@ -162,7 +162,8 @@ export class Comparison {
         stage.fit(); // beside captions
         const [split, seam, { clientWidth }] = [stage.mode === "split", stage.seam, form.root];
         const [left, right] = ["left", "right"].map((part) => form.part(part).offsetWidth + EDGE);
-        const places = split ? [seam / 2, (seam + clientWidth) / 2] : [Math.max(seam - 14, left), Math.min(seam + 14, clientWidth - right)];
+        const begin = Math.max(seam - 14, left);
+        const places = split ? [seam / 2, (seam + clientWidth) / 2] : [begin, Math.max(begin + EDGE, Math.min(seam + 14, clientWidth - right))];
         ["left", "right"].forEach((part, side) => {
             form.part(part).style.left = `${places[side]}px`;
             form.part(part).style.setProperty("--shift", split ? "-50%" : side === 0 ? "-100%" : "0%");
