@@ -494,6 +494,44 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([seen.duration, seen.meshes], [0, 3]);
     });
 
+    test("is an element with a poster until it draws, an ErrorEvent, and keys that turn, zoom, play and pause", async () => {
+        const seen = await found(`
+            await import("/bsm/player.js");
+            const poster = "data:image/gif;base64,R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7";
+            const player = Object.assign(document.createElement("bsm-player"), { src: "/stream/good-sequence-learnt.bsm" });
+            player.setAttribute("poster", poster);
+            const occurred = (type) => new Promise((keep) => player.addEventListener(type, keep, { once: true }));
+            const loaded = occurred("load");
+            document.body.append(player);
+            const shown = () => player.shadowRoot.querySelector("img").getAttribute("src");
+            const posters = [shown()];
+            await loaded;
+            posters.push(shown());
+            const { canvas, camera, controls } = player;
+            const press = (key) => {
+                const event = new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true });
+                const [from, far] = [camera.position.clone(), camera.position.distanceTo(controls.target)];
+                canvas.dispatchEvent(event);
+                const now = camera.position.distanceTo(controls.target);
+                return [event.defaultPrevented, camera.position.distanceTo(from) > 1e-6 * far, Math.abs(now / far - 1) < 1e-6 ? 0 : Math.sign(now - far), player.paused];
+            };
+            const keys = Object.fromEntries(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "+", "-", " ", "x"].map((key) => [key, press(key)]));
+            keys.again = press(" ");
+            const [focus, role, label] = [canvas.tabIndex, canvas.getAttribute("role"), canvas.getAttribute("aria-label")];
+            const wrong = occurred("error");
+            player.src = "/stream/no-such-file.bsm";
+            posters.push(shown());
+            const event = await wrong;
+            posters.push(shown());
+            player.remove();
+            return { posters: posters.map((src) => src === poster), keys, focus, role, label, event: event instanceof ErrorEvent && event.error instanceof Error && event.message.includes("404") };`, {});
+        assert.deepEqual(seen.posters, [true, false, true, true]);
+        const turn = [true, true, 0, true];
+        assert.deepEqual(seen.keys, { ArrowLeft: turn, ArrowRight: turn, ArrowUp: turn, ArrowDown: turn, "+": [true, true, -1, true], "-": [true, true, 1, true], " ": [true, false, 0, false], x: [false, false, 0, false], again: [true, false, 0, true] });
+        assert.deepEqual([seen.focus, seen.role, seen.event], [0, "img", true]);
+        assert.match(String(seen.label), /arrow keys/i);
+    });
+
     test("is an element that stops its load, and gives back what it drew, where another takes its place", async () => {
         const asked: string[] = [];
         const route = "**/slow-*.bsm";

@@ -5,6 +5,8 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSyn
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
+import { pathToFileURL } from "node:url";
+import { build } from "esbuild";
 import { VECTORS, WEB } from "./shared";
 
 const CONSUMER = `
@@ -108,6 +110,18 @@ describe("the package", () => {
         assert.match(cut.stderr, /^bsm-decoder: cut\.bsm: [^\n]+\n$/);
         const piped = spawnSync("bash", ["-c", `set -o pipefail; "${process.execPath}" "${command}" "${join(VECTORS, "good-labels.bsm")}" | true`], { cwd: folder, encoding: "utf8" });
         assert.deepEqual([piped.status, piped.stderr], [0, ""]);
+    });
+
+    test("names setDecoderPath in a bundle of CommonJS, which does not know its address, and decodes with it", async () => {
+        const [entry, bundle] = [join(folder, "bundled.mjs"), join(folder, "bundle.cjs")];
+        writeFileSync(entry, `import { BSMLoader } from "${own.name}/three";
+            const data = new Uint8Array(${JSON.stringify([...readFileSync(join(VECTORS, "good-labels.bsm"))])});
+            const told = (loader) => loader.parseAsync(data.slice()).then((geometry) => geometry.getAttribute("position").count, (error) => error.message);
+            (async () => console.log(JSON.stringify([await told(new BSMLoader()), await told(new BSMLoader().setDecoderPath(process.argv[2]))])))();`);
+        await build({ entryPoints: [entry], bundle: true, format: "cjs", platform: "browser", outfile: bundle, logLevel: "error" });
+        const [without, count] = JSON.parse(run(process.execPath, bundle, pathToFileURL(join(WEB, "built/")).href)) as [string, number];
+        assert.match(without, /copy those of bsm-decoder\/built, and name their folder with setDecoderPath/);
+        assert.ok(count > 0, `${count}`);
     });
 
     test("decodes in Node", () => {
