@@ -52,17 +52,11 @@ CANDIDATES = (
     *(Recipe("normals", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4)),
     Recipe("heights", 0.2, "own", 0.4),
     Recipe("none", 0.2, "local", 0.45),
-    Recipe("normals", 0.2, "own", 0.55),
-    Recipe("normals", 0.1, "own", 0.4),
-    Recipe("normals", 0.3, "own", 0.4),
-    *(Recipe("heights", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.55)),
-    Recipe("heights", 0.1, "own", 0.4),
-    Recipe("heights", 0.3, "own", 0.55),
-    Recipe("heights", 0.4, "own", 0.55),
+    *(Recipe("normals", keep, "own", sigma_r) for keep, sigma_r in ((0.2, 0.55), (0.1, 0.4), (0.3, 0.4))),
+    *(Recipe("heights", keep, "own", sigma_r) for keep, sigma_r in ((0.2, 0.25), (0.2, 0.55), (0.1, 0.4))),
+    *(Recipe("heights", keep, "own", 0.55) for keep in (0.3, 0.4)),
     Recipe("heights", 0.2, "patches", 0.35),
-    Recipe("none", 0.2, "own", 0.4),
-    Recipe("none", 0.2, "patches", 0.35),
-    *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.6)),
+    *(Recipe("none", 0.2, *fine) for fine in (("own", 0.4), ("patches", 0.35), ("local", 0.35), ("local", 0.6))),
 )
 """The first one makes the first guess, the first `HERALDS` the second one."""
 HERALDS = 5
@@ -195,20 +189,19 @@ def choose(
     # The result of a few recipes is a better guess. A third round would repeat its own mistakes.
     rehearsal.rehearse(rehearsal.perform(winner.steps, share))
     winner = rehearsal.compete(candidates, REHEARSED)
-    steps, expected, untreated = winner.steps, winner.error, rehearsal.untreated
-    reason = finding.reason
-    if expected > WORTH * untreated:
-        steps, expected = (), untreated
-        reason = f"{reason}, but any filter would cost more than it gains"
-    elif expected > HARMFUL * rehearsal.changed(steps, share):
-        steps, expected = (), untreated
-        reason = f"{reason}, but the expected error is as large as the change"
+    steps, expected, untreated, reason = winner.steps, winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" else None
-    if steps and forecast is not None and expected > UNPROMISED * forecast.untreated:
-        steps, expected = (), untreated
-        reason = f"{reason}, but the triangles are so uneven that any filter would turn their normals farther"
-    level = rehearsal.level
-    noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
+    doubts = {
+        "any filter would cost more than it gains": WORTH * untreated,
+        "the expected error is as large as the change": HARMFUL * rehearsal.changed(steps, share),
+        "the triangles are so uneven that any filter would turn their normals farther": (
+            UNPROMISED * forecast.untreated if forecast else np.inf
+        ),
+    }
+    for doubt, most in doubts.items():
+        if steps and winner.error > most:
+            steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
+    noise = NoiseLevel(rehearsal.level.normal / finding.edge, rehearsal.level.tangential / finding.edge)
     return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, share, forecast=forecast)
 
 

@@ -58,11 +58,6 @@ class CoarseFilter:
             blend.add(vertices, subspace @ (subspace.T @ (values[vertices] - center)) + center, copies)
         return blend.all_positions()
 
-    @property
-    def size(self) -> int:
-        """n_d, the size of the blocks (one whose connected surroundings end earlier is smaller)."""
-        return self._size
-
     def _width(self, keep: float) -> int:
         return max(1, round(keep * self._size))
 

@@ -53,11 +53,6 @@ Guide = Callable[[FaceGeometry, Topology], Floats]
 """From the mesh as it is to the unit normals, shape (m, 3), that the range kernel compares."""
 
 
-def own_normals(geometry: FaceGeometry, topology: Topology) -> Floats:
-    """The guide that makes the filter an ordinary bilateral one: the normals themselves, shape (m, 3)."""
-    return geometry.normals
-
-
 class GuidedFilter:
     """The filter with its neighborhoods, which are found once, on the mesh that it starts from."""
 

@@ -19,10 +19,10 @@ from bsm.codec.denoise.noise.causes import Bound, Grid
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
-from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, own_normals, patch_guidance
+from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, patch_guidance
 from bsm.codec.denoise.surface import Mask, Topology, face_geometry, surface_normals
 
-GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
+GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
 LOCAL = "local"
 RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
 BENDS = "bends"  # the hand-over of thick slices, see `Cells.flattened`
@@ -129,12 +129,11 @@ class Treatments:
         where = (recipe.hand_over, 0.0 if recipe.hand_over == "none" else recipe.keep)
         start = self._starts.get(where)
         if start is None:
-            if recipe.hand_over == RAYS:
-                assert self._patient.view is not None
-                positions = self._patient.view.flattened(self.noisy, self._topology, recipe.keep)
-            elif recipe.hand_over == BENDS:
-                assert isinstance(self._patient.bound, Cells)
-                positions = self._patient.bound.flattened(self.noisy, self._topology)
+            view, bound = self._patient.view, self._patient.bound
+            if recipe.hand_over == RAYS and view:
+                positions = view.flattened(self.noisy, self._topology, recipe.keep)
+            elif recipe.hand_over == BENDS and isinstance(bound, Cells):
+                positions = bound.flattened(self.noisy, self._topology)
             else:
                 smooth = self._patient.smooth(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
                 positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._topology)
@@ -174,9 +173,8 @@ class Patient:
 
     def expect(self, keep: float) -> None:
         """Be ready for coarse meshes of up to that fraction of the frequencies."""
-        if keep > 0.0 and (self._coarse is None or self._keep < keep):
-            self._keep = keep
-            self._coarse = CoarseFilter(self.topology.faces, self.topology.n, keep, BLOCK_SIZE)
+        if keep > self._keep:
+            self._keep, self._coarse = keep, CoarseFilter(self.topology.faces, self.topology.n, keep, BLOCK_SIZE)
 
     def smooth(self, positions: Positions, keep: float) -> Positions:
         """The coarse mesh, shape (n, 3), as `positions` are."""

@@ -105,14 +105,14 @@ class Rehearsal:
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
         smooth = patient.smooth(noisy, base.keep) if base.needs_coarse else noisy
         self.level = estimate_noise(noisy, smooth, patient.probe)
-        guesses = patient.treatments(noisy).iterates(base)
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
-        given, done, self.rounds = 1, -1, 0
+        given, self.rounds = 1, 0
         if finding.kind == "fused":
             given = discrepant(noisy, patient.treatments(noisy).iterates(base), patient.probe, finding.level)
-        while True:
-            guess = self._within(next(islice(guesses, given - done - 1, None)), noisy)
-            done = given
+        for done, guess in enumerate(patient.treatments(noisy).iterates(base)):
+            if done < given:
+                continue
+            guess = self._within(guess, noisy)
             self.rounds += 1
             self._rehearse(guess, self._synthesis.draw(guess, SEED))
             wanted = self.attempt(base).steps[0].iterations

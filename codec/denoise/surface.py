@@ -65,14 +65,10 @@ class Topology:
 
     @cached_property
     def boundary(self) -> Mask:
-        key, _ = self._edges
-        alone = np.ones(len(key), dtype=np.bool_)
-        same = key[1:] == key[:-1]
-        alone[1:] &= ~same
-        alone[:-1] &= ~same
+        key, counts = np.unique(self._edges[0], return_counts=True)
+        alone = key[counts == 1]
         boundary = np.zeros(self.n, dtype=np.bool_)
-        boundary[key[alone] >> 32] = True
-        boundary[key[alone] & 0xFFFFFFFF] = True
+        boundary[alone >> 32] = boundary[alone & 0xFFFFFFFF] = True
         return boundary
 
     @cached_property
@@ -94,21 +90,16 @@ def without_first(rows: Rows) -> Rows:
     return Rows(rows.starts - np.arange(len(rows.starts)), rows.members[kept])
 
 
-def reach(points: Positions, adjacent: Rows, radius: float) -> Rows:
-    """Points that are reached from each point over adjacent ones, all of them within a radius of it."""
-    count = len(points)
-    starts, seen, reached = np.zeros(count + 1, np.int64), np.full(count, -1, np.int32), np.empty(33 * count, np.int32)
-    done = 0
-    while (done := _kernels.reach(points, *adjacent, radius, done, seen, starts, reached)) < count:
-        # A row has at most as many members as there are points; with room for one, the kernel goes on.
-        reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
-    return Rows(starts, reached[: starts[count]].copy())
-
-
 def surroundings(positions: Positions, topology: Topology, radius: float) -> Rows:
     """Faces that are reached from each face, within a radius in mean distances of adjacent centroids."""
-    centroids = face_geometry(positions, topology.faces).centroids
-    return reach(centroids, topology.patches, radius * mean_centroid_distance(centroids, topology.pairs))
+    points = face_geometry(positions, topology.faces).centroids
+    radius, count = radius * mean_centroid_distance(points, topology.pairs), len(points)
+    starts, seen, reached = np.zeros(count + 1, np.int64), np.full(count, -1, np.int32), np.empty(33 * count, np.int32)
+    done = 0
+    while (done := _kernels.reach(points, *topology.patches, radius, done, seen, starts, reached)) < count:
+        # A row has at most as many members as there are faces; with room for one, the kernel goes on.
+        reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
+    return Rows(starts, reached[: starts[count]].copy())
 
 
 class FaceGeometry(NamedTuple):

@@ -21,7 +21,7 @@ WEIGHTS = Path(__file__).with_name("weights.npz")
 class Network:
     mean: Singles
     scale: Singles
-    layers: tuple[tuple[Singles, Singles], ...]
+    layers: tuple[tuple[Singles, ...], ...]
 
     def __call__(self, numbers: Singles) -> Singles:
         values = np.zeros((-(-len(numbers) // TOGETHER), TOGETHER, NUMBERS), np.float32)
@@ -39,12 +39,9 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
     """The networks of a file, the one for the first pass first."""
     networks: list[Network] = []
     with np.load(path) as arrays:
-        while f"mean{len(networks)}" in arrays:
-            stage = len(networks)
-            layers: list[tuple[Singles, Singles]] = []
-            while f"matrix{stage}.{len(layers)}" in arrays:
-                key = f"{stage}.{len(layers)}"
-                layers.append((arrays[f"matrix{key}"].astype(np.float32), arrays[f"shift{key}"].astype(np.float32)))
+        while f"mean{(stage := len(networks))}" in arrays:
+            keys = [f"{stage}.{layer}" for layer in range(sum(key.startswith(f"matrix{stage}.") for key in arrays))]
+            layers = (tuple(arrays[part + key].astype(np.float32) for part in ("matrix", "shift")) for key in keys)
             networks.append(Network(arrays[f"mean{stage}"], arrays[f"scale{stage}"], tuple(layers)))
     if not networks or any(len(network.mean) != NUMBERS for network in networks):
         raise ValueError(f"{path}: made for other numbers of faces; train it again: python -m tools.train_denoiser")

@@ -1,6 +1,7 @@
 """The inputs of a small network for a face: the surface around it, in the frame of the face."""
 
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 import numpy.typing as npt
@@ -17,8 +18,9 @@ RADIUS = 4.0  # of the surroundings, in mean distances of adjacent centroids
 RANGES, SCALES, SECTORS, RINGS = 4, 2, 8, 2
 FILTERED = SCALES * (2 * RANGES + 1)
 OWN = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + SCALES * (2 * RANGES + 1) + 1  # numbers that the kernel gives
-REPEATED = ((0.3, 3), (0.3, 10), (0.5, 3), (0.5, 10))  # sigma_r and iterations of the repeated filters
-NUMBERS = OWN + 3 * len(REPEATED) + 1
+WIDTHS, TIMES = (0.3, 0.5), (3, 10)  # sigma_r of the repeated filters, and after how many iterations they are seen
+REPEATED = len(WIDTHS) * len(TIMES)
+NUMBERS = OWN + 3 * REPEATED + 1
 """The last one is the same for the whole mesh: how much normals of noisy faces differ from the smoothed ones."""
 BASE = slice(45, 48)  # the filtered normal to which a network adds: guided by patches, both kernels wide
 BATCH = 1024  # faces whose numbers pass the layers together: the output of a layer for a batch stays in the cache
@@ -55,15 +57,13 @@ def descriptions(
 
 
 def _repeated(geometry: FaceGeometry, near: Rows, distance: float) -> Iterator[Floats]:
-    """Filter the normals, shape (m, 3), by each setting of `REPEATED`; equal widths go on where the last one ended."""
-    normals, width, done = geometry.normals, 0.0, 0
-    for sigma_r, iterations in REPEATED:
-        if sigma_r != width:
-            normals, width, done = geometry.normals, sigma_r, 0
-        for _ in range(iterations - done):
+    """Filter the normals, shape (m, 3), again and again."""
+    for sigma_r in WIDTHS:
+        normals = geometry.normals
+        for time in range(1, TIMES[-1] + 1):
             normals = filter_normals(geometry._replace(normals=normals), normals, near, distance, sigma_r)
-        done = iterations
-        yield normals
+            if time in TIMES:
+                yield normals
 
 
 def mirrored(x: bool, y: bool) -> tuple[npt.NDArray[np.int64], Singles]:
@@ -71,18 +71,13 @@ def mirrored(x: bool, y: bool) -> tuple[npt.NDArray[np.int64], Singles]:
     order = np.arange(NUMBERS)
     signs = np.ones(NUMBERS, dtype=np.float32)
     flip = np.array([-1.0 if x else 1.0, -1.0 if y else 1.0, 1.0], dtype=np.float32)
-    vectors = [3 * k for k in range(1 + FILTERED)] + [OWN + 3 * k for k in range(len(REPEATED))]
+    vectors = [3 * k for k in range(1 + FILTERED)] + [OWN + 3 * k for k in range(REPEATED)]
     circles = 3 * (1 + FILTERED)
-    for ring in range(RINGS):
-        for sector in range(SECTORS):
-            turned = sector
-            if x:
-                turned = (SECTORS // 2 - turned) % SECTORS
-            if y:
-                turned = -turned % SECTORS
-            place = circles + 4 * (ring * SECTORS + sector)
-            order[place : place + 4] = circles + 4 * (ring * SECTORS + turned) + np.arange(4)
-            vectors.append(place)
+    for ring, sector in product(range(RINGS), range(SECTORS)):
+        turned = SECTORS // 2 - sector if x else sector
+        place = circles + 4 * (ring * SECTORS + sector)
+        order[place : place + 4] = circles + 4 * (ring * SECTORS + (-turned if y else turned) % SECTORS) + np.arange(4)
+        vectors.append(place)
     for place in vectors:
         signs[place : place + 3] = flip
     return order, signs

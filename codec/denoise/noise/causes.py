@@ -22,7 +22,6 @@ NEAR = 0.02  # distance from a multiple, in steps, that the precision of files e
 SAME = 1e-6  # values closer together, as a share of the extent, are one value
 SPREADS = 3  # averagings that part vertices that rounding has merged
 
-
 FEW_VALUES = 4  # of a coordinate that lies on half-cells, or of a depth in steps
 SLANTED_EXACT, PEAKS = 0.5, 0.006
 """Of pure steps: the largest share of straight places on slopes, which shapes drawn on a grid have, and of peaks, which

@@ -16,10 +16,9 @@ from scipy.sparse import linalg
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
+from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe, grouped_quantiles
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.surface import Floats, Mask, face_geometry
-from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import mean_edge_length
 
 CLEAR = 0.7
@@ -116,15 +115,8 @@ def _distances(positions: Positions, probe: Probe) -> tuple[Floats, Floats]:
     starts, members = probe.topology.neighbors
     sizes = np.diff(starts)
     owners = np.repeat(np.arange(len(positions)), sizes)
-    halves = np.maximum(sizes - 1, 0) // 2, sizes // 2
-
-    def medians(values: Floats) -> Floats:
-        ordered = values[np.lexsort((values, owners))]
-        first, last = (np.minimum(starts[:-1] + half, len(values) - 1) for half in halves)
-        return np.asarray(0.5 * (ordered[first] + ordered[last]))
-
-    middle = np.stack([medians(column) for column in positions[members].T], axis=1)
-    spread = medians(np.linalg.norm(positions[members] - middle[owners], axis=1))
+    middle = np.stack([grouped_quantiles(column, owners, sizes, 0.5) for column in positions[members].T], axis=1)
+    spread = grouped_quantiles(np.linalg.norm(positions[members] - middle[owners], axis=1), owners, sizes, 0.5)
     height = np.einsum("ij,ij->i", positions - middle, probe.smooth_normals(middle, passes=1))
     off = np.linalg.norm(positions - middle, axis=1)
     scale = np.where(probe.counted, np.maximum(spread, 1e-12 * off + 1e-300), np.inf)
@@ -139,8 +131,6 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
     energy = np.maximum(np.asarray(operator.multiply(operator).sum(axis=0)).ravel(), 1e-12)
     support = (operator != 0).astype(np.float64).T.tocsr()
     transposed = operator.T.tocsr()
-    neighbors = probe.topology.neighbors
-
     rest, amounts = seen.copy(), np.zeros(len(positions))
     most = np.inf
     for share in (CLEAR, *LESS_CLEAR):
@@ -159,7 +149,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
         for _ in range(ROUNDS):
             fit = (transposed @ rest) / energy
             explained = np.where(probe.counted, fit**2 * energy, 0.0)
-            best = _largest_nearby(_largest_nearby(explained, neighbors), neighbors)
+            best = support.multiply(explained).max(axis=1).toarray().ravel()
             found = (explained > 0.0) & (explained >= best) & (explained >= share * (support @ rest**2))
             found &= (np.abs(fit) > least) & (np.abs(fit) < most)
             if not found.any():
@@ -175,13 +165,3 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
     change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
     amounts[vertices] += change
     return Outliers(vertices, edge * amounts[vertices, None] * normals[vertices])
-
-
-def _largest_nearby(values: Floats, neighbors: Rows) -> Floats:
-    """The largest of each vertex's value and those of its neighbors."""
-    filled = np.diff(neighbors.starts) > 0
-    largest = values.copy()
-    if filled.any():
-        around = np.maximum.reduceat(values[neighbors.members], neighbors.starts[:-1][filled])
-        largest[filled] = np.maximum(values[filled], around)
-    return largest

@@ -6,7 +6,7 @@ each vertex by the norm of its row makes white noise of standard deviation s com
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,15 @@ angle, twice 31 %, nearly all of it on one of four meshes."""
 FEWEST_IN_WINDOW = 20  # vertices of a window that say anything
 
 
+def grouped_quantiles(values: Floats, groups: npt.NDArray[Any], sizes: npt.NDArray[Any], share: float) -> Floats:
+    """Interpolated quantiles of the values of each group; any number for an empty one."""
+    ordered = np.append(values[np.lexsort((values, groups))], 0.0)
+    place = share * np.maximum(sizes - 1, 0)
+    below = np.floor(place).astype(np.int64)
+    first, rest = np.cumsum(sizes) - sizes + below, place - below
+    return np.asarray((1.0 - rest) * ordered[first] + rest * ordered[np.minimum(first + 1, len(values))])
+
+
 class Windows:
     """Disjoint connected pieces of about `WINDOW` vertices."""
 
@@ -33,7 +42,6 @@ class Windows:
         self._members = np.flatnonzero(counted)
         self._windows = labels[self._members]
         self._sizes = np.bincount(self._windows, minlength=self.count)
-        self._starts = np.concatenate([[0], np.cumsum(self._sizes)])
         self.valid: Mask = self._sizes >= FEWEST_IN_WINDOW
         self.usual_size = float(self._sizes[self.valid].mean()) if self.valid.any() else 0.0
 
@@ -46,16 +54,8 @@ class Windows:
 
     def quantiles(self, values: Floats, share: float) -> Floats:
         """Interpolated quantiles of the counted vertices of each window, shape (count,); NaN where it is not valid."""
-        chosen = values[self._members]
-        ordered = chosen[np.lexsort((chosen, self._windows))]
-        place = share * (self._sizes[self.valid] - 1)
-        below = np.floor(place).astype(np.int64)
-        first = self._starts[:-1][self.valid] + below
-        last = np.minimum(first + 1, self._starts[1:][self.valid] - 1)
-        rest = place - below
-        result = np.full(self.count, np.nan)
-        result[self.valid] = (1.0 - rest) * ordered[first] + rest * ordered[last]
-        return result
+        quantiles = grouped_quantiles(values[self._members], self._windows, self._sizes, share)
+        return np.where(self.valid, quantiles, np.nan)
 
     def means(self, values: Floats) -> Floats:
         """Mean over the counted vertices of each window, shape (count, ...); NaN where a window is not valid."""
@@ -100,17 +100,11 @@ class Probe:
         return operator, np.sqrt(np.asarray(operator.multiply(operator).sum(axis=1)).ravel())
 
     @cached_property
-    def _broad_gain(self) -> Floats:
-        return self._gain(self._band)
-
-    @cached_property
-    def _finest_gain(self) -> Floats:
-        return self._gain(self._repeated)
-
-    def _gain(self, filtered: Callable[[Floats], Floats]) -> Floats:
+    def _gains(self) -> Floats:
+        """Strength of white noise after the finest and the broad filter, shape (2, n)."""
         signs = np.random.default_rng(0).choice(np.array([-1.0, 1.0]), (self.topology.n, GAIN_PROBES))
-        gain = np.sqrt(np.square(filtered(signs)).mean(axis=1))
-        return np.asarray(np.where(gain > 0.0, gain, np.inf))
+        gains = np.sqrt([np.square(filtered(signs)).mean(axis=1) for filtered in (self._repeated, self._band)])
+        return np.where(gains > 0.0, gains, np.inf)
 
     def fine(self, values: Floats) -> Floats:
         """What two Laplacians leave of `values`, shape (n, d), as standard deviations of white noise."""
@@ -119,11 +113,11 @@ class Probe:
 
     def finest(self, values: Floats) -> Floats:
         """What six Laplacians leave of `values`, shape (n, d), as standard deviations of white noise."""
-        return self._repeated(values) / self._finest_gain[:, None]
+        return self._repeated(values) / self._gains[0, :, None]
 
     def broad(self, values: Floats) -> Floats:
         """What two averagings and two Laplacians leave of `values`, shape (n, d), as `fine` does."""
-        return self._band(values) / self._broad_gain[:, None]
+        return self._band(values) / self._gains[1, :, None]
 
     def _band(self, values: Floats) -> Floats:
         operator = self.fine_operator[0]

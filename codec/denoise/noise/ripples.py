@@ -127,13 +127,9 @@ class _Fit:
 
     def step(self) -> None:
         """Move heights, phases and wave vectors to where the filter sees less."""
-        phases = self._places @ self.vectors.T
-        even, odd = np.cos(phases), np.sin(phases)
-        basis = np.concatenate([even, odd], axis=1)
-        filtered = self._probe.fine(basis)
-        heights = self._solved(filtered, self.seen)
-        a, b = heights.reshape(2, -1)
-        slopes = ((b * even - a * odd)[:, :, None] * self._places[:, None, :]).reshape(len(phases), -1)
+        basis, filtered, heights = self._fitted()
+        (even, odd), (a, b) = np.hsplit(basis, 2), heights.reshape(2, -1)
+        slopes = ((b * even - a * odd)[:, :, None] * self._places[:, None, :]).reshape(len(basis), -1)
         change = self._solved(
             np.concatenate([filtered, self._probe.fine(slopes)], axis=1), self.seen - filtered @ heights
         )
@@ -141,12 +137,16 @@ class _Fit:
         most = 2.0 * np.pi / float(np.ptp(self.given, axis=0).max())
         turned *= np.minimum(1.0, most / np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-12))
         self.vectors = self.vectors + turned
+        basis, filtered, heights = self._fitted()
+        self.amounts = basis @ heights
+        self._weigh(filtered @ heights)
+
+    def _fitted(self) -> tuple[Floats, Floats, Floats]:
+        """Even and odd waves, as they are and filtered, and their heights."""
         phases = self._places @ self.vectors.T
         basis = np.concatenate([np.cos(phases), np.sin(phases)], axis=1)
         filtered = self._probe.fine(basis)
-        heights = self._solved(filtered, self.seen)
-        self.amounts = basis @ heights
-        self._weigh(filtered @ heights)
+        return basis, filtered, self._solved(filtered, self.seen)
 
     def _solved(self, columns: Floats, values: Floats) -> Floats:
         weighted = columns * self._trust[:, None]
