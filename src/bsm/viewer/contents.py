@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.api import encode, encode_sequence
+from bsm.api import decode_sequence, encode, encode_sequence
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -34,7 +34,7 @@ from bsm.files.pipes import Input, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
 from bsm.libraries import without_provenance
-from bsm.options import encode_options
+from bsm.options import encode_options, sequence_options
 from bsm.simplification import encode_source
 
 DRACO_LEVEL = 10
@@ -217,6 +217,8 @@ def made(
     name: str, size: int | None, given: MeshFile | Frames, preset: str, report: Callable[[str, float], None]
 ) -> Content:
     """Encode a file and compare it; call `report` with each stage and the fraction done."""
+    from bsm.codec.sequence.encoder import SequenceEncoder
+
     report("encoding", 0.0)
     begin = time.perf_counter()
     source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
@@ -229,8 +231,10 @@ def made(
         frames = np.array(list(source.frames))
         source = replace(source, frames=iter(frames))
         kept = {**source.metadata, **({"frame_rate": source.frame_rate} if source.frame_rate else {})}
-        carried = source.attributes
-        stream = encode_sequence(frames, source.faces, metadata=kept, mesh_attributes=carried, preset=preset)
+        chosen = sequence_options(preset=preset)
+        encoder = SequenceEncoder(source.faces, chosen, len(frames), kept, source.attributes)
+        stream = b"".join(encoder.chunks(iter(frames), Progress("")))
+        notes += encoder.losses
     seconds = time.perf_counter() - begin
     report("comparing", _ENCODING)
     content = compared(name, stream, source, size=size, preset=preset)
@@ -252,9 +256,8 @@ class Given:
         header, chunks = peek_header(iter([self.source]))
         if not header or not header.gop_frames:
             return self.source, decode_whole(chunks, limits)
-        decoder = SequenceStream(chunks, limits=limits)
-        moving = [frame for _, frame in decoder.frames()]
-        return self.source, Frames(decoder.faces, len(moving), iter(moving))
+        positions, faces = decode_sequence(self.source, limits=limits)
+        return self.source, Frames(faces, len(positions), iter(positions))
 
 
 def given_at(path: str) -> Given:
