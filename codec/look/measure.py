@@ -125,7 +125,7 @@ class LookMetric:
         own = own_normals(mesh)
         self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
         self._known: dict[bytes, Look] = {}
-        self._turned: dict[bytes, float] = {}
+        self._turned: dict[bytes, tuple[float, float]] = {}
 
     def look(self, positions: Positions) -> Look:
         """How these positions, shape (n, 3), look on the faces of the original; with its own normals, too."""
@@ -170,9 +170,9 @@ class LookMetric:
 
         return self._once(seen, positions, own)
 
-    def shaded(self, positions: Positions, normals: Normals) -> float:
-        """The distance of positions, shape (n, 3), with normals of corners, from pictures of the original's own; or by
-        how much they are turned from these, where that is more: gloss shows what no picture here does."""
+    def shaded(self, positions: Positions, normals: Normals) -> tuple[float, float]:
+        """The distance of positions, shape (n, 3), with normals of corners, from pictures of the original's own; and by
+        how much they are turned from these: gloss shows what no picture here does."""
         assert self._own is not None
         pictures, own = self._own
 
@@ -188,7 +188,7 @@ class LookMetric:
         key = key_of(positions, normals)
         if key not in self._turned:
             sums, angles = zip(*self._each(seen, self._sides), strict=True)
-            self._turned[key] = max(summed(np.array(sums)).distance, max(angles) / TURNED)
+            self._turned[key] = summed(np.array(sums)).distance, max(angles) / TURNED
         return self._turned[key]
 
     def _once(self, measure: Callable[[], Look], *of: Matrix | Normals) -> Look:
@@ -361,10 +361,13 @@ def summed(sums: Matrix) -> Look:
 
 def own_normals(mesh: TriangleMesh) -> Normals | None:
     """Normals of corners that the mesh has as an attribute, of length 1, shape (m, 9); None: it has none."""
-    for attribute in mesh.attributes:
-        if attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face":
-            return of_length_1(at_corners(attribute, mesh.faces))
-    return None
+    found = next(filter(shades, mesh.attributes), None)
+    return None if found is None else of_length_1(at_corners(found, mesh.faces))
+
+
+def shades(attribute: Attribute) -> bool:
+    """Whether an attribute is normals of corners."""
+    return attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face"
 
 
 def of_length_1(normals: npt.NDArray[Any]) -> Normals:

@@ -28,7 +28,7 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, Kept, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Frame, JoinedRun, Run, RunSplitter, joined_runs, kind_of
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
-from bsm.codec.sequence.verification import ExpectedFrame, SequenceVerifier
+from bsm.codec.sequence.verification import ExpectedFrame, Measured, SequenceVerifier
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.encoder import PROMISED_SIZES
@@ -48,6 +48,8 @@ class SequenceAttempt:
     chunks: tuple[bytes, ...]
     samples: int
     comparison: SequenceComparison
+    verifier: SequenceVerifier
+    drawn: float
 
     @property
     def bpvf(self) -> float:
@@ -176,24 +178,26 @@ class SequenceEncoder:
             deque(run.frames, maxlen=0)
         finest = finest_step([_positions(frame) for frame in found], self.options)
         first, rise = self.options.step, RISES.get(target.kind, 1.0)
-        return search_step(lambda step: self.attempt(found, step, progress), target, first, finest, rise)
+        best = search_step(lambda step: self.attempt(found, step, progress), target, first, finest, rise)
+        self._verifier, self._drawn = best.verifier, best.drawn
+        return best
 
     def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and compare the decoded ones."""
-        shown: list[Positions] = []
+        shown: list[Measured] = []
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, shown))
         if len(self.run_starts) > 1:
             raise MeshError(f"joined vertices part at frame {self.run_starts[1]}: a target is for frames of one run")
-        decoded = np.array(shown)
-        original = np.array([_positions(frame)[self.vertex_order] for frame in frames])
-        return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, self._verifier.faces))
+        original, decoded = (np.array([frame[side] for frame in shown]) for side in (0, 1))
+        compared = compare_sequences(original, decoded, shown[0][2])
+        return SequenceAttempt(chunks, self.samples, compared, self._verifier, self._drawn)
 
     def _chunks(
         self,
         frames: Iterable[Frame],
         options: SequenceOptions,
         progress: Progress | None,
-        shown: list[Positions] | None = None,
+        shown: list[Measured] | None = None,
     ) -> Iterator[bytes]:
         steps: Progress = silent
         self._verifier = verifier = SequenceVerifier(options, self._metadata, shown)

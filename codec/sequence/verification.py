@@ -4,6 +4,7 @@ import math
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.step_search import look_of_frame, shading_error
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.verification import Original, require, require_attributes, require_positions
+
+Measured: TypeAlias = tuple[Positions, Positions, Faces]
 
 ROUNDING = 1e-6
 """By how much a distance or a look may exceed its bound, relatively: it was measured in other units."""
@@ -35,10 +38,10 @@ class ExpectedFrame:
 class SequenceVerifier:
     """Decodes a sequence chunk by chunk, compares each frame, and measures the promise of the options.
 
-    `shown` collects the decoded positions.
+    `shown` collects original and decoded positions, with their faces.
     """
 
-    def __init__(self, options: SequenceOptions, metadata: Metadata, shown: list[Positions] | None = None) -> None:
+    def __init__(self, options: SequenceOptions, metadata: Metadata, shown: list[Measured] | None = None) -> None:
         self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)
         self._promise, self._metadata, self._shown = options.promise, metadata, shown
         self._meshes: deque[tuple[Original, tuple[PreparedAttribute, ...]]] = deque()
@@ -111,20 +114,20 @@ class SequenceVerifier:
             decoded = np.asarray(frame.attributes[each.number].values, np.float64)
             off = each.bound.between(decoded, each.values[self._matched].astype(np.float64))
             require(off <= 1.0, f"a decoded attribute that moves is {off:.3g} times as far off as it may be")
-        if self._shown is not None:
-            self._shown.append(frame.positions)
 
     def _measure(self, frame: FrameEvent, expected: ExpectedFrame) -> None:
         """Add up errors, and require that no vertex is farther off than was promised."""
-        units = self._original.prepared.units
-        original = units.back(expected.original)[self._matched]
-        apart = np.square(frame.positions - original).sum(axis=1)
+        units, faces = self._original.prepared.units, self._original.prepared.mesh.faces
+        original, decoded = units.back(expected.original), expected.positions  # which are the decoder's, each once
+        apart = np.square(decoded - original).sum(axis=1)
+        if self._shown is not None:
+            self._shown.append((original, decoded, faces))
         self._wrong += float(apart.sum())
         self._extent += float(np.square(original - original.mean(axis=0)).sum())
         if self._promise is not None:
             far, most = math.sqrt(float(apart.max())), self._promise.reach(units.scale, 1.0)
             rounding = ROUNDING * most + 8.0 * float(np.finfo(np.float64).eps * np.abs(original).max())
-            require(far <= most + rounding, f"vertex {apart.argmax()} of frame {frame.index} is off by {far:.4g}")
-        error = shading_error(original, frame.positions, frame.faces)
+            require(far <= most + rounding, f"a vertex of frame {frame.index} is off by {far:.4g}")
+        error = shading_error(original, decoded, faces)
         if self._worst is None or error > self._worst[0]:
-            self._worst = error, original, frame.positions, frame.faces
+            self._worst = error, original, decoded, faces

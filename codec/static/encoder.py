@@ -15,7 +15,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Comparison, Reference
+from bsm.codec.geometry.metrics import Comparison, Reference, decibel
 from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.attributes import Input, smallest
@@ -102,7 +102,8 @@ class Encoder:
         self.binding = ""
         self._unseen = ""
         promise, unit = self.options.promise, mesh.metadata.get("unit")
-        self._doubt = "" if promise is None else promise.doubt(mesh.diagonal, unit if isinstance(unit, str) else "")
+        size = mesh.without_isolated_vertices()[0].diagonal
+        self._doubt = "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -273,7 +274,8 @@ class Encoder:
     def _compared(self, draft: Draft) -> Comparison:
         units = self._input.prepared.units
         found = self._reference.compare(units.into(draft.decoded))
-        return replace(found, rms=found.rms * units.scale, max_error=found.max_error * units.scale)
+        lengths = {"rms": found.rms * units.scale, "max_error": found.max_error * units.scale}
+        return replace(found, **lengths, nmsve_paper_db=decibel(found.nmsve * self._reference.scale * units.scale))
 
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""

@@ -17,7 +17,7 @@ from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, compare, flat_faces
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.codec.static.preamble_encoding import join
+from bsm.codec.static.preamble_encoding import join, joined
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
@@ -108,9 +108,21 @@ def paired_frames(
     """The vertices that faces use in frames, shape (T, n, 3), the same ones of decoded frames, and their faces."""
     whole = TriangleMesh(original[0], faces), TriangleMesh(decoded[0], others)
     (mesh, kept), (other, other_kept) = (side.without_isolated_vertices() for side in whole)
-    rows = numbering(mesh, other, None if order is None else order_of_used(order, *whole))
     before = original[:, kept]
+    index = group_rows(np.concatenate(before, axis=1))
+    apart = TriangleMesh(np.column_stack([index] * 3), mesh.faces)  # where vertices that part have two places
+    rows = numbering(apart, other, None if order is None else order_of_used(order, *whole))
     return before, np.where(rows[:, None] < 0, before, decoded[:, other_kept[rows]]), mesh.faces
+
+
+def one_each(before: Positions, after: Positions, faces: Faces, kept: int) -> tuple[Order, Faces]:
+    """One vertex for each place, if those at one in frames, shape (T, n, 3), are at one in decoded frames, too; and the
+    faces of these, of which decoders have `kept`: so encoders measure."""
+    mesh, index = TriangleMesh(before[0], faces), group_rows(np.concatenate(before, axis=1))
+    whole = joined(mesh, index, keep=len(faces) == kept)
+    copies = whole.index >= 0
+    alike = (after[:, whole.first][:, whole.index[copies]] == after[:, copies]).all()
+    return (whole.first, whole.mesh.faces) if alike else (np.arange(len(index)), faces)
 
 
 def paired_corners(original: TriangleMesh, other: TriangleMesh, rows: Order) -> tuple[Order, Order]:
@@ -176,12 +188,12 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     """Find which vertices of meshes, all of whose vertices are in faces, are the same; if need be `by_place`."""
     attributed = bool(original.attributes)
     kept = [np.arange(len(mesh.faces)) for mesh in (original, decoded)]
-    joined = order is None
+    merged = order is None
     with suppress(MeshError):  # they may have the same vertices, in an order that is known
-        if joined and len(original.positions) == len(decoded.positions):
+        if merged and len(original.positions) == len(decoded.positions):
             numbering(original, decoded)
-            joined = False
-    if joined:
+            merged = False
+    if merged:
         # An encoder makes vertices at one position one, and a file may need them split.
         whole = join(original, keep=False)
         original, kept[0] = whole.mesh, whole.kept
@@ -191,7 +203,7 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             else:
                 whole = join(decoded, keep=False)
                 decoded, kept[1] = whole.mesh, whole.kept
-    if by_place and joined and len(original.positions) == len(decoded.positions):
+    if by_place and merged and len(original.positions) == len(decoded.positions):
         from scipy.spatial import cKDTree
 
         nearest = cKDTree(original.positions).query(decoded.positions)[1]
@@ -200,7 +212,11 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     none = np.empty(0, np.int64)
     pairs = paired_corners(original, decoded, rows) if attributed else (none, none)
     corners, others = (3 * given[found // 3] + found % 3 for given, found in zip(kept, pairs, strict=True))
-    return Pair(original, placed(original, decoded, rows), corners, others, joined)
+    positions = placed(original, decoded, rows)
+    first, corners_of = one_each(original.positions[None], positions[None], original.faces, len(decoded.faces))
+    if len(first) < len(positions):
+        original, positions, merged = TriangleMesh(original.positions[first], corners_of), positions[first], True
+    return Pair(original, positions, corners, others, merged)
 
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:

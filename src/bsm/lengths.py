@@ -64,7 +64,7 @@ def in_own_unit(
     OptionError
         If a length is a number without a unit that may not be a share of the diagonal, or the mesh has no unit.
     """
-    value, own = options.get("max_error"), unit_of(metadata)
+    value, own, mesh = options.get("max_error"), unit_of(metadata), mesh and mesh.without_isolated_vertices()[0]
     number, unit = (0.0, "") if value is None else _parts("max_error", value)
     if unit == "" and number >= DOUBTFUL:
         here = f", {number * mesh.diagonal:.3g} {own}".rstrip() + " here" if mesh else ""

@@ -37,11 +37,11 @@ ENOUGH = 1.2  # times the triangles that were asked for, above which simplifying
 
 @dataclass(frozen=True, eq=False)
 class Encoded:
-    """The chosen stream; how many triangles the original had, and how far the surfaces are apart, if it has fewer."""
+    """The chosen stream; the original, and how far the surfaces are apart, if it has fewer triangles."""
 
     encoder: Encoder
     attempt: Attempt
-    before: int
+    original: TriangleMesh
     apart: float | None = None
     notes: tuple[str, ...] = ()  # about the original
 
@@ -50,11 +50,11 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
     """Encode a mesh; to `simplify`, also with fewer and fewer triangles: the smallest stream that keeps the promise."""
     if not simplify:
         encoder = Encoder(mesh, options)
-        return Encoded(encoder, encoder.result(progress), len(mesh.faces))
+        return Encoded(encoder, encoder.result(progress), mesh)
     source = Source(mesh, options)
     with progress.part("encoding all triangles", 0.3):
         encoder = Encoder(mesh, options)
-        best = Encoded(encoder, encoder.result(progress), len(source.whole.faces))
+        best = Encoded(encoder, encoder.result(progress), source.whole)
     for times in TIMES if not degenerate(source.whole.faces).all() else ():
         with progress.part(f"encoding 1 of {times} triangles", 0.5):
             found = source.encoded(len(source.whole.faces) // times, progress)
@@ -157,7 +157,7 @@ class Source:
                 continue
             if best is None or attempt.size < best.attempt.size:
                 encoder.look = seen * promise.look if self._looks else None
-                best = Encoded(encoder, attempt, len(self.whole.faces), apart, self._input.joined.notes)
+                best = Encoded(encoder, attempt, self.whole, apart, self._input.joined.notes)
             if seen >= CLOSE or not self._looks:
                 break
         return best

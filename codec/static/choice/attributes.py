@@ -16,7 +16,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
-from bsm.codec.look.measure import AttributeLook, has_look, own_normals
+from bsm.codec.look.measure import AttributeLook, has_look, own_normals, shades
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import Place, PreparedAttribute, carry, cheaper, place_of, with_attributes
@@ -78,8 +78,7 @@ class Input:
     @cached_property
     def normals(self) -> Normals | None:
         """Normals that the mesh is sent with, of its corners in the order of coding, shape (m, 9)."""
-        sent = any(attribute.semantic == "normal" for attribute, _ in self.wanted)
-        own = own_normals(self.given) if sent else None
+        own = None if self.shown_normals is None else own_normals(self.given)
         if own is None:
             return None
         corners = self._place.of_corners(np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3))
@@ -100,31 +99,37 @@ class Input:
         return sum(sum(map(len, a.plain)) - sum(map(len, cheaper(a, candidate.draft.places)[1])) for a in self.carried)
 
     @cached_property
+    def shown_normals(self) -> int | None:
+        """The number of the sent normals that pictures show."""
+        return next((at for at, (attribute, _) in enumerate(self.wanted) if shades(attribute)), None)
+
+    @cached_property
     def free_normals(self) -> int | None:
         """The number of the normals without a requested quality, which the look may choose."""
         options = self.options
-        if options.normals != "look" or "*" in dict(options.attributes) or self.normals is None:
+        first = self.shown_normals
+        if options.normals != "look" or "*" in dict(options.attributes) or first is None or self.normals is None:
             return None
-        first = next(at for at, (attribute, _) in enumerate(self.wanted) if attribute.semantic == "normal")
         attribute, quality = self.wanted[first]
         asked = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
-        return None if asked or attribute.domain == "face" or quality.way != "bits" else first
+        return None if asked or quality.way != "bits" else first
 
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, decoded = Bounds(self.measures, contract), draft.decoded
         positions = self.prepared.units.into(decoded)
-        metric, free = bounds.metric, self.free_normals
+        metric = bounds.metric
         if metric is None:
             return "" if bounds.keeps(positions) else bounds.had, None, bounds.binding(positions)
-        if free is None:
-            seen = [metric.distance(decoded)]
-        else:
-            normals = self.carried[free].normals(decoded)
-            seen = [metric.bare(decoded).distance, metric.shaded(decoded, normals)]
-        seen += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
-        binding = bounds.binding(positions, max(seen))
-        return "" if bounds.keeps(positions, max(seen)) else bounds.had, max(seen), binding
+        shown = [metric.bare(decoded).distance]
+        shown += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
+        bound = max(*shown, metric.distance(decoded))  # whatever quality was asked for normals
+        if (sent := self.shown_normals) is not None:
+            shaded = metric.shaded(decoded, self.carried[sent].normals(decoded))
+            bound = bound if self.free_normals is None else max(*shown, *shaded)
+            shown.append(shaded[0])
+        binding = bounds.binding(positions, bound)
+        return "" if bounds.keeps(positions, bound) else bounds.had, max(shown), binding
 
 
 def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
@@ -202,7 +207,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     decoded, asked = bare.decoded, contract.look
 
     def seen(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
-        return metric.shaded(positions, carried[free].normals(positions)) / asked
+        return max(metric.shaded(positions, carried[free].normals(positions))) / asked
 
     finer = [*(Quality("bits", bits) for bits in range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)), Quality("exact")]
 

@@ -20,7 +20,7 @@ from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, adder, limits_of
-from bsm.comparison import Pair, compare_meshes, order_of_used, pair, paired_frames, read_permutation
+from bsm.comparison import Pair, compare_meshes, one_each, order_of_used, pair, paired_frames, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.exits import exit_of, worded
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
@@ -366,7 +366,11 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     if args.permutation and len(original) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
     order = read_permutation(args.permutation) if args.permutation else None
-    runs = [paired_frames(*first, *second, order) for first, second in zip(original, decoded, strict=True)]
+    runs = []
+    for first, second in zip(original, decoded, strict=True):
+        before, after, faces = paired_frames(*first, *second, order)
+        kept, faces = one_each(before, after, faces, len(second[1]))
+        runs.append((before[:, kept], after[:, kept], faces))
     compared, of_frames = compare_runs(runs)
     result = asdict(compared)
     if args.look:

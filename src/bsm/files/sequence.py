@@ -53,14 +53,7 @@ ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-SEQUENCES_READ = (
-    "npz",
-    "npy",
-    *CACHES,
-    *GLTF,
-    *USD_FORMATS,
-    *LISTS,
-)  # forms of a whole sequence in one file that are read
+SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS, *LISTS)  # forms of a whole sequence in one file
 
 
 def open_sequence(

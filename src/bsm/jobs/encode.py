@@ -115,7 +115,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         *([f"no look is promised; measured: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
     vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
-    errors, numbers = _errors(found, job.simplify, mesh.diagonal or 1.0, *asked_unit(job.options, mesh.metadata))
+    errors, numbers = _errors(found, job.simplify, *asked_unit(job.options, mesh.metadata))
     taken, bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
@@ -136,18 +136,20 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     return {"input": job.input, "output": None if job.dry_run else job.output, **counts, **sizes, **numbers, **ends}
 
 
-def _errors(found: Encoded, simplify: bool, diagonal: float, unit: str, per_own: float) -> tuple[str, Facts]:
+def _errors(found: Encoded, simplify: bool, unit: str, per_own: float) -> tuple[str, Facts]:
     """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
     apart, error = found.apart, found.attempt.comparison
-    relative = error.max_error_relative if apart is None else apart / diagonal
-    share, value = f"{100 * relative:.3g} % of the diagonal", relative * diagonal * per_own
+    relative, value = error.max_error_relative, error.max_error * per_own
+    if apart is not None:
+        relative, value = apart / (found.original.diagonal or 1.0), apart * per_own
+    share = f"{100 * relative:.3g} % of the diagonal"
     words = f"{value:.3g} {unit} ({share})" if unit else share
     facts: Facts = dict.fromkeys(("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before"))
     facts |= {"max_error_relative": relative, "error_of": "vertices" if apart is None else "surfaces"}
     facts |= {"max_error": value, "unit": unit} if unit else {}
     if apart is not None:
-        words = f"{found.before} faces before simplifying, surfaces {words} apart where measured"
-        return words, facts | {"faces_before": found.before}
+        facts["faces_before"] = len(found.original.faces)
+        return f"{facts['faces_before']} faces before simplifying, surfaces {words} apart where measured", facts
     facts |= {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
     facts["nmsve_paper_db"] = finite(error.nmsve_paper_db)
     kept = "; all triangles are kept" if simplify else ""

@@ -150,7 +150,7 @@ def test_normals_that_are_turned_do_not_pass_where_pictures_show_little(degrees,
     turned = own + math.tan(math.radians(degrees)) * aside / np.linalg.norm(aside, axis=1, keepdims=True)
     turned /= np.linalg.norm(turned, axis=1, keepdims=True)
     found = looker.shaded(MESH.positions, np.ascontiguousarray(turned.reshape(-1, 9), np.float32))
-    assert (found <= 1.0) == enough
+    assert (max(found) <= 1.0) == enough
     assert not looker.against_faces
 
 

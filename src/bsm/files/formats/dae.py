@@ -11,23 +11,12 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, LimitError, imported
+from bsm.bitstream.errors import BsmError, FormatError, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.conventions import unit_named
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
-from bsm.files.formats.polygons import (
-    BYTES_OF_PART,
-    FREE_PARTS,
-    Array,
-    Column,
-    Part,
-    Polygons,
-    color_column,
-    compact,
-    cut_holes,
-    joined_parts,
-)
+from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
 from bsm.files.room import Doubles, Ints
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
@@ -55,8 +44,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
             document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
             scene = _Scene(collada, beside)
             nodes = document.scene.nodes if document.scene is not None else ()
-            placed = list(_placed(collada, nodes, FREE_PARTS + len(data) // BYTES_OF_PART))
-            surfaces = [surface for node, matrix in placed for surface in scene.surfaces(node, matrix)]
+            surfaces = [one for node, matrix in _placed(collada, nodes) for one in scene.surfaces(node, matrix)]
             shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
             counts = [(len(shape.positions), max(len(shape.corners) - 2 * len(shape.sizes), 0)) for shape in shapes]
             found = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
@@ -101,17 +89,14 @@ def _tag(element: Any) -> str:
     return str(element.tag).rpartition("}")[2]
 
 
-def _placed(collada: Any, nodes: Any, most: int) -> Iterator[tuple[Any, Doubles]]:
+def _placed(collada: Any, nodes: Any) -> Iterator[tuple[Any, Doubles]]:
     """The geometries of nodes and of all nodes below them, each with its matrix."""
-    waiting, count = [(node, np.eye(4)) for node in reversed(nodes)], len(nodes)
+    waiting = [(node, np.eye(4)) for node in reversed(nodes)]
     while waiting:
         node, matrix = waiting.pop()
         if isinstance(node, collada.scene.GeometryNode):
             yield node, matrix
         elif isinstance(node, collada.scene.Node):
-            count += len(node.children)
-            if count > most:
-                raise LimitError(f"this DAE file places over {most:,} parts, the limit for its bytes")
             moved = matrix @ node.matrix
             waiting += [(child, moved) for child in reversed(node.children)]
 

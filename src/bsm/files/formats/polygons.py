@@ -245,7 +245,6 @@ CROSSING = "polygons whose sides cross, so that their triangles overlap"
 _MOST_TURNS = 16  # fans that are tried for a polygon
 _MOST_CORNERS = 1 << 15  # of a polygon whose ears are clipped: that can take the square of it
 PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24  # bytes of a triangle, of one that a polygon is cut into, of a corner
-FREE_PARTS, BYTES_OF_PART = 4096, 8  # placed parts that any file may have, and bytes for each further one
 PER_JOINED, PER_PART = 200, 2000  # bytes that parts take while they are joined: of each triangle of a table, and a part
 
 
@@ -398,7 +397,7 @@ def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limit
             raise MeshError(f"a face of {part.name or 'a part'} refers to a vertex that it does not have")
         parts.append(part)
         kinds |= {(column.name, column.domain) for column in part.columns}
-        limits.check_memory(memory + PER_JOINED * len(kinds) * triangles, vertices, received)
+        limits.check_memory(memory + PER_JOINED * len(kinds) * max(triangles, vertices // 3), vertices, received)
     begin = np.cumsum([0, *(len(part.positions) for part in parts)])
     nothing = np.empty(0, np.int64)
     columns, notes = joined_columns(parts)

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import IO, Any, BinaryIO, TypeAlias
+from typing import Any, BinaryIO, TypeAlias
 
 import numpy as np
 
@@ -247,12 +247,7 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
     return written
 
 
-PER_PART, PER_VALUE = 4000.0, 24.0  # bytes of a mesh or an instance, and of each number of its attributes
 MOST_PRIMS, MOST_NAMED = 1 << 16, 12
-PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
-MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
-_OPENING, _CLOSING = ([ord(bracket) for bracket in brackets] for brackets in ("([{", ")]}"))
-_PIECE = 1 << 18
 
 
 def import_usd() -> Any:
@@ -486,40 +481,10 @@ def _quiet(pxr: Any) -> Iterator[None]:
         trap.Clear()
 
 
-def _require_room(path: str, limits: Limits) -> None:
-    """Look at stages of text before usd-core does, whose stack deep nesting overflows."""
-    if not zipfile.is_zipfile(path):
-        with open(path, "rb") as file:
-            _require_shallow(file, os.path.getsize(path), limits)
-        return
-    with as_format_error("package"), zipfile.ZipFile(path) as package:
-        for entry in package.infolist():
-            if entry.compress_type != zipfile.ZIP_STORED:
-                raise FormatError(f"{entry.filename} in this package is compressed, which usdz does not allow")
-            with package.open(entry) as packed:
-                _require_shallow(packed, os.path.getsize(path), limits)
-
-
-def _require_shallow(file: IO[bytes], received: int, limits: Limits) -> None:
-    if not file.read(5).startswith(b"#usda"):
-        return
-    commas = depth = deepest = 0
-    while piece := file.read(_PIECE):
-        codes = np.frombuffer(piece, np.uint8)
-        commas += int((codes == ord(",")).sum())
-        opened = np.isin(codes, _OPENING).astype(np.int64) - np.isin(codes, _CLOSING)
-        depths = depth + np.cumsum(opened)
-        depth, deepest = int(depths[-1]), max(deepest, int(depths.max()))
-    limits.check_memory(PER_COMMA * commas, 0, received)
-    if deepest > MOST_NESTED:
-        raise LimitError(f"the stage is nested {deepest} deep; the limit is {MOST_NESTED}")
-
-
 class _Stage:
     def __init__(self, path: str, limits: Limits, *, runs: bool = False) -> None:
         self._limits, self._size, self._runs = limits, os.path.getsize(path), runs
         self.pxr = pxr = import_usd()
-        _require_room(path, limits)
         try:
             with _quiet(pxr):
                 self.stage = pxr.Usd.Stage.Open(path)
@@ -538,24 +503,15 @@ class _Stage:
             raise FormatError("this stage has no meshes" + "".join(f"; {note}" for note in self.notes))
 
     def _parts(self) -> Iterator[_Part]:
-        """Yield the visible meshes, once for each instance; their total size is checked before they are made."""
+        """Yield the visible meshes, once for each instance."""
         known: dict[str, _Shape] = {}
-        vertices = triangles = 0
-        for count, (prim, instance) in enumerate(self._placed(), 1):
+        for prim, instance in self._placed():
             key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
             if key not in known:
                 known[key] = _Shape(self.pxr, prim, self.pxr.Usd.TimeCode.EarliestTime())
             shape = known[key]
-            vertices, triangles = vertices + shape.vertices, triangles + shape.triangles
-            require_count("vertices", vertices, self._limits)
-            require_count("faces", triangles, self._limits)
-            self._limits.check_memory(PER_PART * count, vertices, self._size)
             if shape.rows["face"] or shape.rows["corner"]:
                 yield _Part(shape, prim, instance)
-        widths = {(c.name, c.domain): c.values.shape[1] for shape in known.values() for c in shape.columns}
-        # Each part gets each attribute, which has no more values than there are corners.
-        numbers = sum(widths.values()) * (3 * triangles + vertices)
-        self._limits.check_memory(PER_VALUE * numbers, vertices, self._size)
 
     def _placed(self) -> Iterator[tuple[Any, _Instance | None]]:
         """Yield the visible meshes, and the instances of instancers."""
@@ -646,7 +602,7 @@ class _Stage:
             return whole.without(shape.holes) if len(shape.holes) else whole
 
         counts = [(part.shape.vertices, max(part.shape.triangles, 0)) for part in parts]
-        found = shapes.joined_parts(map(made, parts), counts, self._limits, 1 << 62)  # parts were checked
+        found = shapes.joined_parts(map(made, parts), counts, self._limits, self._size)
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits)
