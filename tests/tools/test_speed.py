@@ -16,16 +16,23 @@ def test_half_of_the_meshes_are_chosen_by_a_hash() -> None:
     assert speed.chosen(names[::-1]) == found
 
 
-@pytest.mark.parametrize(("known", "code"), [([1e6, 1e6], None), ([1e-6, 1e6], 1)])
+def test_what_needs_no_fetching_is_in_the_file() -> None:
+    assert {name for name, _ in speed.made()} <= {*json.loads(speed.FIGURES.read_text())}
+
+
+@pytest.mark.parametrize(
+    ("known", "most", "code"), [([1e6, 1e6], 1.3, None), ([1e-6, 1e6], 1.3, 1), ([1e-6, 1e6], 1e12, None)]
+)
+@pytest.mark.parametrize("made", [False, True])
 def test_a_ratio_above_the_file_fails(
-    known: list[float], code: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    known: list[float], most: float, code: int | None, made: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = tmp_path / "speed.json"
     file.write_text(json.dumps({"work": known}))
     works = (lambda: sum(range(9000)), lambda: sum(range(900))) * 2
     monkeypatch.setattr(speed, "FIGURES", file)
-    monkeypatch.setattr(speed, "cases", lambda *_: iter([("work", works)]))
-    given = Namespace(folder=tmp_path, write=False)
+    monkeypatch.setattr(speed, "made" if made else "cases", lambda *_: iter([("work", works)]))
+    given = Namespace(folder=tmp_path, write=False, made=made, most=most)
     if code is None:
         speed.guard(given)
     else:
