@@ -31,7 +31,7 @@ INLINE double light_chunk_work(double bytes) { return 5e4 + 120 * bytes; }
 INLINE double floats_work(double n, double span) { return 400 * n + 4 * span; }
 INLINE double chunk_work(double bytes, double values) { return 8e4 + 800 * bytes + 2 * values; }
 /* What twins add to a grid, with so many images (V 17). */
-INLINE double twins_work(double n, double images) { return (1500 + 100 * images) * n; }
+INLINE double twins_work(double n, double images) { return (1500 + 200 * images) * n; }
 INLINE double twins_bytes(double n, double images) {
     return 4.0 * (4 * 512 * 66) + 48 * (1 << 13) + 4 * (1 << 14) + (1 << 15)
         + (images > 0 ? (4 * images + 40) * n + 64 : 0);

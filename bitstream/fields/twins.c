@@ -183,7 +183,7 @@ KERNEL void move_back(const Twins *t, const int32_t *x, int32_t place[AXES][MOST
 /* The nearest known vertex whose twin by `image` is not known yet, within REACH of a place (1/16); -1: none. */
 static int32_t nearest_free(const Twins *t, const int32_t *x, int32_t image, const int32_t *place) {
     int32_t first[AXES], last[AXES], best = -1;
-    int64_t least_square = REACH * REACH;
+    uint32_t least_square = REACH * REACH;
     for (int j = 0; j < AXES; j++) {
         first[j] = (place[j] - REACH) >> (4 + CELL_BITS);
         last[j] = (place[j] + REACH) >> (4 + CELL_BITS);
@@ -194,12 +194,14 @@ static int32_t nearest_free(const Twins *t, const int32_t *x, int32_t image, con
                 uint32_t chain = chain_of(a, b, c, t->head_bits);
                 int32_t u = t->head[chain];
                 for (int visits = 0; u >= 0 && visits < MOST_VISITS; visits++, u = t->next[u]) {
-                    int64_t square = 0;
+                    uint32_t square = 0;
+                    bool near = true;
                     for (int j = 0; j < AXES; j++) {
-                        int64_t away = FINE * x[AXES * (int64_t)u + j] - place[j];
+                        uint32_t away = (uint32_t)size_of(FINE * x[AXES * (int64_t)u + j] - place[j]);
+                        near &= away < REACH;
                         square += away * away;
                     }
-                    if (square >= least_square || (t->has[u] >> image & 1)) continue;
+                    if (!near || square >= least_square || (t->has[u] >> image & 1)) continue;
                     least_square = square;
                     best = u;
                 }

@@ -45,7 +45,18 @@ def test_what_asks_for_too_much_is_refused(name):
 
 
 @pytest.mark.parametrize(
-    "name", ["members", "tiny", "copies", "grid-chunks", "light-chunks", "light-hubs", "layers-chunks", "gop-still"]
+    "name",
+    [
+        "members",
+        "tiny",
+        "copies",
+        "grid-chunks",
+        "congruent-chunks",
+        "light-chunks",
+        "light-hubs",
+        "layers-chunks",
+        "gop-still",
+    ],
 )
 def test_what_is_allowed_is_paid_for(name):
     stream = BOMBS[name]()

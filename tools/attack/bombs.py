@@ -60,7 +60,7 @@ THINGS = {
     "GOP": ("gops", "gop-components"),
     "GRID": ("grid-chunks", "grid"),
     "GRID light": ("light-chunks", "light"),
-    "GRID congruent": ("congruent-chunks", "congruent"),
+    "GRID congruent": ("congruent-chunks", "congruent-apart"),
     "REFINEMENT": ("layers-chunks", "layers"),
     "SKIPPABLE": ("metadata", "skippable-long"),
     "LEARNT": ("gops-learned", "gop-300"),

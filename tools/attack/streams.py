@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -147,6 +148,24 @@ def _grid(shape: tuple[Any, ...], chunk: int, **fields: Any) -> bytes:
 
 STAYING = np.array([[48, 0, *[1 << 3] * 3, *[12] * 3]] * 16, np.int32)
 """Transforms that leave everything where it is."""
+
+
+def _apart(shape: tuple[Any, ...]) -> bytes:
+    """Images that are sought among all vertices that eight cells around each have, and never found.
+
+    One vertex in 20 is in the middle of such a cell, the others are where all transforms lead to a corner of eight.
+    """
+    coded, largest = _coded(*shape), (300, 300, 300)
+    size = len(coded.vertex_order)
+    numbers, middles = np.random.default_rng(1), np.array(list(product((8, 24), repeat=3)))
+    values = numbers.integers(104, 106, (size, 3))
+    chosen = numbers.permutation(size)[: size // 20]
+    values[chosen] = np.resize(np.concatenate([middles, middles + 176]), (len(chosen), 3))
+    shifts = np.array(list(product((87, 88), (87, 88, 89), (87, 88, 89)))[:16])
+    rows = np.zeros((16, 8), np.int32)
+    rows[:, 5:] = shifts + largest
+    counts = [min(1 << 15, size - first) for first in range(0, size, 1 << 15)]
+    return stream_of(gridded(coded, values.astype(np.int32), counts, rows, grid=largest))
 
 
 def _layers(rows: int, columns: int, chunk: int) -> bytes:
@@ -473,6 +492,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "grid": lambda: _grid(ring(1024, 1024), 1 << 15),  # a grid of a million vertices
     "grid-chunks": lambda: _grid(ring(100, 100), 1),  # a grid, vertex by vertex
     "congruent": lambda: _grid(ring(1024, 1024), 1 << 15, transforms=STAYING),  # images of everything
+    "congruent-apart": lambda: _apart(ring(512, 512)),  # images that are sought everywhere
     "congruent-chunks": lambda: _grid(ring(100, 100), 1, transforms=STAYING),
     "light": lambda: _grid(ring(1024, 1024), 1 << 15, light=1),  # the small model on a million vertices
     "light-chunks": lambda: _grid(ring(100, 100), 1, light=1),  # the same, vertex by vertex
