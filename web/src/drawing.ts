@@ -137,18 +137,12 @@ export class Drawing {
         if (!this.growing || this.touched.length + this.drawable.length === 0) return;
         const vertices = Int32Array.from(this.touched);
         this.touched = [];
-        const [positions, normals] = [new Float32Array(3 * vertices.length), new Float32Array(3 * vertices.length)];
-        const [origin, refined] = [new Int32Array(vertices.length), new Uint8Array(vertices.length)];
-        vertices.forEach((vertex, row) => {
+        vertices.forEach((vertex) => {
             this.isTouched[vertex] = 0;
             this.renewNormal(vertex);
-            for (let d = 0; d < 3; d++) {
-                positions[3 * row + d] = this.points[3 * vertex + d];
-                normals[3 * row + d] = this.normals[3 * vertex + d];
-            }
-            origin[row] = this.origin[vertex];
-            refined[row] = this.refined[vertex];
         });
+        const [positions, normals] = [this.points, this.normals].map((numbers) => spread(numbers, 3, vertices));
+        const [origin, refined] = [vertices.map((vertex) => this.origin[vertex]), Uint8Array.from(vertices, (vertex) => this.refined[vertex])];
         const index = this.cornersOf(this.drawable);
         this.drawable = [];
         this.shown = performance.now();

@@ -59,21 +59,16 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
 
 /** Encode a file, or two without loss, which are compared. */
 const encodeHere: Encode = async (files, preset, report, signal) => {
-    const [begin, streams, facts] = [performance.now(), [] as Uint8Array[], { notes: [] as string[], less: false }];
+    const [begin, isPair, found] = [performance.now(), files.length > 1, [] as Result[]];
     for (const file of files) {
-        if (isStream(file)) {
-            streams.push(await bytesIn(file));
-            continue;
-        }
-        const { original, stream, notes, less } = await inThread({ file, preset: files.length > 1 ? "lossless" : preset }, report, signal);
-        streams.push(stream);
-        facts.notes.push(...notes.map((note) => (files.length > 1 ? `${file.name}: ${note}` : note)));
-        facts.less ||= less;
-        if (files.length > 1) continue;
-        const layers = [{ title: "Original", detail: "", size: file.size, bytes: original }, { title: "BSM", detail: preset, size: stream.length, bytes: stream }];
-        return { name: file.name, main: 1, layers, facts: { ...facts, seconds: (performance.now() - begin) / 1000 } };
+        const bytes = isStream(file) && (await bytesIn(file));
+        found.push(bytes ? { original: bytes, stream: bytes, notes: [], less: false } : await inThread({ file, preset: isPair ? "lossless" : preset }, report, signal));
     }
-    return contentOf(files, streams, facts);
+    const less = found.some(({ less }) => less);
+    if (isPair) return contentOf(files, found.map(({ stream }) => stream), { less, notes: found.flatMap(({ notes }, i) => notes.map((note) => `${files[i].name}: ${note}`)) });
+    const [[{ original, stream, notes }], [{ name, size }]] = [found, files];
+    const layers = [{ title: "Original", detail: "", size, bytes: original }, { title: "BSM", detail: preset, size: stream.length, bytes: stream }];
+    return { name, main: 1, layers, facts: { notes, less, seconds: (performance.now() - begin) / 1000 } };
 };
 
 async function fillPage(list: HTMLElement): Promise<void> {
