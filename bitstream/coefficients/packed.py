@@ -30,15 +30,11 @@ MAX_BITS = 32
 def pack_coefficients(values: npt.NDArray[Any], bits: int) -> bytes:
     """Bytes of unsigned integers below ``2**bits``, most significant bit first, and compressed."""
     flat = np.asarray(values).ravel()
-    _check_bits(bits)
+    if not 1 <= bits <= MAX_BITS:
+        raise OptionError(f"{bits} bits for a coefficient; 1 to {MAX_BITS} are possible")
     if flat.dtype.kind not in "iu":
         raise OptionError(f"packed coefficients must be integers, not {flat.dtype}")
     if flat.size and not (flat.min() >= 0 and int(flat.max()) < 1 << bits):
         raise OptionError(f"coefficients {flat.min()}..{flat.max()} do not fit {bits} bits")
     digits = np.unpackbits(flat.astype(">u4").view(np.uint8).reshape(-1, 4), axis=1)
     return compress(np.packbits(digits[:, MAX_BITS - bits :]).tobytes())
-
-
-def _check_bits(bits: int) -> None:
-    if not 1 <= bits <= MAX_BITS:
-        raise OptionError(f"{bits} bits for a coefficient; 1 to {MAX_BITS} are possible")

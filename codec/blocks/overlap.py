@@ -120,10 +120,6 @@ class Blocks:
     def size_of(self, index: int) -> int:
         return int(self.starts[index + 1] - self.starts[index])
 
-    def edges_of(self, index: int) -> int:
-        """Edges that the vertices of one block have in the mesh, which its making looks at."""
-        return int(self.edges[index])
-
     def block(self, index: int) -> Block:
         return _ordered(self.graph, self.members_of(index))
 

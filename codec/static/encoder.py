@@ -236,7 +236,7 @@ class Encoder:
         """The best stream of a size, which keeps whatever is promised."""
         promise = self.options.promise
         anything = Contract(WIDEST)
-        most = target.bytes_of(self._input.prepared.graph.size)
+        most = target.value * (1.0 if target.kind == "size" else self._input.prepared.graph.size / 8.0)
         found = self._input.search(promise or anything, near).best(promise or anything, most)
         dressed = None if found is None else self._input.dressed(found)
         if dressed is not None and not (promise and self._input.measured(dressed, promise)[0]):

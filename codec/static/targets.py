@@ -200,10 +200,6 @@ class Target:
             return (value - self.value) * math.log(10.0) / 10.0
         return math.log(max(value, sys.float_info.min) / self.value)
 
-    def bytes_of(self, vertices: int) -> float:
-        """Return the requested size in bytes of a mesh with this many vertices."""
-        return self.value if self.kind == "size" else self.value * vertices / 8.0
-
     def worded(self, value: float) -> str:
         """Return a value of the target's measure, in words."""
         return UNITS[self.kind].format(value)

@@ -115,7 +115,7 @@ class ChainEncoder:
         levels = coding.choose(coefficients, self._sizes is not None)
         decoded = coding.positions(ground, levels)
         coded = len(levels)
-        work = BLOCK + ROW * block.size + LOOK * scheme.blocks.edges_of(index) + LEVEL * 3 * coded
+        work = BLOCK + ROW * block.size + LOOK * int(scheme.blocks.edges[index]) + LEVEL * 3 * coded
         fronts = around.laplacian.fronts  # known vertices are extended into the block, and its coefficients added
         work += chain.work(around, coded) + factor_cost(fronts) + solve_cost(fronts, 3) + 1.5 * block.size * coded
         chain.commit(block, np.ascontiguousarray(dictionary[:, :coded]), decoded)

@@ -127,19 +127,15 @@ def read_cut(
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
     polygons: Polygons
+    if kind in _PLAIN:
+        require_room(kind, data, limits)
     if kind == "dae":
         polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
-    elif kind == "3mf":
-        polygons = by_name("bsm.files.formats.three_mf", "read_3mf")(data, limits)
-    elif kind == "om":
-        polygons = by_name(_ROOMS[kind], "read_om")(data, limits)
-    elif kind not in MESH_FORMATS:
-        polygons = by_name("bsm.files.formats.with_trimesh", "read_with_trimesh")(data, path, kind, limits)
-    elif kind not in _PLAIN:
+    elif kind in _ROOMS:
         polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
     else:
-        require_room(kind, data, limits)
-        polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
+        polygons = by_name("bsm.files.formats.with_trimesh", "read_with_trimesh")(data, path, kind, limits)
+    if kind in _PLAIN:
         beside = Beside(folder, limits)
         metadata, notes = fetched(polygons.metadata, beside.read)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))

@@ -25,11 +25,8 @@ from bsm.gltf import document as gltf
 from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn, shares
 from bsm.options import encode_options
 
-_SEMANTICS: dict[str, tuple[Semantic, int]] = {
-    "NORMAL": ("normal", 3),
-    "TEXCOORD_0": ("texcoord", 2),
-    "TEXCOORD_1": ("texcoord", 2),
-}
+_TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
+_SEMANTICS = {"NORMAL": ("normal", 3), "TEXCOORD_0": _TEXCOORD, "TEXCOORD_1": _TEXCOORD}
 _GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
 _QUALITIES = {"NORMAL": "10bits", "TANGENT": "9bits", "COLOR_0": "8bits"}
 _TURN = "0.002"  # of what targets add to directions: a tenth of a degree
