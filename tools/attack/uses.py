@@ -1,7 +1,8 @@
 """`python -m tools.attack uses`: files that say something once and use it many times.
 
 Nodes, skins, primitives, targets and animations of glTF, items and components of 3MF, references and instancers of
-USD, nodes and controllers of COLLADA, materials and images of OBJ. Half of each file is what is used, and half are
+USD, nodes and controllers of COLLADA, materials and images of OBJ, files of lists, streams and members of archives:
+`MODELS` is a table of what formats let be used again. Half of each file is what is used, and half are
 its uses, so that reading could take the product of both. What reading takes is held against the law (M 14.8, M 14.9).
 """
 
@@ -9,15 +10,21 @@ from __future__ import annotations
 
 import argparse
 import base64
+import copy
 import importlib.util
+import io
 import json
 import sys
+import zipfile
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
 
+from bsm import TriangleMesh, encode
+from bsm.files.formats.npz import write_npy
 from tools.attack.readers import DATA_URI, Case, Sample, Tree, _as_glb, problems, three_mf, warm_up
 from tools.vectors.meshes import patch
 
@@ -321,6 +328,117 @@ def _ply_images(size: int, uses: int) -> Sample:
     return Sample("ply", b"ply\nformat ascii 1.0\n" + head + axes + faces + body, (("i.png", PIXEL + bytes(size)),))
 
 
+@dataclass(frozen=True)
+class Model:
+    """What a format lets be used many times: the text around it, what is used, and one use, in which {0} counts.
+
+    `unit` is repeated to fill the bytes of what is used; between uses stands `between`."""
+
+    suffix: str
+    head: str
+    unit: str
+    middle: str
+    use: str
+    tail: str
+    between: str = ""
+    beside: str = ""
+
+    def made(self, size: int, uses: int) -> Sample:
+        filled = self.unit * max(1, size // max(len(self.unit), 1))
+        said = self.between.join(self.use.replace("{0}", str(number)) for number in range(uses))
+        beside = (("b.obj", (TRIANGLE + filled).encode()),) if self.beside else ()
+        used = "" if self.beside else filled
+        return Sample(self.suffix, (self.head + used + self.middle + said + self.tail).encode(), beside)
+
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+_COLLADA = '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>'
+_USES = '<library_visual_scenes><visual_scene id="w"><node><instance_geometry url="#g"/></node></visual_scene>'
+_USES += '</library_visual_scenes><scene><instance_visual_scene url="#w"/></scene></COLLADA>'
+_SOURCE = '<source id="s"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor '
+_SOURCE += 'source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>'
+_SOURCE += '<param name="Z" type="float"/></accessor></technique_common></source>'
+_SOURCE += '<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>'
+_GEOMETRY = f'<library_geometries><geometry id="g"><mesh>{_SOURCE}'
+_INPUT = '<input semantic="VERTEX" source="#v" offset="0"/>'
+_CORNERS = f'count="1">{_INPUT}<p>0 1 2</p>'
+_PRIM = "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n"
+_PRIM += "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n"
+MODELS = {
+    "pvd, one file": Model("pvd", '<VTKFile type="Collection"><Collection>', "v 0 0 0\n", "",
+        '<DataSet timestep="{0}" part="0" file="b.obj"/>', "</Collection></VTKFile>", beside="b.obj"),
+    "series, one file": Model("series", '{"file-series-version": "1.0", "files": [', "v 0 0 0\n", "",
+        '{"name": "b.obj", "time": {0}}', "]}", ",", beside="b.obj"),
+    "obj, corners of one vertex": Model("obj", TRIANGLE, "vt 0 0\n", "", "f 1/1 2/1 3/1\n", ""),
+    "obj, materials of one name": Model("obj", TRIANGLE, "vn 0 0 1\n", "", "usemtl a\nf 1//1 2//1 3//1\n", ""),
+    "off, one vertex": Model("off", "OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n", "# a\n", "3 0 1 2", " 0", "\n"),
+    "dae, elements of one source": Model("dae", _COLLADA, "<!-- a -->", _GEOMETRY, f"<triangles {_CORNERS}</triangles>",
+        f"</mesh></geometry></library_geometries>{_USES}"),
+    "dae, inputs of one source": Model("dae", _COLLADA, "<!-- a -->", f'{_GEOMETRY}<triangles count="1">{_INPUT}',
+        '<input semantic="NORMAL" source="#s" offset="0" set="{0}"/>',
+        f"<p>0 1 2</p></triangles></mesh></geometry></library_geometries>{_USES}"),
+    "usd, inherits": Model("usda", f'#usda 1.0\nclass "c" {{\ndef Mesh "m" {{\n{_PRIM}', "# a\n", "}\n}\n",
+        'def "p{0}" (inherits = </c>) {}\n', ""),
+    "usd, primvars of one array": Model("usda", f'#usda 1.0\ndef Mesh "m" {{\n{_PRIM}', "# a\n", "",
+        'float[] primvars:q{0} = [0, 0, 0] (interpolation = "vertex")\n', "}\n"),
+    "usd, meshes of a root": Model("usda", '#usda 1.0\ndef SkelRoot "r" {\n', "# a\n", "",
+        f'def Mesh "m{{0}}" {{\n{_PRIM}}}\n', "}\n"),
+}  # fmt: skip
+"""By format and its word for the uses."""
+
+
+def _views(own: bool, size: int, uses: int) -> Sample:
+    """Accessors of one view, or each with a view of its own over the same bytes."""
+    scene = _Scene(size)
+    first, view = scene.tree["accessors"][0], scene.tree["bufferViews"][0]
+    for number in range(uses):
+        if own:
+            scene.tree["bufferViews"].append(view)
+        scene.tree["accessors"].append(first | {"bufferView": len(scene.tree["bufferViews"]) - 1 if own else 0})
+        scene.attributes[f"_A{number}"] = len(scene.tree["accessors"]) - 1
+    return scene.sample()
+
+
+def _streams(own: bool, size: int, uses: int) -> Sample:
+    """One BSM stream, in as many views, or as many streams over the same bytes."""
+    side = max(3, int(size**0.5))  # a plane takes few bytes
+    mesh = patch(side, side)
+    stream = encode(TriangleMesh(mesh.positions * (1.0, 1.0, 0.0), mesh.faces), preset="small", effort="quick")
+    count = len(mesh.positions)
+    views: list[Tree] = [{"buffer": 0, "byteLength": len(stream)}] * (uses if own else 1)
+    for number in range(uses):
+        coded = {"stream": number if own else 0, "attribute": "POSITION"}
+        views.append({"buffer": 1, "byteLength": 12 * count, "extensions": {"EXT_bsm_compression": coded}})
+    found = {"componentType": 5126, "type": "VEC3", "count": 3}
+    accessors = [{**found, "bufferView": len(views) - uses + number} for number in range(uses)]
+    names = {("POSITION" if not number else f"_A{number}"): number for number in range(uses)}
+    missing = {"byteLength": 12 * count, "extensions": {"EXT_bsm_compression": {"fallback": True}}}
+    tree: Tree = {
+        "asset": {"version": "2.0"}, "extensionsUsed": ["EXT_bsm_compression"], "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": names}]}], "accessors": accessors,
+        "bufferViews": views, "buffers": [{"byteLength": len(stream)}, missing],
+    }  # fmt: skip
+    return Sample("glb", _as_glb(tree, stream + bytes(-len(stream) % 4)))
+
+
+def _members(size: int, uses: int) -> Sample:
+    """An npz whose directory names the same bytes again and again."""
+    array, found = io.BytesIO(), io.BytesIO()
+    write_npy(array, np.zeros((size, 1), np.int8))
+    with zipfile.ZipFile(found, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, given in (("positions", np.eye(3)), ("faces", np.array([[0, 1, 2]]))):
+            plain = io.BytesIO()
+            write_npy(plain, given)
+            archive.writestr(f"{name}.npy", plain.getvalue())
+        archive.writestr("x.npy", array.getvalue())
+        entry = archive.getinfo("x.npy")
+        for number in range(uses):
+            again = copy.copy(entry)
+            again.filename = f"{number}.npy"
+            archive.filelist.append(again)
+    return Sample("npz", found.getvalue())
+
+
 def uses() -> Iterator[tuple[str, Use]]:
     """Yield all that can be used many times, by the format and its word for that."""
     for change in _GLTF:
@@ -335,6 +453,14 @@ def uses() -> Iterator[tuple[str, Use]]:
         ("obj, polygons", _obj_polygons),
     )
     yield "ply, images", _ply_images
+    yield "npz, members", _members
+    for what, make in {"views": _views, "streams": _streams}.items():
+        yield f"glb, {what} of the same bytes", partial(make, True)
+        yield f"glb, one of {what}", partial(make, False)
+    foreign = {"usd": "pxr", "dae": "collada"}
+    for name, model in MODELS.items():
+        if (library := foreign.get(name[:3])) is None or importlib.util.find_spec(library):
+            yield name, model.made
     if importlib.util.find_spec("pxr"):
         yield from (("usd, references", partial(_references, False)), ("usd, instances", partial(_references, True)))
         yield from (("usd, instancer", _instancer), ("usd, times", _moving_usd), ("usd, subsets", _subsets))
