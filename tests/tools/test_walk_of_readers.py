@@ -87,7 +87,8 @@ def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
 @pytest.mark.parametrize("name", USES)
 def test_a_few_uses_are_read(name, tmp_path):
     taken = read_all(written(USES[name](2000, 3), Path(tmp_path))[0], Limits())
-    assert taken.outcome == "read" or "instancing" in name or "PointInstancer" in taken.outcome, taken.outcome
+    refused = ("instancing" in name, "PointInstancer" in taken.outcome, "name in directory" in taken.outcome)
+    assert taken.outcome == "read" or any(refused), taken.outcome
 
 
 @linux
