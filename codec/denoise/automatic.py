@@ -18,7 +18,7 @@ from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.recipe import BENDS, RAYS, Patient, Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal, discrepant, silent
+from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, discrepant, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
@@ -52,11 +52,10 @@ CANDIDATES = (
     *(Recipe("normals", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4)),
     Recipe("heights", 0.2, "own", 0.4),
     Recipe("none", 0.2, "local", 0.45),
-    *(Recipe("normals", keep, "own", sigma_r) for keep, sigma_r in ((0.2, 0.55), (0.1, 0.4), (0.3, 0.4))),
+    *(Recipe("normals", keep, "own", sigma_r) for keep, sigma_r in ((0.2, 0.55), (0.1, 0.4))),
     *(Recipe("heights", keep, "own", sigma_r) for keep, sigma_r in ((0.2, 0.25), (0.2, 0.55), (0.1, 0.4))),
     *(Recipe("heights", keep, "own", 0.55) for keep in (0.3, 0.4)),
-    Recipe("heights", 0.2, "patches", 0.35),
-    *(Recipe("none", 0.2, *fine) for fine in (("own", 0.4), ("patches", 0.35), ("local", 0.35), ("local", 0.6))),
+    *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.6)),
 )
 """The first one makes the first guess, the first `HERALDS` the second one."""
 HERALDS = 5
@@ -77,6 +76,7 @@ CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
 THICK, BENDS_ITERATIONS = 2.5, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
+WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
 STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
 LEFT_UNEVEN = 0.55  # share of the angle that stays then
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
@@ -187,7 +187,7 @@ def choose(
     candidates = _suited(candidates, rehearsal.level, finding.edge)
     winner = rehearsal.compete(candidates[:HERALDS], HERALDED)
     # The result of a few recipes is a better guess. A third round would repeat its own mistakes.
-    rehearsal.rehearse(rehearsal.perform(winner.steps, share))
+    rehearsal.rehearse(rehearsal.perform(winner.steps, share), SEED + 1)
     winner = rehearsal.compete(candidates, REHEARSED)
     steps, expected, untreated, reason = winner.steps, winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" else None
@@ -224,6 +224,8 @@ def _bounded(finding: Finding) -> AutomaticChoice:
         flat, stored = finding.bound.flatness, finding.bound.thick > 1
         more = BENDS_ITERATIONS[: 1 if stored else int(flat // THICK)]
         steps = tuple(Step(Recipe(BENDS, 0.0, "own", 0.4), count) for count in more)
+        if more and not stored and finding.bound.thin > WALLS:
+            steps = (*steps, Step(Recipe("none", 0.0, "own", 0.4), BENDS_ITERATIONS[0]))
         if not stored:
             width = min(CELL_WIDTH * flat ** (2.0 / 3.0), 1.0)
             steps = (*steps, Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS))

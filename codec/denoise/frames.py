@@ -15,10 +15,8 @@ from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, t
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.outliers import find_outliers
-from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.normals import FINE_STEPS
+from bsm.codec.denoise.normals import FINE_STEPS, GuidedFilter
 from bsm.codec.denoise.recipe import HAND_OVERS, DenoiseOptions, Patient
 from bsm.codec.denoise.rehearsal import GOALS, Progress, silent
 from bsm.codec.denoise.safety import judge, keep_good
@@ -88,11 +86,8 @@ class FrameDenoiser:
         def finish(pair: Pair) -> tuple[Pair, AutomaticChoice]:
             given, welded = pair
             assert choice is not None and found is not None
-            if choice.outliers:
-                noise = find_noise(welded, self._patient.probe)
-                welded = find_outliers(welded, self._patient.probe, noise).put_back(welded)
-            if choice.ripples:
-                welded = find_ripples(welded, self._patient.probe).put_back(welded)
+            if choice.outliers or choice.ripples:
+                welded = calm(welded, self._patient)[0]
             result, done = treat(choice, welded, found, self._patient, self._strength)
             return (given, result), done
 
@@ -165,7 +160,7 @@ class FrameDenoiser:
             number, given = task
             noisy = given[self._members]
             smooth = noisy if coarse is None else coarse(noisy, options.keep)
-            result = step(start(noisy, smooth, topology), topology.faces, **iterations)
+            result = step(start(noisy, smooth, GuidedFilter(noisy, topology)), topology.faces, **iterations)
             if self._force:
                 return given, result
             verdict = judge(noisy, result, find_noise(noisy, self._patient.probe), self._patient.probe)

@@ -54,12 +54,12 @@ Guide = Callable[[FaceGeometry, Topology], Floats]
 
 
 class GuidedFilter:
-    """The filter with its neighborhoods, which are found once, on the mesh that it starts from."""
+    """The filter with its neighborhoods, which are found once."""
 
     def __init__(
         self, positions: Positions, topology: Topology, within: Callable[[Positions], Positions] = np.asarray
     ) -> None:
-        self.positions, self.topology, self._within = positions, topology, within
+        self.topology, self._within = topology, within
         self._near = surroundings(positions, topology, RADIUS)
 
     def step(self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Positions:
@@ -69,17 +69,18 @@ class GuidedFilter:
         normals = filter_normals(geometry, guide(geometry, self.topology), self._near, sigma_s, sigma_r)
         return self._within(follow_normals(positions, self.topology, normals, VERTEX_ITERATIONS))
 
-    def iterates(self, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Iterator[Positions]:
+    def iterates(
+        self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R
+    ) -> Iterator[Positions]:
         """Yield the positions, shape (n, 3), after 0, 1, 2, ... iterations of the filter, without end."""
-        positions = self.positions
         while True:
             yield positions
             positions = self.step(positions, guide, sigma_r)
 
 
 def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
-    guided = GuidedFilter(np.array(positions, np.float64), Topology(faces, len(positions)))
-    return next(islice(guided.iterates(), iterations, None))
+    guided = GuidedFilter(positions, Topology(faces, len(positions)))
+    return next(islice(guided.iterates(np.array(positions, np.float64)), iterations, None))
 
 
 PATIENT_VERTICES = 20

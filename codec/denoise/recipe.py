@@ -28,27 +28,27 @@ RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what 
 BENDS = "bends"  # the hand-over of thick slices, see `Cells.flattened`
 SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
 
-HandOver = Callable[[Positions, Positions, Topology], Positions]
+HandOver = Callable[[Positions, Positions, GuidedFilter], Positions]
 """From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
 
 
-def coarse_heights(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
+def coarse_heights(noisy: Positions, coarse: Positions, guided: GuidedFilter) -> Positions:
     """Move the noisy vertices, shape (n, 3), along the normals of the coarse mesh, shape (n, 3), as far as that is."""
-    normals = surface_normals(coarse, topology)
+    normals = surface_normals(coarse, guided.topology)
     return np.asarray(noisy + np.einsum("ij,ij->i", coarse - noisy, normals)[:, None] * normals)
 
 
-def coarse_normals(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
+def coarse_normals(noisy: Positions, coarse: Positions, guided: GuidedFilter) -> Positions:
     """Keep the noisy positions, shape (n, 3), after one joint bilateral pass that the coarse mesh's normals guide."""
-    guide = face_geometry(coarse, topology.faces).normals
-    return GuidedFilter(noisy, topology).step(noisy, lambda *_: guide, SIGMA_R)
+    guide = face_geometry(coarse, guided.topology.faces).normals
+    return guided.step(noisy, lambda *_: guide, SIGMA_R)
 
 
 HAND_OVERS: dict[str, HandOver] = {
-    "positions": lambda noisy, coarse, topology: np.array(coarse),  # the paper's
+    "positions": lambda noisy, coarse, guided: np.array(coarse),  # the paper's
     "heights": coarse_heights,
     "normals": coarse_normals,
-    "none": lambda noisy, coarse, topology: np.array(noisy),
+    "none": lambda noisy, coarse, guided: np.array(noisy),
 }
 
 
@@ -121,7 +121,8 @@ class Treatments:
     def __init__(self, noisy: Positions, patient: Patient) -> None:
         self.noisy, self._patient, self._topology = noisy, patient, patient.topology
         self._within = np.asarray if patient.bound is None else partial(patient.bound.within, noisy)
-        self._starts: dict[tuple[str, float], GuidedFilter] = {}
+        self._guided = GuidedFilter(patient.probe.average @ noisy, self._topology, self._within)
+        self._starts: dict[tuple[str, float], Positions] = {}
         self._results: dict[Step, Positions] = {}
 
     def iterates(self, recipe: Recipe) -> Iterator[Positions]:
@@ -136,11 +137,11 @@ class Treatments:
                 positions = bound.flattened(self.noisy, self._topology)
             else:
                 smooth = self._patient.smooth(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
-                positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._topology)
-            start = self._starts[where] = GuidedFilter(self._within(positions), self._topology, self._within)
+                positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._guided)
+            start = self._starts[where] = self._within(positions)
         if recipe.guide == LOCAL:
-            return filtered_normals(start.positions, self._topology, recipe.sigma_r)
-        return start.iterates(named("guide", GUIDES, recipe.guide), recipe.sigma_r)
+            return filtered_normals(start, self._topology, recipe.sigma_r)
+        return self._guided.iterates(start, named("guide", GUIDES, recipe.guide), recipe.sigma_r)
 
     @cached_property
     def learnt(self) -> Learnt:

@@ -22,7 +22,7 @@ from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.threads import ordered_map
 
 MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
-PATIENCE = 3  # iterations behind the best one that are looked at
+PATIENCE = 2  # iterations behind the best one that are looked at
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01
 """Members join while the error stays below this multiple, as several recipes make fewer mistakes than one."""
@@ -106,27 +106,25 @@ class Rehearsal:
         smooth = patient.smooth(noisy, base.keep) if base.needs_coarse else noisy
         self.level = estimate_noise(noisy, smooth, patient.probe)
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
-        given, self.rounds = 1, 0
+        given = 1
         if finding.kind == "fused":
             given = discrepant(noisy, patient.treatments(noisy).iterates(base), patient.probe, finding.level)
         for done, guess in enumerate(patient.treatments(noisy).iterates(base)):
             if done < given:
                 continue
-            guess = self._within(guess, noisy)
-            self.rounds += 1
-            self._rehearse(guess, self._synthesis.draw(guess, SEED))
+            self.rehearse(self._within(guess, noisy), SEED)
             wanted = self.attempt(base).steps[0].iterations
             if wanted <= 1.5 * given + 0.5:
                 break
             given = wanted
-        self.rehearse(guess)
 
-    def rehearse(self, guess: Positions) -> None:
-        """Make another guess, shape (n, 3), noisy, with other noise."""
-        self.rounds += 1
-        self._rehearse(guess, self._synthesis.draw(guess, SEED + self.rounds))
+    def rehearse(self, guess: Positions, seed: int) -> None:
+        """Make a guess, shape (n, 3), noisy."""
+        self.truth = Reference(guess, self._topology.faces)
+        self.noisy = self._synthesis.draw(guess, seed)
+        self._treatments = self._patient.treated(self.noisy)
 
-    def perform(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
+    def perform(self, steps: tuple[Step, ...], share: float) -> Positions:
         """The steps' result, shape (n, 3), on the mesh that is rehearsed for, with `share` of the learnt normals."""
         return self._within(self._patient.treatments(self._given).mean(steps, share), self._given)
 
@@ -166,11 +164,6 @@ class Rehearsal:
         """Mean distance between the normals of neighboring faces."""
         normals = face_geometry(positions, self._topology.faces).normals
         return float(pair_distances(normals, self._topology.pairs).mean())
-
-    def _rehearse(self, guess: Positions, noisy: Positions) -> None:
-        self.truth = Reference(guess, self._topology.faces)
-        self.noisy = noisy
-        self._treatments = self._patient.treated(noisy)
 
     @property
     def untreated(self) -> float:

@@ -58,12 +58,9 @@ class Windows:
         return np.where(self.valid, quantiles, np.nan)
 
     def means(self, values: Floats) -> Floats:
-        """Mean over the counted vertices of each window, shape (count, ...); NaN where a window is not valid."""
-        chosen = values[self._members].reshape(len(self._members), -1)
-        sums = np.stack([np.bincount(self._windows, column, self.count) for column in chosen.T], axis=1)
-        result = np.full((self.count, chosen.shape[1]), np.nan)
-        result[self.valid] = sums[self.valid] / self._sizes[self.valid, None]
-        return result.reshape(self.count, *values.shape[1:])
+        """Mean over the counted vertices of each window, shape (count,); NaN where a window is not valid."""
+        sums = np.bincount(self._windows, values[self._members], self.count)
+        return np.where(self.valid, sums / np.maximum(self._sizes, 1), np.nan)
 
 
 FINEST = 6

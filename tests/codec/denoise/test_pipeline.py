@@ -6,7 +6,7 @@ import pytest
 from bsm import DenoiseOptions, HarmError, MeshError, OptionError, TriangleMesh
 from bsm.codec.denoise import FrameDenoiser, denoise
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.normals import guided_normal_filtering
+from bsm.codec.denoise.normals import GuidedFilter, guided_normal_filtering
 from bsm.codec.denoise.recipe import HAND_OVERS
 from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.metrics import theta
@@ -75,10 +75,11 @@ def test_each_hand_over_takes_noise_away_before_the_fine_step() -> None:
     clean, faces = sphere(16)
     noisy = gaussian_along_normals(clean, faces, 0.3, seed=2)
     coarse, topology = CoarseFilter(faces, len(clean))(noisy), Topology(faces, len(noisy))
+    guided = GuidedFilter(noisy, topology)
     for name in ("positions", "heights", "normals"):
-        handed = HAND_OVERS[name](noisy, coarse, topology)
+        handed = HAND_OVERS[name](noisy, coarse, guided)
         assert theta(clean, handed, faces) < 0.6 * theta(clean, noisy, faces)
-    moved = HAND_OVERS["heights"](noisy, coarse, topology) - noisy
+    moved = HAND_OVERS["heights"](noisy, coarse, guided) - noisy
     normals = surface_normals(coarse, topology)
     along = np.einsum("ij,ij->i", moved, normals)[:, None] * normals
     assert moved == pytest.approx(along, abs=1e-12) and np.abs(moved).max() > 0.0
