@@ -1,15 +1,17 @@
 """Angles to the truth after `bsm denoise` and after Taubin's filter, on noise of known cause.
 
     python -m tools.measure denoising MESHES [ROWS ...]
+    python -m tools.measure denoising --goals MESH...
 
-MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts of their names.
+MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts of their names. With `--goals`, the
+table shows what each goal and strength leaves of white noise, on clean meshes of yours and on made shapes.
 """
 
 from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -20,23 +22,24 @@ import numpy as np
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Topology, face_geometry
-from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.denoise.surface import Floats, Topology, face_geometry
+from bsm.codec.geometry.metrics import Reference, mean_edge_length
+from bsm.codec.geometry.welding import weld
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
-from tools.noise import correlated_along_normals, gaussian_along_axis
+from tools.noise import correlated_along_normals, gaussian_along_axis, gaussian_along_normals
 from tools.sampled import THICK, ball, box, in_steps, torus, voxelized, voxelized_mesh
-from tools.scans import Scan
+from tools.scans import CAMERAS, Scan, view
 
 TAUBIN = (10, 30, 100, 300)
 PLATE = (30.0, 20.0, 2.5)  # half sides, in cells
 SCANS = ("c3d_spot", "armadillo_12502", "fr_casting", "gargoyle_10002")
 STEPS = (0.5, 1.0, 2.0, 3.0)
-SLICES, ORGANS, SLICED = (
-    (3.0, 4.0, 6.0, 8.0),
-    (4, 10, 11, 16),
-    72,
-)  # in cells across; seeds of `made_shape`; cells a side
+SLICES, SLICED, ORGANS = (3.0, 4.0, 6.0, 8.0), 72, (4, 10, 11, 16)
+"""Of slices, cells across and a side; and seeds of `made_shape`."""
+
+GOALS = {"default": ("shading", 1.0), "--for shape": ("shape", 1.0), "--strength 0.8": ("shading", 0.8)}
+WHITE, SEED, MADE, MADE_CELLS = 0.2, 3, 20, 28
 
 
 def taubin(positions: Positions, faces: Faces, steps: int) -> Positions:
@@ -68,8 +71,9 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
             f"slices of {thick:g} cells, stored singly, {shape}",
             partial(voxelized, field, 50, thick, 1.0, int(thick)),
         )
+    shaped = partial(made_shape, cells=40)
     for thick, seed in product(SLICES, ORGANS):
-        yield f"slices of {thick:g} cells, made {seed}", partial(_sliced, seed, thick)
+        yield f"slices of {thick:g} cells, made {seed}", partial(_made, shaped, seed, voxelized_mesh, SLICED, thick)
     for thick, name in product(SLICES, SCANS):
         yield f"slices of {thick:g} cells, {name}", partial(_made, mesh, name, voxelized_mesh, SLICED, thick)
     for name in SCANS:
@@ -80,6 +84,10 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
     for name, step, inverse in product(SCANS[:2], STEPS, (False, True)):
         row = f"{'disparity' if inverse else 'depth'} steps of {step:g}, {name}"
         yield row, partial(_made, mesh, name, in_steps, step, inverse)
+    for (camera, model), name in product(CAMERAS.items(), SCANS):
+        yield f"{camera}, {name}", partial(_made, mesh, name, view, model, SEED)
+    for (camera, model), seed in product(CAMERAS.items(), ORGANS):
+        yield f"{camera}, made {seed}", partial(_made, shaped, seed, view, model, SEED)
     for name in SCANS:
         yield (
             f"correlated, {name}",
@@ -87,12 +95,8 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
         )
 
 
-def _made(mesh: Callable[[str], tuple[Positions, Faces]], name: str, make: Callable[..., Scan], *how: Any) -> Scan:
+def _made(mesh: Callable[[Any], tuple[Positions, Faces]], name: Any, make: Callable[..., Scan], *how: Any) -> Scan:
     return make(*mesh(name), *how)
-
-
-def _sliced(seed: int, thick: float) -> Scan:
-    return voxelized_mesh(*made_shape(seed, 40), SLICED, thick)
 
 
 def _moved(clean: Positions, faces: Faces, sigma: float, noise: Callable[..., Positions]) -> Scan:
@@ -101,13 +105,46 @@ def _moved(clean: Positions, faces: Faces, sigma: float, noise: Callable[..., Po
     return Scan(noisy, faces, normals, lambda moved: np.linalg.norm(moved - clean, axis=1))
 
 
+def goals(files: Iterable[str]) -> None:
+    """Print the angles and distances to the clean mesh that each of `GOALS` leaves, over those of the noise."""
+    print(f"{'':44}" + "".join(f"{name:>20}" for name in GOALS))
+    print(f"{'mesh':28}{'vertices':>8}{'noisy':>8}" + f"{'angle':>11}{'distance':>9}" * len(GOALS))
+    shapes = [(Path(file).stem, partial(_clean, file)) for file in files]
+    made = [(f"made {seed}", partial(made_shape, seed, MADE_CELLS)) for seed in range(MADE)]
+    left = {}
+    for name, shape in (*shapes, *made):
+        clean, faces = shape()
+        noisy = gaussian_along_normals(clean, faces, WHITE, SEED)
+        reference = Reference(clean, faces)
+        whole = {goal: denoise_automatically(noisy, faces, goal)[0] for goal in ("shading", "shape")}
+        results = [noisy + strength * (whole[goal] - noisy) for goal, strength in GOALS.values()]
+        measured = np.array([[reference.theta(moved), np.linalg.norm(moved - clean)] for moved in (noisy, *results)])
+        left[name] = measured[1:] / measured[0]
+        print(f"{name:28}{len(clean):8}{measured[0, 0]:8.2f}" + _columns(left[name]), flush=True)
+    for what, over in (("median", np.median), ("worst", np.max)):
+        print(f"{what:44}" + _columns(over(list(left.values()), axis=0)))
+
+
+def _clean(file: str) -> tuple[Positions, Faces]:
+    mesh = read_mesh(file).mesh
+    return weld(mesh.positions.astype(np.float64), mesh.faces)[:2]
+
+
+def _columns(shares: Floats) -> str:
+    return "".join(f"{angle:11.2f}{distance:9.2f}" for angle, distance in shares)
+
+
 def main() -> int:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", type=Path)
     parser.add_argument("rows", nargs="*")
     parser.add_argument("--for", dest="goal", default="shading")
+    parser.add_argument("--goals", action="store_true")
     args = parser.parse_args()
+    if args.goals:
+        goals([str(args.meshes), *args.rows])
+        return 0
     ratios = []
     heads = ("row", "vertices", "noisy", *(f"T{steps}" for steps in TAUBIN), "ours", "says", "off", "seconds", "found")
     print("{:40}{:>9}{:>8}{:>7}{:>7}{:>7}{:>7}{:>7}  {:>10}{:>14}{:>9}  {}".format(*heads))
