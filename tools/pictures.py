@@ -18,13 +18,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
 
 import bsm
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.congruence import motions_between
 from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.pictures import Image, bounds_of, render, view_matrix, with_titles
+from bsm.pictures import Image, bounds_of, png, render, view_matrix, with_titles
 from bsm.viewer.contents import Content, made
 from bsm.viewer.page import page_with
 from tools.command import run_command
@@ -32,8 +36,9 @@ from tools.command import run_command
 ROOT = Path(__file__).parents[1]
 FRONT, MOTION, STREAMING = "tools/front.png", "docs/gallery/motion.webp", "docs/guides/streaming.png"
 SCANS, ASSETS = "docs/gallery/scans.jpg", "docs/guides/assets.jpg"
+TWINS = "docs/gallery/twins.png"
 PAGES = ("docs/guides/page-scan.jpg", "docs/guides/page-errors.jpg", "docs/guides/page-phone.jpg")
-PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, *PAGES)
+PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, *PAGES)
 """All pictures of the documents."""
 SCANNED = {
     "static/armadillo_20002_derived.ply": 20,
@@ -49,6 +54,7 @@ PIXELS = 480
 SIDE = 320  # of a mesh in a table of pictures
 LINE = 26  # of a title there
 FRAMES, MILLISECONDS = 35, 90  # of the motion, each
+CELLS = 4000  # to the diagonal, when twins are sought
 KEY_BITS = 9  # of Draco's frames
 
 
@@ -58,6 +64,7 @@ def main(args: argparse.Namespace, console: Console) -> None:
     pictures, figures = scan(folder / "static" / "bunny_34834.ply")
     titles, images = zip(*pictures, *part(folder), strict=True)
     (ROOT / FRONT).write_bytes(with_titles(images, titles, figures=figures))
+    (ROOT / TWINS).write_bytes(png(twins(bsm.load(folder / "assets" / "featuretype.STL"))))
     console.note(motion(folder / "dynamic" / "samba.npz", ROOT / MOTION))
     with tempfile.TemporaryDirectory() as work:
         pages(folder, ROOT / "docs" / "guides", Path(work))
@@ -66,6 +73,23 @@ def main(args: argparse.Namespace, console: Console) -> None:
         stream.write_bytes(bsm.encode(folder / "static" / "bunny_34834.ply"))
         picture = ["npm", "run", "picture", "--", str(stream), str(ROOT / STREAMING)]
         subprocess.run(picture, cwd=ROOT / "web", env=os.environ | {"PYTHON": sys.executable}, check=True)
+
+
+def twins(mesh: TriangleMesh) -> Image:
+    """A part on which vertices that transforms take to each other have one color, and those without twins are gray."""
+    cell, count = mesh.diagonal / CELLS, len(mesh.positions)
+    turns, shifts = np.split(motions_between(mesh.positions / cell, mesh.faces), [9], axis=1)
+    images = np.einsum("kij,nj->kni", turns.reshape(-1, 3, 3), mesh.positions) + cell * shifts[:, None]
+    apart, nearest = KDTree(mesh.positions).query(images)
+    links = np.nonzero(apart < 2 * cell)
+    graph = coo_array((np.ones(len(links[0])), (links[1], nearest[links])), shape=(count, count))
+    _, first, of, alike = np.unique(
+        connected_components(graph, directed=False)[1], return_index=True, return_inverse=True, return_counts=True
+    )
+    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
+    colors = 0.45 + 0.55 * ((mesh.positions[first] - low) / (high - low))[of][mesh.faces].mean(axis=1)
+    colors[(alike[of] == 1)[mesh.faces].any(axis=1)] = 0.75
+    return render(mesh.positions, mesh.faces, PIXELS, view=view_matrix(-60.0, 50.0), colors=colors)
 
 
 def pages(folder: Path, target: Path, work: Path) -> list[Path]:

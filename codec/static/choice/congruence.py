@@ -45,14 +45,14 @@ def _motions(prepared: Prepared, step: float) -> tuple[Matrix, Matrix]:
     octave = round(2.0 * math.log2(step))
     if octave not in prepared.motions:
         cell = FINER * 2.0 ** (octave / 2.0)
-        prepared.motions[octave] = _found(prepared.mesh.positions / cell, prepared.mesh.faces)
+        prepared.motions[octave] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
         prepared.motions[octave][:, 9:] *= cell
     turns, shifts = np.split(prepared.motions[octave], [9], axis=1)
     return turns.reshape(-1, 3, 3), shifts
 
 
-def _found(positions: Matrix, faces: Faces) -> Matrix:
-    """Turns and shifts, shape (k, 12), of positions in cells."""
+def motions_between(positions: Matrix, faces: Faces) -> Matrix:
+    """Turns and shifts, shape (k, 12), of positions in cells that take parts of a mesh to others."""
     count, found = len(positions), np.empty((MOST, 12))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
     heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
