@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import types
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -33,6 +34,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, changed
     from bsm.codec.static.targets import Target
 
+    keywords = _with_effort(keywords)
     base: EncodeOptions = EncodeOptions() if preset is None else named("preset", PRESETS, preset)
     asked = [name for name, value in keywords.items() if value is not None]
     bounds = [name for name in asked if name in (*BOUNDS, *TARGETS, "contract", "target")]
@@ -74,15 +76,15 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
     return given
 
 
-def sequence_options(
-    *, preset: str | None = None, low_delay: int = 0, effort: str = "normal", **keywords: Any
-) -> SequenceOptions:
+def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
     from bsm.codec.sequence.options import PROMISES, SequenceOptions
     from bsm.codec.static.targets import Contract, Target
 
     name = "balanced" if preset is None else preset
     if name in ("none", "lossless", "grid14", "paper"):
         raise OptionError(f"a sequence cannot have preset {name}: GOPs round frames together; try near-lossless")
+    keywords = _with_effort(keywords)
+    effort = keywords.pop("effort", "normal")
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, Target)
     together = checked("low_delay", low_delay, int)
@@ -101,6 +103,14 @@ def sequence_options(
     elif not (together or quick or {"target", "step", "promise"} & {key for key in given if given[key] is not None}):
         given["promise"] = PROMISES[name]
     return replace(base, **given)
+
+
+def _with_effort(keywords: dict[str, Any]) -> dict[str, Any]:
+    """Keywords with `effort` in place of its former name `quick`."""
+    if (quick := keywords.pop("quick", None)) is None:
+        return keywords
+    warnings.warn('the keyword quick is now effort="quick"', DeprecationWarning, stacklevel=4)
+    return {**({"effort": "quick"} if quick else {}), **keywords}
 
 
 def denoise_options(**keywords: Any) -> DenoiseOptions | None:

@@ -10,6 +10,7 @@ from bsm.codec.sequence.options import PROMISES
 from bsm.codec.static.options import BALANCED
 from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
+from tests.shapes import torus
 
 
 def test_without_keywords_everything_is_the_default():
@@ -176,3 +177,14 @@ def test_quick_sequences_search_for_nothing() -> None:
     for keywords in ({"look": 1.0}, {"kg": 0.1}):
         with pytest.raises(bsm.OptionError, match="does not search for a step"):
             sequence_options(effort="quick", **keywords)
+
+
+def test_the_former_name_of_an_effort_warns_and_works():
+    mesh = torus(20, 12)
+    with pytest.warns(DeprecationWarning, match='effort="quick"'):
+        assert bsm.encode(mesh, quick=True) == bsm.encode(mesh, effort="quick")
+    frames = np.stack([mesh.positions] * 3)
+    with pytest.warns(DeprecationWarning, match='effort="quick"'):
+        assert bsm.encode_sequence(frames, mesh.faces, quick=True) == bsm.encode_sequence(
+            frames, mesh.faces, effort="quick"
+        )

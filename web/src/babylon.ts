@@ -5,7 +5,7 @@ import { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExt
 import type { FramePicture, Shape } from "./index";
 import { Playback } from "./playback";
 import { Pool, type StreamDecoding } from "./pool";
-import { bytesOf, EXTENSION, type Coded } from "./views";
+import { CodedViews, EXTENSION, placeOf, sizeOf, type Coded } from "./views";
 
 const MOST_NORMAL = 32767;
 /** What Babylon.js calls what vertices have. */
@@ -80,13 +80,14 @@ class Played implements BabylonSequence {
 class BabylonBSMExtension implements IGLTFLoaderExtension {
     readonly name = EXTENSION;
     enabled = true;
-    private readonly shapes = new Map<number, Promise<Shape>>();
-    private readonly sequences = new Map<number, Played>();
+    private streams = new CodedViews<Promise<Shape>>();
+    /** By the places of their streams. */
+    private readonly sequences = new Map<string, Played>();
 
     constructor(private readonly loader: GLTFLoader, private readonly pool: Pool) {}
 
     dispose(): void {
-        this.shapes.clear();
+        this.streams = new CodedViews();
         this.sequences.clear();
     }
 
@@ -94,7 +95,7 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     _loadMeshPrimitiveAsync(context: string, name: string, node: INode, mesh: IMesh, primitive: IMeshPrimitive, assign: (mesh: AbstractMesh) => void): Promise<AbstractMesh> | null {
         const moving = mesh.extensions?.[EXTENSION] as { stream: number } | undefined;
         const loading = moving && this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign);
-        return loading?.then((made) => (this.sequences.get(moving!.stream)?.playOn(made), made)) ?? null;
+        return loading?.then((made) => (this.sequences.get(placeOf(this.viewOf(context, moving!.stream)))?.playOn(made), made)) ?? null;
     }
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
@@ -104,16 +105,23 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     }
 
     private async decoded(context: string, coded: Coded, byteLength: number, index: number): Promise<ArrayBufferView> {
-        const { stream } = coded;
-        const shape = this.shapes.get(stream) ?? this.decode(context, stream);
-        this.shapes.set(stream, shape);
-        return new Uint8Array(bytesOf(await shape, coded, byteLength, index));
+        const from = this.viewOf(context, coded.stream);
+        const shape = await this.streams.shape(from, async () => {
+            const made = await this.decode(context, from);
+            this.streams.charge(sizeOf(made));
+            return made;
+        });
+        return new Uint8Array(this.streams.bytes(shape, from, coded, byteLength, index));
     }
 
-    private async decode(context: string, stream: number): Promise<Shape> {
+    private viewOf(context: string, stream: number): IBufferView {
         const view = this.loader.gltf.bufferViews?.[stream];
         if (!view) throw new Error(`${context}: there is no bufferView ${stream}`);
-        const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${stream}`, view);
+        return view;
+    }
+
+    private async decode(context: string, view: IBufferView): Promise<Shape> {
+        const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${view.index}`, view);
         return new Promise((resolve, fail) => {
             let [shape, sequence, rate]: [Shape?, Played?, unknown?] = [];
             const decoding = this.pool.open(
@@ -122,14 +130,14 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
                         if (picture.type === "whole") ({ shape } = picture);
                         if (picture.type === "metadata") rate = picture.entries.get("frame_rate") ?? rate;
                         if (picture.type !== "frame" || !shape) return;
-                        if (!sequence) this.sequences.set(stream, (sequence = new Played(Number(rate ?? 0), decoding)));
+                        if (!sequence) this.sequences.set(placeOf(view), (sequence = new Played(Number(rate ?? 0), decoding)));
                         sequence.frames.push({ picture, shape });
                         resolve(sequence.frames[0].shape);
                     },
                     onEnd: () => {
                         if (sequence) sequence.complete = true;
                         else if (shape) resolve(shape);
-                        else fail(new Error(`${context}: bufferView ${stream} is a stream without a mesh`));
+                        else fail(new Error(`${context}: bufferView ${view.index} is a stream without a mesh`));
                     },
                     onError: (error) => {
                         if (sequence) sequence.complete = true;

@@ -4,7 +4,7 @@ import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GL
 import type { Shape } from "./index";
 import { BSMGeometry, BSMSequence } from "./three";
 import { Pool } from "./pool";
-import { bytesOf, EXTENSION, type Coded } from "./views";
+import { CodedViews, EXTENSION, placeOf, sizeOf, type Coded } from "./views";
 
 let shared: Pool | undefined;
 
@@ -14,9 +14,9 @@ let shared: Pool | undefined;
  */
 export class GLTFBSMExtension implements GLTFLoaderPlugin {
     readonly name = EXTENSION;
-    private readonly shapes = new Map<number, Promise<Shape>>();
-    /** Sequences by their streams. */
-    private readonly sequences = new Map<number, BSMSequence>();
+    private readonly streams = new CodedViews<Promise<Shape>>();
+    /** Sequences by the places of their streams. */
+    private readonly sequences = new Map<string, BSMSequence>();
 
     constructor(private readonly parser: GLTFParser, private readonly pool: Pool = (shared ??= new Pool())) {}
 
@@ -32,7 +32,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         for (const [object, place] of this.parser.associations) {
             const meshes = (place as typeof place | undefined)?.meshes; // of a texture that was not found there is none
             const moving = meshes === undefined ? undefined : (this.parser.json.meshes[meshes].extensions?.[EXTENSION] as { stream: number } | undefined);
-            const sequence = moving && this.sequences.get(moving.stream);
+            const sequence = moving && this.sequences.get(this.placeOf(moving.stream));
             if (!sequence || !(object instanceof Mesh)) continue;
             object.geometry = sequence.geometry;
             object.frustumCulled = false; // the bounds are those of the first frame
@@ -41,11 +41,18 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         return null;
     }
 
+    private placeOf(stream: number): string {
+        return placeOf(this.parser.json.bufferViews[stream]);
+    }
+
     private async decoded(coded: Coded, byteLength: number, index: number): Promise<ArrayBuffer> {
-        const { stream } = coded;
-        const shape = this.shapes.get(stream) ?? this.decode(stream);
-        this.shapes.set(stream, shape);
-        return bytesOf(await shape, coded, byteLength, index);
+        const from = this.parser.json.bufferViews[coded.stream];
+        const shape = await this.streams.shape(from, async () => {
+            const made = await this.decode(coded.stream);
+            this.streams.charge(sizeOf(made));
+            return made;
+        });
+        return this.streams.bytes(shape, from, coded, byteLength, index);
     }
 
     private async decode(stream: number): Promise<Shape> {
@@ -60,7 +67,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
                         if (picture.type === "whole") ({ shape } = picture);
                         geometry.accept(picture);
                         if (picture.type !== "frame" || picture.index > 0 || !shape) return;
-                        this.sequences.set(stream, (sequence = new BSMSequence(geometry)));
+                        this.sequences.set(this.placeOf(stream), (sequence = new BSMSequence(geometry)));
                         sequence.addEventListener("dispose", () => decoding.close());
                         resolve(shape);
                     },

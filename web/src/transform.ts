@@ -3,7 +3,7 @@ import { Accessor, BufferUtils, Extension, GLB_BUFFER, Primitive, PropertyType, 
 import { EncodeError, encodeWith, loadEncoder, type AttributeInput, type EncodeOptions, type MeshInput } from "./encode";
 import { errorLike, openDesk, type Shape } from "./index";
 import { here } from "./pool";
-import { bytesOf, EXTENSION, type Coded } from "./views";
+import { CodedViews, EXTENSION, sizeOf, type Coded } from "./views";
 
 /** Makes what is drawn of a stream; throws what is wrong with it. */
 export type SceneDecoder = (stream: Uint8Array) => Shape;
@@ -76,15 +76,18 @@ export class EXTBSMCompression extends Extension {
         const { decoder } = this;
         if (!decoder) throw new Error(`[${EXTENSION}] needs a dependency, "bsm.decoder": await loadSceneDecoder()`);
         const views = json.bufferViews ?? [];
-        const shapes = new Map<number, Shape>();
+        const streams = new CodedViews<Shape>();
         views.forEach((view, index) => {
             const coded = codedOf(view);
             if (!coded) return;
             const { buffer, byteOffset = 0, byteLength } = views[coded.stream];
             const resource = resources[json.buffers?.[buffer].uri ?? GLB_BUFFER];
-            const shape = shapes.get(coded.stream) ?? decoder(BufferUtils.toView(resource, byteOffset, byteLength).slice());
-            shapes.set(coded.stream, shape);
-            bufferViews[index] = new Uint8Array(bytesOf(shape, coded, view.byteLength, index));
+            const shape = streams.shape(views[coded.stream], () => {
+                const made = decoder(BufferUtils.toView(resource, byteOffset, byteLength).slice());
+                streams.charge(sizeOf(made));
+                return made;
+            });
+            bufferViews[index] = new Uint8Array(streams.bytes(shape, views[coded.stream], coded, view.byteLength, index));
         });
         return this;
     }

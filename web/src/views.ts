@@ -14,8 +14,57 @@ export interface Coded {
     componentType?: keyof typeof KINDS;
 }
 
+/** Bytes of a scene that streams may become in all: a small file can name one stream many times. */
+export const MOST_BYTES = 2 ** 30;
+
+/** What streams of a scene became: each piece of bytes is decoded once, and each of its arrays made once. */
+export class CodedViews<T> {
+    private readonly shapes = new Map<string, T>();
+    private readonly arrays = new Map<string, ArrayBuffer>();
+    private taken = 0;
+
+    /** What a stream became: of bufferViews of the same bytes, `decode` is called for the first only. */
+    shape(from: View, decode: () => T): T {
+        const shape = this.shapes.get(placeOf(from)) ?? decode();
+        this.shapes.set(placeOf(from), shape);
+        return shape;
+    }
+
+    /** The bytes of a bufferView, of what is drawn of the stream of `from`. */
+    bytes(shape: Shape, from: View, coded: Coded, byteLength: number, index: number): ArrayBuffer {
+        const key = [placeOf(from), byteLength, coded.componentType, coded.attribute].join(" ");
+        const bytes = this.arrays.get(key) ?? bytesOf(shape, coded, byteLength, index);
+        if (!this.arrays.has(key)) this.charge(byteLength);
+        this.arrays.set(key, bytes);
+        return bytes;
+    }
+
+    /** Count bytes that were made. */
+    charge(bytes: number): void {
+        this.taken += bytes;
+        if (this.taken > MOST_BYTES) throw new Error(`[${EXTENSION}] the streams become more than ${MOST_BYTES} bytes`);
+    }
+}
+
+/** Where the bytes of a bufferView are. */
+interface View {
+    buffer: number;
+    byteOffset?: number;
+    byteLength: number;
+}
+
+/** A name for the bytes of a bufferView, which others may have as well. */
+export function placeOf({ buffer, byteOffset = 0, byteLength }: View): string {
+    return `${buffer} ${byteOffset} ${byteLength}`;
+}
+
+/** The bytes of what is drawn of a stream. */
+export function sizeOf({ index, positions, normals, attributes }: Shape): number {
+    return [index, positions, normals, ...attributes.map(({ values }) => values)].reduce((sum, { byteLength }) => sum + byteLength, 0);
+}
+
 /** The bytes of a bufferView, of what is drawn of its stream; it says how many these are. */
-export function bytesOf(shape: Shape, { attribute, componentType }: Coded, byteLength: number, index: number): ArrayBuffer {
+function bytesOf(shape: Shape, { attribute, componentType }: Coded, byteLength: number, index: number): ArrayBuffer {
     const values = valuesOf(shape, attribute);
     const Kind = KINDS[componentType ?? (attribute === "indices" ? 5125 : 5126)];
     if (!values || !Kind) throw new Error(`bufferView ${index}: its stream has no ${attribute} of such a type`);

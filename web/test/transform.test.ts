@@ -9,7 +9,8 @@ import { Document, WebIO, type Primitive } from "@gltf-transform/core";
 import { validateBytes } from "gltf-validator";
 import { TorusKnotGeometry } from "three";
 import type * as Transform from "../src/transform";
-import { decode } from "../src/index";
+import type { SceneDecoder } from "../src/transform";
+import { decode, type Shape } from "../src/index";
 import { sceneOf } from "./scene";
 import { BUILDS, compile, VECTORS, WEB } from "./shared";
 
@@ -35,6 +36,36 @@ describe("glTF-Transform", async () => {
         assert.ok(drawn.every((value, k) => Math.abs(value - positions[3 * faces[0] + k]) < 1e-5));
         assert.deepEqual(written.getRoot().listExtensionsUsed(), []);
         assert.equal(written.getRoot().listBuffers().length, 1);
+    });
+
+    /** A scene whose bufferViews name so many streams, all of the same bytes, by their places. */
+    function repeated(count: number): Uint8Array {
+        const plain = sceneOf(stream, vertices, corners);
+        const [view, length] = [new DataView(plain.buffer, plain.byteOffset), plain.byteLength];
+        const end = 20 + view.getUint32(12, true);
+        const tree = JSON.parse(new TextDecoder().decode(plain.subarray(20, end)));
+        const [of, first] = [tree.bufferViews[0], tree.bufferViews[1]];
+        for (let i = 0; i < count; i++) {
+            const stream = tree.bufferViews.push({ ...of }) - 1;
+            tree.bufferViews.push({ ...first, extensions: { EXT_bsm_compression: { stream, attribute: "POSITION" } } });
+        }
+        const json = Buffer.from(JSON.stringify(tree).padEnd(Math.ceil(JSON.stringify(tree).length / 4) * 4));
+        const head = Buffer.from(Uint32Array.of(2, 20 + json.length + length - end, json.length, 0x4e4f534a).buffer);
+        return Buffer.concat([Buffer.from("glTF"), head, json, plain.subarray(end)]);
+    }
+
+    test("decodes equal bytes once, and bounds what all become", async () => {
+        const decoded: Shape[] = [];
+        const counting = (made: (given: Uint8Array) => Shape) => (given: Uint8Array) => {
+            decoded.push(made(given));
+            return decoded.at(-1)!;
+        };
+        const reader = (made: SceneDecoder): WebIO => new WebIO().registerExtensions([EXTBSMCompression]).registerDependencies({ "bsm.decoder": counting(made) });
+        const document = await reader(decoder).readBinary(repeated(300));
+        assert.equal(decoded.length, 1);
+        assert.deepEqual([...document.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute("POSITION")!.getArray()!], [...shape.positions]);
+        const vast = (given: Uint8Array): Shape => ({ ...decoder(given), normals: { byteLength: 2 ** 30 } as Float32Array });
+        await assert.rejects(reader(vast).readBinary(repeated(1)), /become more than 1073741824 bytes/);
     });
 
     /** A document of a knot with normals, texture coordinates, a number of each vertex, and another primitive of its lower half. */
