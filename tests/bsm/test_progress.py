@@ -130,7 +130,7 @@ def test_commands_print_no_raw_warnings(tmp_path, capfd):
         np.savez(tmp_path / name, positions=LOOSE[0], faces=LOOSE[1])
     done = process("encode", tmp_path / "a.npz", tmp_path / "b.npz", "-j", 2, "-o", f"{tmp_path}/out/")
     assert done.returncode == 0 and b"no face uses" in done.stderr and b"Warning" not in done.stderr, done.stderr
-    assert isinstance(list(uploaded("a.npz", (tmp_path / "a.npz").read_bytes(), "balanced"))[-1], Content)
+    assert isinstance(list(uploaded([("a.npz", (tmp_path / "a.npz").read_bytes())], "balanced"))[-1], Content)
     assert "Warning" not in capfd.readouterr().err
 
 
