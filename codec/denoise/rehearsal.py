@@ -22,7 +22,7 @@ from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.threads import ordered_map
 
 MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
-PATIENCE = 2  # iterations behind the best one that are looked at
+PATIENCE = 2  # iterations that are tried after the best one
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01
 """Members join while the error stays below this multiple, as several recipes make fewer mistakes than one."""

@@ -246,7 +246,7 @@ def test_other_processors_decode_the_same() -> None:
     expected = lines([str(here)], folder, streams)
     assert len(expected) == len(streams)
     try:
-        # One after the other, since both are compiled in the folder that keeps what was fetched.
+        # In turn, since both compile into the folder of the fetched compiler.
         for name in ("aarch64", "s390x"):
             assert complaint(folder, name, expected, streams, "-O1") is None, name
     except NotHere as error:

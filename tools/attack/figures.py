@@ -51,7 +51,7 @@ NOTHING_DB = -165.0  # where rounding of double precision is all that a visual e
 
 
 def odd(random: Random, changes: Sequence[str] | None = None) -> TriangleMesh:
-    """A mesh as few programs make it; `changes` names what is odd about it, by default something is drawn."""
+    """Return an unusual mesh; `changes` names its oddities, which are drawn by default."""
     size = int(random.integers(3, 12))
     pinched = torus(8, 6)
     twin = np.where(pinched.faces == 0, 0, pinched.faces + len(pinched.positions))

@@ -39,7 +39,7 @@ FORMATS = [kind for kind in WRITTEN_FORMATS if importlib.util.find_spec(NEEDED.g
 
 
 def meaning(mesh):
-    """Corners in meters with y up, and what is there, in an order of faces and corners that formats do not change."""
+    """Return corners in meters with y up, and attributes, in an order that no format changes."""
     corners = (mesh.positions @ placement(mesh.metadata, "glb").matrix.T)[mesh.faces]
     turn = (np.argmin(corners @ [1, 100, 1e4], axis=1)[:, None] + np.arange(3)) % 3
     order = np.argsort(corners.mean(axis=1)[:, 1])
