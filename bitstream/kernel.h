@@ -12,7 +12,7 @@
 
 /* Results are the same to the last bit everywhere (specification, M 1.3): each operation is rounded as IEEE 754 has it.
  * What a compiler says of itself is checked here, and fusing products and sums is switched off for all that follows.
- * What only running shows, the decoder finds (engine/arithmetic.c). */
+ * What only running shows, the decoder finds (library/arithmetic.c). */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
 #error "compile BSM without -ffast-math, -Ofast, -funsafe-math-optimizations or /fp:fast: they change decoded bits"

@@ -29,7 +29,7 @@ static const std::map<std::string_view, int> CONSTANTS = {CONSTANT(ABOVE), CONST
     CONSTANT(PIECE_BITS), CONSTANT(MAJOR), CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_NAME),
     CONSTANT(MOST_COPIES), CONSTANT(FREE_COPIES), CONSTANT(METHODS), CONSTANT(RUNS), CONSTANT(WITH_ATTRIBUTES)};
 
-NB_MODULE(_kernels, m) {
+void bind_bitstream(nb::module_ &m) {
     make_tables();
 
     m.def("code_uniform", checked<code_one_uniform>, "coder"_a, "value"_a, "count"_a);

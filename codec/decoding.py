@@ -1,4 +1,4 @@
-"""Streams to meshes and frames: the decoders of `import bsm`, over the decoder in C (`engine/`)."""
+"""Streams to meshes and frames: the decoders of `import bsm`, over the decoder in C (`library/`)."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import wraps
@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Concatenate, ParamSpec, TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from bsm._engine import Decoder as Engine
+from bsm._core import Decoder as Engine
 from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, paper_of
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
@@ -384,7 +384,7 @@ class SequenceDecoder(StreamDecoder):
 
 
 def header_of(numbers: list[float]) -> Header:
-    """A header of the numbers that `list_header` in engine/header.c gives."""
+    """A header of the numbers that `list_header` in bitstream/container/header.c gives."""
     n, whole = numbers, [int(number) for number in numbers]
     law = LAW_OF_SEQUENCES if n[39] else LAW
     run, mesh_of = whole[13:15]

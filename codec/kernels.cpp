@@ -26,7 +26,7 @@ BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts,
 
 using namespace nb::literals;
 
-NB_MODULE(_kernels, m) {
+void bind_codec(nb::module_ &m) {
     m.def("vertex_faces", &vertex_faces, "faces"_a, "starts"_a, "members"_a, Unlocked());
     m.def("normals_apart", &normals_apart, "original"_a, "decoded"_a, "faces"_a, "around"_a, Unlocked());
     m.def("geometric_laplacian", &geometric_laplacian, "positions"_a, "starts"_a, "members"_a, "result"_a, Unlocked());

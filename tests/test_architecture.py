@@ -13,11 +13,20 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent
-KNOW_BYTES = tuple(f"bsm.codec.{name}" for name in ("decoding", "events", "static", "sequence"))
-KNOWN_TO_ALL = tuple(f"bsm.bitstream.{name}" for name in ("errors", "limits", "once", "kernel", "trellis"))
+# Of Python, then of C: those that decode.
+KNOW_BYTES = tuple(
+    f"bsm.codec.{name}"
+    for name in (
+        *("decoding", "events", "static", "sequence"),
+        *("basis.structure", "basis.dictionaries", "signal.chain", "signal.assembly", "signal.layer"),
+    )
+)
+KNOWN_TO_ALL = tuple(
+    f"bsm.bitstream.{name}" for name in ("errors", "limits", "once", "kernel", "context", "costs", "trellis")
+)
 FLOORS = {
     "bsm": (
-        ("__version__", "_engine", "_kernels"),
+        ("__version__", "_core"),
         ("bitstream",),
         ("codec",),
         ("console", "lengths", "pictures"),
@@ -35,7 +44,7 @@ FLOORS = {
         ("__main__",),
     ),
     "bsm.codec": (
-        ("_kernels", "arrays", "choices", "progress"),
+        ("arrays", "choices", "progress"),
         ("threads",),
         # Encoders decode what they wrote: by the compiled decoder, which stands below everything.
         ("geometry",),
@@ -48,12 +57,13 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors", "once", "kernel"),
-        ("limits", "trellis"),
+        ("errors", "once", "kernel"),
+        ("context", "costs", "limits", "pool", "trellis"),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),
         ("attributes",),
         ("container",),
+        ("payloads",),
     ),
     "bsm.codec.static": (
         ("coding", "targets", "units"),
@@ -64,19 +74,11 @@ FLOORS = {
         ("choice",),
         ("encoder",),
     ),
-    "engine": (
-        ("bsmdec", "arithmetic", "costs"),
-        ("bsmenc", "context", "pool"),
-        ("payloads", "wire"),
-        ("coding", "maps", "zstd"),
-        ("corners", "header", "metadata"),
-        ("declaration", "grid", "layer", "order", "packet", "structure"),
-        ("attribute", "dictionaries", "grammar", "topology"),
-        ("attribute_set", "chain", "parts", "reader"),
-        ("writing",),
-        ("assembly", "gop"),
-        ("frames",),
-        ("state",),
+    "library": (
+        ("bsmdec", "arithmetic"),
+        ("attribute", "bsmenc"),
+        ("attribute_set",),
+        ("state", "writing"),
         ("ahead",),
         ("stages",),
         ("sequence",),
@@ -88,7 +90,9 @@ FLOORS = {
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # Of these, only numpy is there wherever a mesh or a sequence is encoded.
-# What encoders call of the engine.
+# The kernels of `bitstream`, writers that it calls, and the words of the public header: statuses, limits, memory.
+OF_BYTES = ("bsm._core.bitstream", "bsm._core.write_", "library.bsmdec")
+# What encoders call of the library.
 OF_ENCODERS = ("Corners", "Field", "quantized", "rounded")
 CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
 
@@ -98,7 +102,7 @@ FOLDERS = {
     "bitstream": "bsm.bitstream",
     "codec": "bsm.codec",
     "src/bsm": "bsm",
-    "engine": "engine",
+    "library": "library",
     "tools": "tools",
     "plugins": "plugins",
     "spec": "spec",
@@ -124,7 +128,7 @@ MODULES = {
 
 def sources(*endings: str) -> dict[Path, str]:
     """The texts of the C of rooms; a file and its header are one module, and so are those of a level of processors."""
-    paths = (path for folder in ("bitstream", "codec", "src/bsm", "engine") for path in (ROOT / folder).rglob("*"))
+    paths = (path for folder in ("bitstream", "codec", "src/bsm", "library") for path in (ROOT / folder).rglob("*"))
     left_out = ("examples", "rust", "include", "codec", "bitstream")
     return {
         path: re.sub(r"/\*.*?\*/", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
@@ -262,16 +266,19 @@ def allowed(importer: str, imported: str) -> bool:
     if room in FLOORS and library == room:
         return True
     if room == "bsm.bitstream":
-        return library in BITSTREAM_LIBRARIES or imported.startswith("bsm._engine.write_")
+        return library in BITSTREAM_LIBRARIES or imported.startswith(OF_BYTES)
     if room == "bsm.codec":
-        if imported.startswith("bsm._engine."):
-            return importer == "bsm.codec.decoding" or imported.rpartition(".")[2] in OF_ENCODERS
+        if imported.startswith("bsm._core.bitstream"):
+            return importer.startswith(KNOW_BYTES)
+        if imported.startswith("bsm._core."):
+            of_encoders = imported.rpartition(".")[2] in ("codec", *OF_ENCODERS)
+            return of_encoders or importer == "bsm.codec.decoding"
         if library == "bsm.bitstream":
             return importer.startswith(KNOW_BYTES) or imported.startswith(KNOWN_TO_ALL)
         return library in CODEC_LIBRARIES and f"{importer}.".startswith(f"{CODEC_LIBRARIES[library]}.")
     if room == "spec":
         return library not in ROOMS
-    if room == "engine":
+    if room == "library":
         return library in ("bsm.bitstream", "bsm.codec")
     if room == "bsm":
         return library not in ("tools", "plugins", "tests", "spec") and not imported.startswith(".")
@@ -299,8 +306,8 @@ def test_imports_follow_the_arrows():
         ("bsm.codec.geometry.mesh", "from bsm.bitstream.container import packets", False),
         ("bsm.codec.static.encoder", "from bsm.bitstream.container.packets import Writer", True),
         ("bsm.codec.blocks.overlap", "from bsm.bitstream.container.header import Header", False),
-        ("bsm.codec.static.encoder", "from bsm._engine import Decoder", False),
-        ("bsm.codec.decoding", "from bsm._engine import Decoder", True),
+        ("bsm.codec.static.encoder", "from bsm._core import Decoder", False),
+        ("bsm.codec.decoding", "from bsm._core import Decoder", True),
         ("bsm.codec.static.coding", "from bsm.codec.static.ways.grid import Grid", False),
         ("bsm.codec.geometry.mesh", "from . import graph", False),
         ("bsm.codec.denoise.probe", "import scipy.sparse", True),
@@ -308,8 +315,8 @@ def test_imports_follow_the_arrows():
         ("bsm.cli", "import bsm.codec.geometry.mesh, bsm.bitstream.container.packets, matplotlib", True),
         ("bsm.cli", "import tools.attack", False),
         ("spec.reference", "from bsm.codec.geometry.mesh import TriangleMesh", False),
-        ("engine.ahead", "import engine.stages", False),
-        ("engine.chain", "import bsm.codec.signal.signal, bsm.bitstream.coefficients.coefficients", True),
+        ("library.ahead", "import library.stages", False),
+        ("library.stages", "import bsm.codec.signal.signal, bsm.bitstream.coefficients.coefficients", True),
     ],
 )
 def test_the_rule_itself(importer, source, expected):
@@ -329,17 +336,17 @@ def test_no_circles(arrows):
 
 def test_circles_are_found(monkeypatch):
     assert circle_in({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}})
-    wire, stages = ROOT / "engine/wire.c", ROOT / "engine/stages.c"
-    assert "engine.stages" in arrows_of_c()["engine.decoder"]
-    assert "engine.reader" not in arrows_of_c()["engine.grammar"]
-    monkeypatch.setitem(SOURCES, wire, f'{SOURCES[wire]}\n#include "engine/reader.h"\n')
+    wire, stages = ROOT / "bitstream/container/wire.c", ROOT / "library/stages.c"
+    assert "library.stages" in arrows_of_c()["library.decoder"]
+    assert "bsm.bitstream.container.reader" not in arrows_of_c()["bsm.bitstream.container.grammar"]
+    monkeypatch.setitem(SOURCES, wire, f'{SOURCES[wire]}\n#include "bitstream/container/reader.h"\n')
     assert circle_in(arrows_of_c())
     monkeypatch.undo()
     monkeypatch.setitem(
         SOURCES, stages, f"{SOURCES[stages]}\nvoid never_called(bsmdec *decoder) {{ close_sequence(decoder); }}\n"
     )
     assert not circle_in(arrows_of_c())  # what no header declares is another function
-    monkeypatch.setitem(SOURCES, stages, f'{SOURCES[stages]}#include "engine/sequence.h"\n')
+    monkeypatch.setitem(SOURCES, stages, f'{SOURCES[stages]}#include "library/sequence.h"\n')
     assert circle_in(arrows_of_c())
 
 
@@ -374,5 +381,5 @@ def test_headers_without_a_source_have_names_of_their_own():
 
 def test_nothing_escapes():
     assert {"bsm.bitstream.container.wire", "bsm.codec.geometry.mesh", "tools"} <= set(MODULES)
-    assert {"engine.stages", "engine.python.binding", "bsm.codec.basis.cosines"} <= set(map(c_name, SOURCES))
+    assert {"library.stages", "library.python.binding", "bsm.codec.basis.cosines"} <= set(map(c_name, SOURCES))
     assert {"engine", "viewer/view"} <= arrows_of_typescript().keys()

@@ -31,7 +31,7 @@ PATTERNS = {
 LIMITS = {"documents": 4, "strings": 3}
 EXCEPTIONS = ("What it must show",)
 """Parts of lines in which a pattern is right. Questions are right, too."""
-PUBLIC = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "engine/README.md", "web/README.md", "engine/bsmdec.h")
+PUBLIC = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "library/README.md", "web/README.md", "library/bsmdec.h")
 PRODUCT = ("src/", "codec/", "bitstream/")
 PROGRAMS = re.compile(r"/built/|viewer\.js$")  # written by programs
 WIDE = 120  # columns
@@ -41,7 +41,7 @@ DOCUMENTS = (
     "CONTRIBUTING.md",
     "codec/PAPER.md",
     "docs",
-    "engine",
+    "library",
     "src/bsm",
     "tools",
     "web",
@@ -118,7 +118,7 @@ def lengths(text):
 def documents():
     """What users read, by name."""
     texts = {name: text for name, text in tracked().items() if name.endswith(".md") and name.startswith(DOCUMENTS)}
-    return texts | {"engine/bsmdec.h": comments(tracked()["engine/bsmdec.h"])}
+    return texts | {"library/bsmdec.h": comments(tracked()["library/bsmdec.h"])}
 
 
 @pytest.mark.parametrize("kind", LIMITS)

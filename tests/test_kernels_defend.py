@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from bsm import TriangleMesh, decode, decode_sequence, encode, encode_sequence
-from bsm.bitstream import _kernels as of_bytes
+from bsm._core import bitstream as of_bytes
+from bsm._core import codec as of_arrays
 from bsm.bitstream.entropy.range_coder import make_bank, start_writing
-from bsm.codec import _kernels as of_arrays
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.look.measure import AttributeLook
 from bsm.codec.signal.smooth import local_frames

@@ -18,7 +18,7 @@ FOLDERS = ("bitstream", "codec/basis", "codec/blocks", "codec/signal", "codec/se
 FILES = ("codec/geometry/graph.c", "codec/geometry/units.c")
 SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
 CHOICES = ("bitstream/isa.c", "codec/isa.c")
-INTERFACES, VECTORS = ("engine/bsmdec.h", "engine/bsmenc.h"), "codec/basis/vectors.h"
+INTERFACES, VECTORS = ("library/bsmdec.h", "library/bsmenc.h"), "codec/basis/vectors.h"
 ONORM = "codec/basis/onorm.h"
 OF_LEVELS = ("bitstream/fields/wide.h", VECTORS)  # headers that depend on the level of the processor
 LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
@@ -81,8 +81,8 @@ _MACRO = re.compile(r"^\s*#\s*define (\w+)", re.MULTILINE)
 def sources(*, encodes: bool = False) -> list[str]:
     """The files of the decoder or of the whole library, kernels first, by their paths in the repository."""
     kernels = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.c"))]
-    engine = sorted((ROOT / "engine").glob("*.c")) + sorted((ROOT / "engine/encode").glob("*.c")) * encodes
-    paths = (str(path.relative_to(ROOT)) for path in [*kernels, *(ROOT / name for name in FILES), *engine])
+    library = sorted((ROOT / "library").glob("*.c")) + sorted((ROOT / "library/encode").glob("*.c")) * encodes
+    paths = (str(path.relative_to(ROOT)) for path in [*kernels, *(ROOT / name for name in FILES), *library])
     return [path for path in paths if path not in CHOICES]
 
 

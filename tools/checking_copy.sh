@@ -19,7 +19,7 @@ import sys
 
 sys.meta_path[:] = [finder for finder in sys.meta_path if not type(finder).__module__.startswith("_editable_")]
 END
-    find "$copy" -name '_kernels.*.so' -delete
+    find "$copy" -name '_core.*.so' -delete
     cmake --install "build/$name-kernels" --prefix "$copy/src" > /dev/null
     cd "$copy"
     export PYTHONPATH="$PWD:$PWD/src"

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from bsm._engine import Decoder
-from bsm.bitstream import _kernels
+from bsm._core import Decoder
+from bsm._core import bitstream as _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel
 from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of, write_levels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, Writer

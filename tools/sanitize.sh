@@ -35,11 +35,11 @@ cd "$root"
 unset PYTHONPATH PYTHONMALLOC
 flags="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -DKERNEL_ONE_TARGET"
 LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
-    "$python" -m tools.attack.engine 5000 ci --exact --tolerant --seconds 15 --flags="$flags"
+    "$python" -m tools.attack.library 5000 ci --exact --tolerant --seconds 15 --flags="$flags"
 LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
     "$python" -m tools.attack meshes --seconds 15
 unset LD_PRELOAD ASAN_OPTIONS
-made=$("$python" -c "from tests.engine.decoding import compiled; print(compiled(*'$flags'.split()))")
+made=$("$python" -c "from tests.library.decoding import compiled; print(compiled(*'$flags'.split()))")
 cc $flags -I"$made" -I. tools/attack/starve.c "$made/bsmdec.so" -pthread -Wl,-rpath,"$made" -o "$made/starve"
 shopt -s extglob
 # The large ones have hundreds of allocations, and decoding takes a second of each.

@@ -2,6 +2,7 @@
 # Write the stubs of the built kernels into this checkout, which mypy reads: tools/write_stubs.sh [PYTHON]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-for module in bsm._engine bsm._kernels bsm.bitstream._kernels bsm.codec._kernels; do
-    "${1:-python3}" -m nanobind.stubgen -q -m "$module" -o "src/${module//./\/}.pyi"
+mkdir -p src/bsm/_core
+for module in "" bitstream codec; do
+    "${1:-python3}" -m nanobind.stubgen -q -m "bsm._core${module:+.$module}" -o "src/bsm/_core/${module:-__init__}.pyi"
 done

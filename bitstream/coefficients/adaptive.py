@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream import _kernels
-from bsm.bitstream._kernels import bank_plan, constant, priors
+from bsm._core import bitstream as _kernels
+from bsm._core.bitstream import bank_plan, constant, priors
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import ONE
 from bsm.bitstream.errors import OptionError

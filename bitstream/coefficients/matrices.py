@@ -5,8 +5,8 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream import _kernels
-from bsm.bitstream._kernels import constant
+from bsm._core import bitstream as _kernels
+from bsm._core.bitstream import constant
 from bsm.bitstream.coefficients.adaptive import COSTS
 from bsm.bitstream.entropy import range_coder as entropy
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bsm._engine import write_faces, write_order
+from bsm._core import write_faces, write_order
 from bsm.bitstream.errors import MeshError
 
 Ints = npt.NDArray[np.int32]

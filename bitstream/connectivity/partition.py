@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream import _kernels
+from bsm._core import bitstream as _kernels
 from bsm.bitstream.entropy.range_coder import bank_of, finish_writing, start_writing
 
 Indices = npt.NDArray[np.int32]

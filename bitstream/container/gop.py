@@ -9,7 +9,7 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream._kernels import constant
+from bsm._core.bitstream import constant
 from bsm.bitstream.container.wire import write_varint
 from bsm.bitstream.errors import OptionError
 

@@ -6,7 +6,7 @@ import operator
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias
 
-from bsm.bitstream._kernels import constant
+from bsm._core.bitstream import constant
 from bsm.bitstream.errors import OptionError
 
 COUNT = 2**31 - 1

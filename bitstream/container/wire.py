@@ -9,7 +9,7 @@ from typing import Any
 
 import msgpack
 
-from bsm.bitstream._kernels import constant
+from bsm._core.bitstream import constant
 from bsm.bitstream.errors import OptionError, UnsupportedError
 
 MAGIC = b"\x89BSM"

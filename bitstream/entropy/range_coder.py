@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream import _kernels
+from bsm._core import bitstream as _kernels
 from bsm.bitstream.errors import OptionError
 
 ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1

@@ -1,4 +1,4 @@
-/* Whether vectors are computed as IEEE 754 has it, see bitstream/kernel.h; engine/arithmetic.c looks at single
+/* Whether vectors are computed as IEEE 754 has it, see bitstream/kernel.h; library/arithmetic.c looks at single
  * numbers. */
 #include "codec/basis/vectors.h"
 

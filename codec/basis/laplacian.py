@@ -22,8 +22,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.errors import LimitError, NumericError
-from bsm.codec import _kernels
 from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph

@@ -13,8 +13,8 @@ no further iteration.
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.errors import NumericError
-from bsm.codec import _kernels
 from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize
 

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.errors import OptionError, imported
 from bsm.bitstream.once import cached_property
-from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Mask, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows

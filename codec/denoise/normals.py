@@ -6,7 +6,7 @@ from itertools import islice
 
 import numpy as np
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import (
     FaceGeometry,

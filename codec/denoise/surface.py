@@ -7,8 +7,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
-from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Indices, Integers, Order
 
 

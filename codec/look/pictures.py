@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.coefficients.adaptive import STATES
 from bsm.bitstream.coefficients.matrices import Lead, Prices, first_prices, price_levels, write_levels
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank, finish_writing, start_writing
 from bsm.bitstream.errors import OptionError
-from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.signal.transform import LARGEST_LEVEL
 

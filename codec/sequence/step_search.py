@@ -9,8 +9,8 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, TargetError
-from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import POWER, LookMetric

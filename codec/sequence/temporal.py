@@ -12,8 +12,8 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.coefficients.adaptive import points_of_levels
-from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 

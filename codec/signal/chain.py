@@ -1,7 +1,7 @@
 """A chain: a key block and the blocks that follow it, each of which may look back as far as the key block.
 
-The encoder steps through a chain with the calls `around`, `dictionary`, `commit`; the decoder is engine/chain.c. Chains
-are independent, which bounds the loss by a damaged block and lets chains run in parallel.
+The encoder steps through a chain with the calls `around`, `dictionary`, `commit`; the decoder is chain.c.
+Chains are independent, which bounds the loss by a damaged block and lets chains run in parallel.
 
 Not in the paper: a block is predicted from the known vertices around it, and its dictionary uses these. Every edge that
 leaves the block to a known vertex is a spring of stiffness 1 to where that vertex is, as every edge is in the quadratic
@@ -19,8 +19,8 @@ from typing import TypeAlias
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
-from bsm.codec import _kernels
 from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.laplacian import (
     Factor,

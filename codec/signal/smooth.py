@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
 

@@ -10,7 +10,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Basis, Integers, Levels, Matrix
 from bsm.codec.basis.laplacian import factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from bsm.bitstream._kernels import constant
+from bsm._core.bitstream import constant
 from bsm.bitstream.connectivity.faces import Splits, encode_connectivity, encode_order
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets

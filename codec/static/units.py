@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.errors import NumericError
-from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 

@@ -34,7 +34,7 @@ __path__ = [__file__.removesuffix("__init__.py")]
 __version__ = "1.0.0"
 
 try:
-    _built = importlib.import_module("bsm._kernels").version
+    _built = importlib.import_module("bsm._core").version
 except ImportError:
     _built = "missing"
 if _built != __version__:

@@ -8,8 +8,7 @@ extern "C" int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubl
 
 using namespace nb::literals;
 
-NB_MODULE(_kernels, m) {
-    m.attr("version") = BSM_VERSION;
+void bind_bsm(nb::module_ &m) {
     m.def("walk_rows", checked<walk_rows>, "raw"_a, "offset"_a, "widths"_a, "place"_a, "big_endian"_a, "starts"_a,
         "sizes"_a, Unlocked());
     m.def("simplify", checked<simplify>, "positions"_a, "faces"_a, "states"_a, "quadrics"_a, "starts"_a, "around"_a,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm import _kernels
+from bsm import _core as _kernels
 from bsm.bitstream.errors import OptionError, TargetError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, decode, encode
-from bsm._engine import Decoder as Engine
+from bsm._core import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
 from bsm.codec.threads import ordered_map

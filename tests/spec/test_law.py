@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream._kernels import priors
+from bsm._core.bitstream import priors
 from bsm.cli import main
-from tests.engine.decoding import build, decode, of_sequence, released
+from tests.library.decoding import build, decode, of_sequence, released
 from tools.surgery import frames_of
 from tools.vectors.example import NAME, example
 from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes

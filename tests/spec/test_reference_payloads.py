@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import BsmError
-from bsm.bitstream._kernels import code_uniform, code_unsigned
+from bsm._core.bitstream import code_uniform, code_unsigned
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import MOST_GRID
 from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing

@@ -19,10 +19,10 @@ import numpy as np
 
 from bsm import BsmError, encode, load
 from bsm.console import Console
-from tests.engine.decoding import decode, released
+from tests.library.decoding import decode, released
 from tools.amalgamate import ROOT
 from tools.attack.decoding import is_sequence, whole
-from tools.attack.engine import unlike
+from tools.attack.library import unlike
 from tools.command import run_command
 
 VERSION = 4  # the byte of the version, and that of release 1.0

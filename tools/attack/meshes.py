@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from bsm import Attribute, TriangleMesh
-from tests.engine.encoding import CELLS, LOSSLESS, QUALITIES, UNREACHABLE, encode, library
+from tests.library.encoding import CELLS, LOSSLESS, QUALITIES, UNREACHABLE, encode, library
 
 SANITIZED = ("-O1", "-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DKERNEL_ONE_TARGET")
 MISUSED = 2

@@ -24,11 +24,11 @@ import numpy as np
 
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError
-from tests.engine.decoding import decode, of_sequence, released
+from tests.library.decoding import decode, of_sequence, released
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import random_streams, stored
-from tools.attack.engine import STATUS
 from tools.attack.inputs import mutant, random_stream, unencoded_stream, vector_seeds
+from tools.attack.library import STATUS
 from tools.attack.places import Place, environments, processors
 from tools.attack.tally import Outcome, Tally
 from tools.attack.targets import LIMITS

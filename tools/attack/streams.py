@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._engine import Corners, write_faces
+from bsm._core import Corners, write_faces
 from bsm.bitstream.coefficients.matrices import Levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order

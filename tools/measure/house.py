@@ -14,17 +14,18 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PRODUCT = ("src/", "codec/", "bitstream/", "engine/", "web/src/")
+PRODUCT = ("src/", "codec/", "bitstream/", "library/", "web/src/")
 LANGUAGES = {"Python": (".py",), "C and C++": (".c", ".h", ".cpp", ".hpp"), "Rust": (".rs",), "TypeScript": (".ts",)}
 SEARCH = re.compile(r"codec/static/(choice/.*|encoder|targets)\.py$")
 """The modules that find the smallest stream that keeps a promise."""
 BOUND = re.compile(r"m\.def\(\"(\w+)\", (?:&|checked<&?)(\w+)")
 """A kernel that Python may call, and its name in C."""
+CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
     "product in all languages, lines": 67_700,
     "tuned constants of the search": 57,
-    "kernels driven by both Python and the engine": 41,
+    "kernels driven by both Python and C": 41,
 }
 
 
@@ -69,15 +70,15 @@ def _numbers(value: ast.expr) -> int:
 
 
 def driven_twice(product: Iterable[Path]) -> list[str]:
-    """Return the kernels that the product's Python and the C of the engine both call."""
+    """Return the kernels that the product's Python and the C that charges and takes memory both call."""
     texts = {file: (ROOT / file).read_text("utf-8") for file in product if file.suffix in (".py", ".c", ".cpp")}
     bound = dict(pair for file, text in texts.items() if file.name == "kernels.cpp" for pair in BOUND.findall(text))
-    engine = "\n".join(text for file, text in texts.items() if file.parts[0] == "engine" and file.suffix == ".c")
+    drivers = "\n".join(text for file, text in texts.items() if file.suffix == ".c" and CONTEXT.search(text))
     python = "\n".join(text for file, text in texts.items() if file.suffix == ".py")
     return [
         name
         for name, function in bound.items()
-        if re.search(rf"\b({function}|{function.replace('_one', '')})\(", engine)
+        if re.search(rf"\b({function}|{function.replace('_one', '')})\(", drivers)
         and re.search(rf"\b_kernels\.{name}\b|import .*\b{name}\b", python)
     ]
 

@@ -27,7 +27,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tools.pythons import pythons
-from tools.release.engine import STREAM, make_archive, make_crate, make_suite
+from tools.release.library import STREAM, make_archive, make_crate, make_suite
 from tools.release.npm import make_npm
 from tools.release.trial import try_newcomer, try_wheel
 from tools.release.versions import check_versions, notes
@@ -35,7 +35,7 @@ from tools.release.wheels import ARM, INTEL, clean, make_sdist, make_wheel
 from tools.release.windows import make_windows
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("sdist", "wheels", "arm64", "npm", "engine")
+PARTS = ("sdist", "wheels", "arm64", "npm", "library")
 RELEASED = ("bsm_codec-*", "bsm-decoder-*", "bsmdec-*", "bsm-conformance-*", "SHA256SUMS", "NOTES.md")
 """What a release consists of, and what an earlier one has left."""
 STABLE = (3, 12)
@@ -98,7 +98,7 @@ def make(
             made.append(make_list(made[1], builders[0], output))
         if "npm" in only:
             made.append(make_npm(sources, ROOT, output))
-        if "engine" in only:
+        if "library" in only:
             made += [part(sources, version, output) for part in (make_archive, make_windows, make_crate, make_suite)]
     return made
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 OTHERS = {
     "web/package.json": r'^  "version": "(.+?)"',
-    "engine/bsmdec.h": r'^#define BSMDEC_VERSION "(.+)"',
-    "engine/CMakeLists.txt": r"^project\(bsmdec VERSION (\S+)",
-    "engine/rust/Cargo.toml": r'^version = "(.+)"',
+    "library/bsmdec.h": r'^#define BSMDEC_VERSION "(.+)"',
+    "library/CMakeLists.txt": r"^project\(bsmdec VERSION (\S+)",
+    "library/rust/Cargo.toml": r'^version = "(.+)"',
 }
 
 

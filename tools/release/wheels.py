@@ -73,9 +73,9 @@ def check_contents(wheel: Path) -> None:
     tops = {name.partition("/")[0] for name in names}
     strange = {top for top in tops if top != "bsm" and not top.endswith(".dist-info")}
     sources = [name for name in names if name.endswith((".c", ".h", ".cpp", ".hpp"))]
-    kernels = [name for name in names if "_kernels." in name and name.endswith(".so")]
+    kernels = [name for name in names if "_core." in name and name.endswith(".so")]
     kernels = [name for name in kernels if ".abi3." in name or wheel.stem.endswith(tuple(name.split("-")[2:3]))]
-    if strange or sources or len(kernels) != 3 or "bsm/py.typed" not in names:
+    if strange or sources or len(kernels) != 1 or "bsm/py.typed" not in names:
         raise SystemExit(f"{wheel.name}: {strange or sources or kernels} is not what a wheel should have")
 
 

@@ -15,8 +15,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-FOR_PAPER = ("bsm._kernels", "matplotlib", "zstandard", "pymetis", "threadpoolctl")
-NEEDED = ("bsm._kernels", "matplotlib", "DracoPy", "zstandard", "pymetis", "flip_evaluator", "ssimulacra2", "pymeshlab")
+FOR_PAPER = ("bsm._core", "matplotlib", "zstandard", "pymetis", "threadpoolctl")
+NEEDED = ("bsm._core", "matplotlib", "DracoPy", "zstandard", "pymetis", "flip_evaluator", "ssimulacra2", "pymeshlab")
 MINUTES = {
     "rates": 16.0,
     "outside": 8.0,

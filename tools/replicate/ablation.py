@@ -16,7 +16,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from bsm.bitstream._kernels import bank_plan
+from bsm._core.bitstream import bank_plan
 from bsm.bitstream.coefficients import adaptive
 from bsm.bitstream.container.gop import GopMethod
 from bsm.bitstream.errors import BsmError

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream import _kernels
+from bsm._core import bitstream as _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, encode_coefficients
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.packets import Refinement

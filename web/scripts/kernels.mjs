@@ -15,31 +15,34 @@ function sourcesIn(folder) {
 }
 
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
-const SOURCES = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^engine\/(examples|python|ahead)|rate_distortion/.test(path));
+const SOURCES = ["bitstream", "codec", "library"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)|rate_distortion/.test(path));
 
-/** Functions for the page (engine/wasm/page.c, engine/bsmdec.h). */
+/** Functions for the page (library/wasm/page.c, library/bsmdec.h). */
 const PAGE = [
     ...["take", "give", "open", "close", "share", "next", "error", "state", "header", "loose", "metadata", "handed", "room", "add", "lose", "changes", "losses"].map((name) => `page_${name}`),
     ...["push", "finish", "faces", "positions", "attribute_at", "attribute_values", "attribute_indices"].map((name) => `bsmdec_${name}`),
 ];
-/** Functions for a page that decodes light grids alone (engine/wasm/light.c). */
+/** Functions for a page that decodes light grids alone (library/wasm/light.c). */
 const LIGHT = ["page_take", "page_give", ...["open", "close", "charge", "error", "begin", "faces", "positions"].map((name) => `light_${name}`)];
 
-/** Functions for a page that encodes (engine/wasm/encode.c). */
+/** Functions for a page that encodes (library/wasm/encode.c). */
 const ENCODE = ["page_take", "page_give", ...["begin", "attribute", "metadata", "run", "message", "bytes", "size", "end"].map((name) => `encode_${name}`)];
 
 const TARGET = "--target=wasm32";
 const FLAGS = [
     TARGET, "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
-    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-mbulk-memory", "-isystem", "engine/wasm/include",
+    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-mbulk-memory", "-isystem", "library/wasm/include",
 ];
 
 const LINK = [
     "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--lto-O2", "-Wl,--strip-all", "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
 ];
 
+/** Sources that charge and take memory: what is over the kernels. */
+const DRIVERS = /^library|^bitstream\/(context|pool|container|payloads)|^codec\/(basis\/(structure|dictionaries)|signal\/(chain|assembly|layer)|sequence\/(parts|gop|frames))\.c/;
+
 /** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
-const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry|engine/;
+const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
 export function compiler() {
@@ -50,7 +53,7 @@ export function compiler() {
 /** What tells the built kernels and all that they are built of, but for the compiler: where it is as written, they are not compiled again to compare. */
 export function fingerprint() {
     const hash = createHash("sha256");
-    const headers = ["bitstream", "codec", "engine"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
+    const headers = ["bitstream", "codec", "library"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
     const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) => join("web", name));
     for (const path of [...SOURCES, ...headers, "spec/priors.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
     return hash.digest("hex");
@@ -121,26 +124,26 @@ function checkPriors(clang, object, priors, target) {
 }
 
 /** Sources of what takes most time, which are compiled for speed, and not for their size alone; vectors that they do not ask for make them slower. */
-const FAST = /basis\/cholesky|signal\/frames|codec\/blocks|conquest|fields\/(layer|corners|expectation|grid)|engine\/coding/;
+const FAST = /basis\/cholesky|signal\/frames|codec\/blocks|conquest|fields\/(layer|corners|expectation|grid)|payloads\/coding/;
 const SPEED = ["-fno-vectorize", "-fno-slp-vectorize"];
 
 /** Sources that stay apart when the rest is optimized as one: what runs WebAssembly compiles smaller functions sooner. */
-const APART = /engine\/(structure|topology|layer|stages)/;
+const APART = /basis\/structure|payloads\/topology|signal\/layer|library\/stages/;
 
 /** How a source is compiled; the decoder of light grids is the smallest. */
 function optionsOf(source, fast, light) {
     if (fast.test(source)) return [light ? "-O2" : "-O3", ...SPEED];
-    return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
+    return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) || DRIVERS.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
 }
 
 /** Every build: whether with vector instructions, what of the decoder it is without, which headers ask for that, and which sources are compiled for speed; `light`: for light grids alone; `writes`: the encoder. */
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": { vectors: true },
     "built/kernels-scalar.wasm": { vectors: false },
-    "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec|fields\/twins|engine\/(sequence|gop|parts|frames|layer|chain|dictionaries|assembly|zstd|split|whole|changes)\.c|engine\/wasm\/(page|light)\.c/, lacks: "!header->on_grid || header->congruence" },
-    "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec/, fast: /conquest/, light: true },
+    "built/small.wasm": { vectors: true, without: /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
+    "built/moving.wasm": { vectors: true, without: /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
+    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/twins|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, lacks: "!header->on_grid || header->congruence" },
+    "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: true },
 };
 
 /** Objects of sources, which builds have in common. */
@@ -157,7 +160,7 @@ export function compileKernels({ vectors, exported = PAGE, without, lacks, fast 
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            const options = [...FLAGS, writes ? "-DBSMDEC_WRITES" : "-DBSM_DECODER", ...optionsOf(source, fast, light), ...(without && source.startsWith("engine") ? [...(writes ? [] : ["-DBSMDEC_TERSE"]), ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : [])] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
+            const options = [...FLAGS, writes ? "-DBSMDEC_WRITES" : "-DBSM_DECODER", ...optionsOf(source, fast, light), ...(without && DRIVERS.test(source) ? [...(writes ? [] : ["-DBSMDEC_TERSE"]), ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : [])] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
             const key = options.join(" ");
             if (source === data || !compiled.has(key)) {
                 clang(...options, "-o", object);

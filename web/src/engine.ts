@@ -8,7 +8,7 @@ import type { Limits } from "./limits";
 import { errorName, Memory } from "./memory";
 import type { Share, SharedBlock } from "./share";
 
-/** Events in the order of engine/bsmdec.h, and one of decoders with helpers. */
+/** Events in the order of library/bsmdec.h, and one of decoders with helpers. */
 export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, , AWAITED] = Array.from({ length: 14 }, (_, i) => i);
 
 const VIEWS: Kind<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array];

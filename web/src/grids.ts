@@ -12,7 +12,7 @@ import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 
 export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
-/** The functions of engine/wasm/light.c, which decode what the reader gives them. */
+/** The functions of library/wasm/light.c, which decode what the reader gives them. */
 class Light extends Memory {
     constructor(kernels: Kernels, limits: Limits) {
         super(kernels, limits, "light_open");

@@ -5,7 +5,7 @@ import { DEFAULT_LIMITS, type Limits } from "./limits";
 
 const NAMES: Record<number, string> = { 3: "Format", 4: "Corrupt", 5: "Unsupported", 6: "Limit", 7: "Numeric", 8: "Limit", 12: "Truncated" };
 
-/** The name of the error that a status of engine/bsmdec.h means. */
+/** The name of the error that a status of library/bsmdec.h means. */
 export function errorName(status: number): string {
     return `${NAMES[status] ?? "Bsm"}Error`;
 }

@@ -1,4 +1,4 @@
-/** The encoder for pages: streams that the decoder reads, errors, progress. tests/engine/test_encode.py compares their bytes with those of C. */
+/** The encoder for pages: streams that the decoder reads, errors, progress. tests/library/test_encode.py compares their bytes with those of C. */
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.normals import filter_normals, patch_guidance
 from bsm.codec.denoise.surface import FaceGeometry, Floats, Mask, Topology, face_geometry, mean_centroid_distance

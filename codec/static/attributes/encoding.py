@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from bsm._engine import Corners
+from bsm._core import Corners
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import (
     AS_CODED,

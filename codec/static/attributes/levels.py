@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._engine import Field
-from bsm._engine import quantized as whole_numbers
-from bsm.bitstream._kernels import constant
+from bsm._core import Field
+from bsm._core import quantized as whole_numbers
+from bsm._core.bitstream import constant
 from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration, entries_of
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError, TargetError
@@ -100,7 +100,7 @@ def quantized(values: Values, semantic: str, quality: Quality, name: str) -> Qua
     return QuantizedValues(fields, levels, _noted(*outcome))
 
 
-WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as engine/bsmenc.h numbers them
+WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
 SEMANTICS = ("generic", "color", "normal", "texcoord")
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.grid import Grid

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bsm._engine import rounded as places_on
+from bsm._core import rounded as places_on
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property

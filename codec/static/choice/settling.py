@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.look.pictures import CREASE, MOST_AROUND

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
-from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.geometry.metrics import Original

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bsm._engine import Field
+from bsm._core import Field
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import EXACT
 from bsm.bitstream.container.wire import with_lengths

@@ -7,7 +7,7 @@ from itertools import chain
 
 import numpy as np
 
-from bsm._engine import Decoder
+from bsm._core import Decoder
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import FrameType
@@ -102,7 +102,7 @@ _CARRIED = {
 
 @dataclass(frozen=True)
 class Packet:
-    """A packet as the decoder in C lists it (`decoder_skim` in engine/python/inside.h)."""
+    """A packet as the decoder in C lists it (`decoder_skim` in library/python/inside.h)."""
 
     name: str
     type: int

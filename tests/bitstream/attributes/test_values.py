@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm._engine import Corners
+from bsm._core import Corners
 from bsm.codec.static.attributes.levels import octahedral_normals, quantized
 from bsm.codec.static.attributes.quality import Quality
 from tests.bitstream.fields.fields import decode, encode, field_of

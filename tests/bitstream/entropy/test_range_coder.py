@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import CorruptError, OptionError, TruncatedError
-from bsm.bitstream._kernels import code_uniform, code_unsigned
+from bsm._core.bitstream import code_uniform, code_unsigned
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import Bank, finish_writing, make_bank, start_writing
 from tools.payloads import finish_reading, overran, start_reading

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 from hypothesis import strategies as st
 
-from bsm._engine import Field
+from bsm._core import Field
 from bsm.bitstream.container.header import (
     COLOR,
     FACE,

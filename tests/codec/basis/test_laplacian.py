@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from bsm import NumericError
-from bsm.codec import _kernels
+from bsm._core import codec as _kernels
 from bsm.codec.basis.laplacian import (
     cotangent_weights,
     dense_laplacian,

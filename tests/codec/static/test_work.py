@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm import PRESETS, Decoder, EncodeOptions, LimitError, Limits, OptionError, TriangleMesh, decode, encode
-from bsm._engine import Decoder as Engine
+from bsm._core import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.basis.laplacian import dictionary_cost, laplacian_of
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks

@@ -8,7 +8,7 @@ from itertools import count, takewhile
 import numpy as np
 import numpy.typing as npt
 
-from bsm import _kernels
+from bsm import _core as _kernels
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic

@@ -1,0 +1,76 @@
+/* What a stream says before anything else, and what it declares of attributes (specification, F 4, F 10, D 1). */
+#ifndef BSMDEC_HEADER_H
+#define BSMDEC_HEADER_H
+
+#include "bitstream/container/container.h"
+#include "bitstream/container/maps.h"
+
+/* How blocks are coded; only the paper's codec has other than the law's constants (F 10). */
+typedef struct {
+    int bits, coarser, exact, power, iterations, key_iterations, springs;
+    double shift;
+} Paper;
+
+enum { LIGHT = 1, EXACT_FLOATS = 2 };
+
+typedef struct {
+    int64_t vertices, faces, blocks, block_size, coefficients, key_interval, attributes;
+    double step, center[3], scale, smoothing;
+    bool refined, on_grid, is_sequence;
+    double refinement[2]; /* step and ratio */
+    int32_t grid[3];
+    int64_t cells, points, corner[3]; /* of a lattice, 0 without */
+    bool counted;                     /* there is a corner */
+    int light, onorm;                 /* solutions before each Onorm in doubles, or 0 */
+    int congruence; /* 1 more than the transforms of congruent parts; 0: the grid is coded without */
+    int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
+    Paper paper;
+} Header;
+
+/* How positions on a grid are coded. */
+INLINE int method_of(const Header *header) {
+#ifdef BSMDEC_LIGHT /* a build of light grids alone */
+    return (void)header, LIGHT;
+#else
+    return header->light;
+#endif
+}
+
+/* Whether values of a grid are also foretold from congruent parts. */
+INLINE bool is_congruent(const Header *header) { return method_of(header) != LIGHT && header->congruence > 0; }
+
+bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
+
+/* All numbers of a header in a row, for other languages. */
+enum { HEADER_NUMBERS = 42 };
+void list_header(const Header *header, double *numbers);
+
+/* Blocks of a chain (M 10.1). */
+INLINE int64_t chain_length(const Header *header) {
+    return header->key_interval > 0 ? header->key_interval : header->blocks;
+}
+
+enum { LEVELS, OCTAHEDRAL, BITS, RECOMPUTED };
+enum { MOST_ATTRIBUTES = 256, MOST_WORDS = 8 };
+
+/* By the kind of numbers: the least of integers; what a fraction of 1 is, the largest of integers. */
+static const double LEAST_OF[] = {0, INT8_MIN, 0, INT16_MIN, 0, INT32_MIN};
+static const double UNIT_OF[] = {UINT8_MAX, INT8_MAX, UINT16_MAX, INT16_MAX, UINT32_MAX, INT32_MAX, 1, 1};
+
+/* An attribute, but for its values. */
+typedef struct {
+    char name[MOST_NAME + 1];
+    int name_size, domain, origin, semantic, kind, components, coding, words;
+    int64_t rows, seams_of;
+    uint32_t largest[MOST_WORDS];
+    double offset[MOST_WORDS], step[MOST_WORDS]; /* one of each for every word */
+    bool leans, moves;
+} Declaration;
+
+bool parse_declaration(Context *context, Span payload, Arena *scratch, Declaration *declaration);
+/* Whether the user is given values by vertices. */
+INLINE bool is_by_vertex(const Declaration *d) {
+    return (d->domain == BSMDEC_VERTEX && d->origin == 0) || (d->domain == BSMDEC_CORNER && d->origin == 1);
+}
+
+#endif

@@ -1,0 +1,62 @@
+/* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
+#include "bitstream/payloads/corners.h"
+
+enum {
+    MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES,
+    TWIN_SLOTS = 2 * TWIN_CONTEXTS * CONTEXT_SIZE * VALUE_NODES,
+    UNLEARNED_HIT = 1 << 28, SLOT_WEIGHT = 6000,
+};
+
+bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
+    int64_t size = 3 * faces.rows;
+    Mark mark = mark_of(scratch);
+    Ints room;
+    corners->faces = faces;
+    bool done = take_ints(arena, vertices + 1, &corners->starts) && take_ints(arena, size, &corners->corners)
+        && take_ints(arena, size, &corners->opposite) && take_ints(arena, vertices, &corners->rank)
+        && take_ints(scratch, vertices + size, &room);
+    for (int64_t v = 0; done && v < vertices; v++) corners->rank.data[v] = (int32_t)v;
+    done = done && (link_corners(*corners, room) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
+    release_to(scratch, mark);
+    return done;
+}
+
+bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order) {
+    int64_t vertices = corners->rank.size;
+    Mark mark = mark_of(scratch);
+    Ints2 room;
+    bool done = take_ints(arena, vertices, order) && take_ints2(scratch, 3, vertices, &room);
+    if (done) order_vertices(*corners, *order, room);
+    release_to(scratch, mark);
+    return done;
+}
+
+bool make_value_model(Arena *arena, ValueModel *model, bool of_twins) {
+    int64_t slots = MODEL_SLOTS + (of_twins ? TWIN_SLOTS : 0);
+    if (!take_words(arena, slots, &model->slots) || !take_words(arena, HIT_CONTEXTS * MODEL_ROW, &model->hits)
+        || !zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, WEIGHT_ROW, &model->weights)
+        || !zero_ints2(arena, SCALE_CONTEXTS, MODEL_ROW, &model->scales)
+        || (of_twins && !zero_ints2(arena, TWIN_ROWS, TWIN_ROW, &model->twins)))
+        return false;
+    for (int i = 0; i < TWIN_ROWS && of_twins; i++) {
+        int32_t *row = model->twins.data + TWIN_ROW * i;
+        row[0] = 6 << 8, row[1] = 3, row[2] = INT32_MIN;
+    }
+    for (int64_t i = 0; i < model->slots.size; i++) model->slots.data[i] = 1u << 31;
+    for (int64_t i = 0; i < model->hits.size; i++) model->hits.data[i] = UNLEARNED_HIT;
+    for (int row = 0; row < VALUE_NODES; row++) {
+        int32_t *weight = model->weights.data + row * WEIGHT_ROW;
+        for (int i = 0; i < PREDICTIONS; i++) weight[i] = ONE * 9 / (8 * PREDICTIONS);
+        for (int i = CONSTANT_INPUT + 1; i < (of_twins ? WEIGHT_ROW : VALUE_INPUTS); i++) weight[i] = SLOT_WEIGHT;
+    }
+    return true;
+}
+
+bool make_learners(Arena *arena, int64_t count, Longs2 *learners) {
+    return zero_longs2(arena, count, LEARNER_COLUMNS, learners);
+}
+
+bool check_chunk_done(const Coding *coding, int64_t done, int64_t count) {
+    if (ran_over(coding) || done < count) return nonsense(coding, "a value is out of its range");
+    return finish_coding(coding);
+}

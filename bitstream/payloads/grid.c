@@ -1,0 +1,196 @@
+/* Positions on a grid (specification, V 7 to V 10, V 12, V 15 to V 17). */
+#include "bitstream/payloads/grid.h"
+
+#include "bitstream/costs.h"
+#include "bitstream/payloads/corners.h"
+
+enum { AXES = 3, SUM_LEARNERS = 48, SIZE_LEARNERS = 12, FLOAT_SLOTS = 27 };
+static const int64_t NO_FLOAT = INT64_C(1) << 40;
+
+/* Of the largest axis. */
+static int32_t most_of(const Header *header) {
+    int32_t most = 0;
+    for (int j = 0; j < AXES; j++) most = header->grid[j] > most ? header->grid[j] : most;
+    return most;
+}
+
+static bool charge_grid(Context *context, const Header *header) {
+    double n = (double)header->vertices, m = (double)header->faces, span = most_of(header);
+    bool light = method_of(header) == LIGHT;
+    if (!reserve(context, grid_memory(n, m), 0) || !charge(context, light ? light_work(n, m) : grid_work(n, m), 0)
+        || !WITHIN(context, field_bytes, grid_field_bytes(n, m)))
+        return false;
+    if (is_congruent(header)) {
+        double images = 2 * (header->congruence - 1), bytes = twins_bytes(n, images);
+        if (!reserve(context, bytes, 0) || !charge(context, twins_work(n, images), 0)
+            || !WITHIN(context, field_bytes, grid_field_bytes(n, m) + bytes))
+            return false;
+    }
+    return method_of(header) != EXACT_FLOATS
+        || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
+}
+
+static bool begin_full(GridField *field, Arena *arena, Arena *scratch) {
+    Grid *grid = &field->grid;
+    int64_t n = field->header->vertices, words = most_of(field->header) / 64 + 1;
+    if (!order_mesh(&field->corners, arena, scratch, &field->order) 
+        || !make_value_model(arena, &field->model, is_congruent(field->header)))
+        return false;
+    *grid = (Grid){.largest = const_ints(field->largest), .order = const_ints(field->order), .values = field->values};
+    if (!zero_ints2(arena, n, AXES, &grid->gaps) || !zero_longs2(arena, n, 4, &grid->sums)
+        || !zero_longs2(arena, AXES, words, &grid->seen)
+        || !make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS, &grid->learners))
+        return false;
+    for (int64_t k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) {
+        start_learner(grid->learners, k, 0, 49152);
+        if (k >= SUM_LEARNERS) start_learner(grid->learners, k, 1, 8192);
+    }
+    return true;
+}
+
+static bool begin_light(GridField *field, Arena *arena) {
+    Light *light = &field->light;
+    field->order = field->corners.rank;
+    *light = (Light){.largest = const_ints(field->largest), .values = field->values};
+    if (!zero_ints2(arena, field->header->vertices, AXES, &light->gaps)
+        || !take_words(arena, LIGHT_SLOTS, &light->slots))
+        return false;
+    for (int64_t i = 0; i < LIGHT_SLOTS; i++) light->slots.data[i] = 1u << 31;
+    return true;
+}
+
+static bool begin_floats(GridField *field, Arena *arena) {
+    Floats *floats = &field->floats;
+    int64_t span = most_of(field->header) + 1;
+    if (!take_words(arena, FLOAT_SLOTS, &floats->slots) || !zero_longs(arena, AXES, &floats->latest)
+        || !take_longs2(arena, AXES, span, &floats->known))
+        return false;
+    for (int64_t i = 0; i < FLOAT_SLOTS; i++) floats->slots.data[i] = 1u << 31;
+    for (int64_t i = 0; i < AXES * span; i++) floats->known.data[i] = NO_FLOAT;
+    return true;
+}
+
+static bool begin_twins(GridField *field, Arena *arena) {
+    int64_t n = field->header->vertices, transforms = field->header->congruence - 1, images = 2 * transforms;
+    Twins *twins;
+    if (!TAKE_ZEROS(arena, 1, twins) || !TAKE(arena, MOST_ECHOES, twins->echo)
+        || !TAKE_ZEROS(arena, ECHO_HEADS, twins->echo_head)
+        || !zero_ints2(arena, transforms, TRANSFORM_ROW, &field->transforms))
+        return false;
+    field->twins = field->grid.twins = twins;
+    if (images == 0) return true;
+    twins->head_bits = 2; /* four times as many as vertices: few hold more than one cell */
+    while (INT64_C(1) << (twins->head_bits - 2) < n && twins->head_bits < 26) twins->head_bits++;
+    int64_t heads = INT64_C(1) << twins->head_bits;
+    if (!TAKE(arena, n * images, twins->twin) || !TAKE_ZEROS(arena, n, twins->has) || !TAKE(arena, heads, twins->head)
+        || !TAKE(arena, n, twins->next) || !TAKE_ZEROS(arena, 1 << (NEAR_BITS - 6), twins->near))
+        return false;
+    for (int64_t i = 0; i < heads; i++) twins->head[i] = -1;
+    return true;
+}
+
+/* The transforms, which precede the first value (V 17.2). */
+static bool code_twins(GridField *field, Coder coder) {
+    ConstInts span = const_ints(field->largest);
+    if (code_transforms(coder, span, field->transforms) < 0)
+        return FAIL(field->context, CORRUPT, "transforms that cannot be read");
+    list_images(span, const_ints2(field->transforms), field->twins);
+    return true;
+}
+
+bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
+    Arena *scratch) {
+    int64_t n = header->vertices;
+    *field = (GridField){.context = context, .header = header, .faces = faces};
+    if (!charge_grid(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
+    if (!take_ints(arena, AXES, &field->largest) || !zero_ints2(arena, n, AXES, &field->values)
+        || !take_doubles2(arena, n, AXES, &field->positions))
+        return false;
+    for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
+    memcpy(field->largest.data, header->grid, sizeof header->grid);
+    if (method_of(header) == LIGHT) return begin_light(field, arena);
+    return begin_full(field, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena))
+        && (!is_congruent(header) || begin_twins(field, arena));
+}
+
+bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {
+    Coding coding;
+    if (!begin_coding(field->context, payload, &coding)
+        || (first == 0 && field->twins != NULL && !code_twins(field, coding.coder)))
+        return false;
+    int64_t done = method_of(field->header) == LIGHT
+        ? code_light(coding.coder, field->corners, field->light, first, count)
+        : code_grid(coding.coder, field->model, field->corners, field->grid, first, count);
+    return check_chunk_done(&coding, done, count);
+}
+
+/* V 12. */
+static bool place_values(GridField *field, ConstInts vertices) {
+    const Header *header = field->header;
+    double spoiled = 0.0;
+    for (int64_t i = 0; i < vertices.size; i++)
+        for (int j = 0; j < AXES; j++) {
+            int64_t at = AXES * (int64_t)vertices.data[i] + j, value = field->values.data[at];
+            int64_t cell =
+                header->points > 0 ? (2 * value * header->cells + header->points) / (2 * header->points) : value;
+            double product = (double)(cell + header->corner[j]) * header->scale;
+            field->positions.data[at] = product + header->center[j];
+            spoiled += field->positions.data[at] * 0.0;
+        }
+    return spoiled == 0.0 || FAIL(field->context, NUMERIC, "positions are not finite in the unit of the mesh");
+}
+
+static double float_of(int64_t number) {
+    uint32_t bits = (uint32_t)(number < 0 ? (int64_t)INT32_MAX - number : number);
+    float single;
+    memcpy(&single, &bits, sizeof single);
+    return single;
+}
+
+/* Which float of the cell of its value each coordinate is (V 16). */
+bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch) {
+    const Header *header = field->header;
+    int64_t count = vertices.size;
+    Ints2 values;
+    Longs2 low, near, high, chosen;
+    Coding coding;
+    if (!take_ints2(scratch, count, AXES, &values) || !take_longs2(scratch, count, AXES, &low)
+        || !take_longs2(scratch, count, AXES, &near) || !take_longs2(scratch, count, AXES, &high)
+        || !take_longs2(scratch, count, AXES, &chosen) || !begin_coding(field->context, payload, &coding))
+        return false;
+    for (int64_t i = 0; i < AXES * count; i++) {
+        int j = (int)(i % AXES);
+        int32_t value = values.data[i] = field->values.data[AXES * (int64_t)vertices.data[i / AXES] + j];
+        double down = (value - 0.5) * header->scale, middle = value * header->scale, up = (value + 0.5) * header->scale;
+        low.data[i] = number_of_float(down + header->center[j]);
+        near.data[i] = number_of_float(middle + header->center[j]);
+        high.data[i] = number_of_float(up + header->center[j]);
+        chosen.data[i] = number_of_float(field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + j]);
+    }
+    int64_t done = code_floats(coding.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
+        const_longs2(high), chosen);
+    if (!check_chunk_done(&coding, done, count)) return false;
+    double spoiled = 0.0;
+    for (int64_t i = 0; i < AXES * count; i++) {
+        double place = float_of(chosen.data[i]);
+        field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + i % AXES] = place;
+        spoiled += place * 0.0;
+    }
+    return spoiled == 0.0 || FAIL(field->context, NUMERIC, "positions are not finite in the unit of the mesh");
+}
+
+bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch) {
+    Context *context = field->context;
+    double bytes = (double)payload.size;
+    if (!charge(context, method_of(field->header) == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes))
+        return false;
+    if (first != field->coded)
+        return FAIL(context, CORRUPT, "positions from number # on are missing; others depend on them", field->coded);
+    bool exact = method_of(field->header) == EXACT_FLOATS;
+    Cursor cursor = {context, payload};
+    Span values = exact ? take_span(&cursor, take_varint(&cursor)) : payload;
+    if (failed(context) || !code_grid_values(field, first, count, values)) return false;
+    field->coded += count;
+    ConstInts vertices = {field->order.data + first, count};
+    return exact ? place_floats(field, vertices, take_rest(&cursor), scratch) : place_values(field, vertices);
+}

@@ -1,0 +1,159 @@
+/* CONNECTIVITY to faces (specification, C 4 to C 8), and the labels of PARTITION (C 10). */
+#include "bitstream/payloads/topology.h"
+
+#include "bitstream/connectivity/connectivity.h"
+#include "bitstream/payloads/coding.h"
+
+enum { FIRST_NODES_ROOM = 16, EVENT_TRUST = 30,
+    FAN_BYTES = 32 /* more than the vertex of a fan, or a corner of a face that repeats one, can take */ };
+/* Bytes that decoding and the graph take at most for each; only fans that are sewn together count (M 14.8). */
+static const double FACE_MEMORY = 100, VERTEX_MEMORY = 400, FAN_MEMORY = 240;
+
+static bool make_models(Arena *arena, int64_t vertices, ValenceModel *models, Bank *rare) {
+    int bits = (int)largest(LEAST_HASH_BITS, least(64 - __builtin_clzll((uint64_t)vertices) - 2, MOST_HASH_BITS));
+    int64_t valences = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES;
+    Bank valence, event;
+    models->bits = bits;
+    return make_bank(arena, (BankPlan){.slots = valences, .selectors = VALENCE_NODES, .inputs = VALENCE_CONTEXTS,
+        .limit = 1023, .rate = 16}, &valence)
+        && make_bank(arena, (BankPlan){.slots = EVENT_CONTEXTS * EVENT_SIZE, .selectors = 1, .inputs = EVENT_CONTEXTS,
+            .limit = 1023, .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &event)
+        && make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}, rare)
+        && open_bank(&models->valence, valence, valences, VALENCE_NODES, VALENCE_CONTEXTS)
+        && open_bank(&models->event, event, EVENT_CONTEXTS * EVENT_SIZE, 1, EVENT_CONTEXTS)
+        && open_bank(&models->rare, *rare, RARE_NODES, RARE_NODES, 1);
+}
+
+static int64_t code_count(Coding *coding, Bank rare, int64_t count) {
+    int64_t context = 0;
+    return code_one_unsigned(coding->coder, rare, (ConstLongs){&context, 1}, 0, RARE_UNARY, count, RARE_HEADER);
+}
+
+/* The conquest (C 6) of faces that do not repeat a corner, with more memory for its front each time it asks. */
+static bool code_surface(Coding *coding, Conquest *walk, Arena *scratch, Ints2 faces) {
+    walk->faces = faces.data;
+    walk->face_room = faces.rows;
+    walk->turns = 4 * faces.rows; /* each real face has at most three dummy neighbors */
+    walk->steps = 65536 + 16 * faces.rows;
+    for (int i = 0; i < HEADS; i++) walk->front.heads[i] = i == MADE || i == ALIVE ? 0 : -1;
+    walk->front.capacity = walk->vertex_room + FIRST_NODES_ROOM;
+    if (!TAKE(scratch, walk->vertex_room, walk->vertices) || !TAKE(scratch, walk->front.capacity, walk->front.nodes))
+        return false;
+    for (;;) {
+        ConquestEnd end = conquer(coding->coder, walk);
+        if (end == CONQUEST_DONE) return true;
+        Node *nodes = walk->front.nodes, *wider;
+        int64_t made = walk->front.capacity;
+        if (end == CONQUEST_NONSENSE || made > INT32_MAX / 2)
+            return nonsense(coding, "a connectivity payload does not make its triangles");
+        if (!room_to_write(coding, TURN_BYTES)) return false;
+        if (walk->front.heads[MADE] + 3 <= made) continue;
+        if (!TAKE(scratch, 2 * made, wider)) return false;
+        memcpy(wider, nodes, (size_t)made * sizeof *nodes);
+        walk->front.nodes = wider;
+        walk->front.capacity = 2 * made;
+    }
+}
+
+/* The fans after and before each fan along the boundary (C 7.1). */
+static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
+    int64_t size = 3 * faces.rows;
+    Longs starts;
+    Ints by_high, order, twin;
+    if (!take_longs(scratch, after.size + 1, &starts) || !take_ints(scratch, size, &by_high)
+        || !take_ints(scratch, size, &order) || !take_ints(scratch, size, &twin))
+        return false;
+    match_halfedges((ConstInts){faces.data, size}, starts, by_high, order, twin);
+    for (int64_t i = 0; i < after.size; i++) after.data[i] = before.data[i] = -1;
+    for (int64_t i = 0; i < size; i++)
+        if (twin.data[i] < 0) after.data[faces.data[i]] = faces.data[next_halfedge((int32_t)i)];
+    for (int64_t fan = 0; fan < after.size; fan++)
+        if (after.data[fan] >= 0) before.data[after.data[fan]] = (int32_t)fan;
+    return true;
+}
+
+/* Which fans are the same vertex (C 7): corners become vertices. Returns their number, -1 for nonsense. */
+static int64_t join_fans(Coding *coding, Arena *scratch, Ints2 faces, Ints known) {
+    Ints after, before, vertex, sibling, latest;
+    int64_t fans = known.size;
+    Bank bank;
+    if (!take_ints(scratch, fans, &after) || !take_ints(scratch, fans, &before)
+        || !take_ints(scratch, fans, &vertex) || !take_ints(scratch, fans, &sibling)
+        || !take_ints(scratch, fans, &latest)
+        || !make_bank(scratch, FAN_BANK, &bank)
+        || !find_borders(scratch, faces, after, before))
+        return -1;
+    if (known.data == NULL) {
+        if (!take_ints(scratch, fans, &known)) return -1;
+        for (int64_t i = 0; i < fans; i++) known.data[i] = -1;
+    }
+    int64_t count = code_fans(coding->coder, bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
+    for (int64_t i = 0; count >= 0 && i < 3 * faces.rows; i++) faces.data[i] = vertex.data[faces.data[i]];
+    return count;
+}
+
+#ifdef BSMDEC_WRITES
+/* The numbers that a decoder gives the vertices of fans and of faces that repeat a corner. */
+static void number_vertices(const Surface *surface, int64_t fans, Ints corners) {
+    Ints used = surface->used;
+    for (int64_t i = 0; i < fans; i++) used.data[i] = surface->vertex[surface->guide.fans[i]];
+    number_by_appearance(const_ints(used), surface->order, surface->number);
+    for (int64_t i = 0; i < used.size; i++) used.data[i] = surface->number.data[used.data[i]];
+    for (int64_t i = 0; i < corners.size; i++) corners.data[i] = used.data[fans + i];
+}
+#endif
+
+static bool code_faces_of(Coding *coding, const Header *header, const Surface *surface, Arena *arena, Arena *scratch,
+    Ints2 *faces) {
+    Context *context = coding->context;
+    Conquest walk = {.map = surface->guide};
+    Bank rare;
+    if (!make_models(scratch, header->vertices, &walk.model, &rare)) return false;
+    int64_t repeated = code_count(coding, rare, surface->repeated);
+    int64_t lonely = code_count(coding, rare, surface->lonely);
+    int64_t surplus = code_count(coding, rare, surface->surplus);
+    int64_t dummies = walk.dummies = code_count(coding, rare, surface->dummies);
+    int64_t proper = header->faces - repeated, regular = header->vertices - lonely, fans = regular + surplus;
+    if (proper < 0 || regular < 0 || lonely > 3 * repeated || fans > 3 * proper || dummies > 3 * proper
+        || header->faces > INT32_MAX / 3 || fans + dummies > INT32_MAX)
+        return nonsense(coding, "the counts at the start of a connectivity payload contradict each other");
+    double memory = FACE_MEMORY * (double)header->faces + VERTEX_MEMORY * (double)header->vertices
+        + FAN_MEMORY * (double)(surplus + dummies);
+    if (!WITHIN(context, vertices, fans + dummies)
+        || !within_memory(context, memory, header->vertices, (double)coding->coder.data.size))
+        return false;
+    if (!take_ints2(arena, header->faces, 3, faces)) return false;
+    Ints2 usual = {faces->data, proper, 3};
+    Ints corners = {faces->data + 3 * proper, 3 * repeated}, known = {surface->used.data, fans};
+    walk.vertex_room = fans + dummies;
+    if (!code_surface(coding, &walk, scratch, usual) || !room_to_write(coding, FAN_BYTES * (fans + corners.size)))
+        return false;
+#ifdef BSMDEC_WRITES
+    if (context->writing != NULL) number_vertices(surface, fans, corners);
+#endif
+    int64_t count = surplus > 0 ? join_fans(coding, scratch, usual, known) : fans;
+    if (failed(context)) return false;
+    if (count != regular || code_degenerate(coding->coder, corners, count) != header->vertices)
+        return nonsense(coding, "a connectivity payload does not make its vertices");
+    return finish_coding(coding);
+}
+
+bool code_connectivity(Context *context, Span payload, const Header *header, const Surface *surface, Arena *arena,
+    Arena *scratch, Ints2 *faces) {
+    Coding coding;
+    Mark mark = mark_of(scratch);
+    bool done = begin_coding(context, payload, &coding)
+        && code_faces_of(&coding, header, surface, arena, scratch, faces);
+    release_to(scratch, mark);
+    return done;
+}
+
+bool decode_labels(Context *context, Span payload, ConstInts offsets, ConstInts neighbors, int64_t parts,
+    Arena *scratch, Ints labels) {
+    Coding coding;
+    Bank bank;
+    if (!make_bank(scratch, LABEL_BANK, &bank) || !begin_coding(context, payload, &coding)) return false;
+    int64_t used = code_labels(coding.coder, bank, offsets, neighbors, labels, parts);
+    return finish_coding(&coding)
+        && (used == parts || FAIL(context, CORRUPT, "the partition has # parts where the header has #", used, parts));
+}

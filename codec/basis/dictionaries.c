@@ -1,0 +1,130 @@
+/* Dictionaries of blocks (specification, M 8): orthogonal iterations. */
+#include "codec/geometry/geometry.h"
+#include "codec/basis/dictionaries.h"
+
+static const double EXACT_SHIFT = 0x1p-5;
+/* The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */
+static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
+enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
+
+/* How a dictionary is iterated: z, t, at most how many columns that gives, and solutions before each Onorm in doubles
+ * (M 8.4, M 8.7, M 8.9). */
+typedef struct {
+    int64_t power, iterations, most, apart;
+} Schedule;
+
+/* Columns that follow from L, by the rows of a block (M 8.7). */
+static int64_t iterated_columns(const Header *header, int64_t rows) {
+    return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
+}
+
+bool take_factor(Arena *arena, const Patch *patch, Factor *factor) {
+    int64_t size = patch->fronts.places.data[patch->fronts.places.size - 1];
+    return take_singles(arena, size + 15, &factor->values) && take_singles(arena, patch->size, &factor->inverse);
+}
+
+bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor) {
+    int64_t n = patch->size;
+    Doubles diagonal;
+    Singles scratch;
+    Words column;
+    if (!take_doubles(arena, n, &diagonal) || !take_singles(arena, 3 * (n + 16) + 15, &scratch)
+        || !take_words(arena, n + 1, &column) || !take_factor(arena, patch, factor))
+        return false;
+    for (int64_t r = 0; r < n; r++) diagonal.data[r] = patch->diagonal.data[r] + (springs.data[r] + shift);
+    factorize_fronts(patch->offsets, patch->neighbors, patch->weights, const_doubles(diagonal), patch->fronts, column,
+        scratch, factor->values, factor->inverse);
+    return true;
+}
+
+/* Whether a patch is in pieces. */
+static bool look_for_pieces(const Patch *patch, Arena *scratch, bool *in_pieces) {
+    Ints room;
+    if (!take_ints(scratch, 2 * patch->size + 1, &room)) return false;
+    *in_pieces = !reaches_all(patch->offsets, patch->neighbors, room);
+    return true;
+}
+
+/* The first `width` columns of others, and cosines where there are fewer. */
+static bool resize(Singles2 previous, int64_t rows, int64_t width, Arena *arena, Singles2 *columns) {
+    Doubles table;
+    if (!take_singles2(arena, rows, width, columns) || !take_doubles(arena, rows + 8, &table)) return false;
+    resize_columns(const_singles2(previous), table, *columns);
+    return true;
+}
+
+static void add_noise(Singles2 columns, double share) {
+    for (int64_t r = 0; r < columns.rows; r++)
+        for (int64_t j = 0; j < columns.columns; j++)
+            columns.data[r * columns.columns + j] += (float)(share * hash_at(r, j));
+}
+
+/* U(t) = Onorm(R^z U(t - 1)) of the first `columns` of a start (M 8.4). */
+static bool iterate_columns(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan,
+    Arena *scratch, Singles2 subspace) {
+    int64_t rows = subspace.rows, columns = subspace.columns, solutions = plan.power * plan.iterations,
+            found = NEEDS_CARE;
+    Singles room;
+    if (!take_singles(scratch, iteration_space(rows, columns, plan.apart), &room)) return false;
+    for (int64_t care = 0; found == NEEDS_CARE; care = care > 0 ? 4 * care : FIRST_CARE) {
+        double onorms = plan.apart > 0
+            ? IN_DOUBLES * (double)plan.iterations * (double)((plan.power + plan.apart - 1) / plan.apart)
+            : (double)solutions + 1;
+        if (!charge(context, dictionary_work(&patch->fronts, columns, (double)solutions, onorms, (double)care), 0))
+            return false;
+        found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start),
+            plan.power, plan.iterations, plan.apart, care, room, subspace);
+    }
+    return found != LOST || FAIL(context, NUMERIC, "the columns of a dictionary cannot be made orthonormal");
+}
+
+/* `width` columns of U: those of the iterations, then any that are orthogonal to them (M 8.7). */
+static bool iterate_and_complete(Context *context, const Patch *patch, const Factor *factor, Singles2 start,
+    Schedule plan, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+    int64_t first = least(width, plan.most), rows = patch->size;
+    if (!take_singles2(arena, rows, width, dictionary)) return false;
+    Singles2 iterated = *dictionary;
+    if (first < width && !take_singles2(scratch, rows, first, &iterated)) return false;
+    if (!iterate_columns(context, patch, factor, start, plan, scratch, iterated)) return false;
+    if (first == width) return true;
+    if (!charge(context, completion_work((double)rows, (double)plan.most, (double)width), 0)) return false;
+    Singles room;
+    if (!take_singles(scratch, completion_space(first), &room)) return false;
+    return complete_columns(const_singles2(iterated), room, *dictionary)
+        || FAIL(context, NUMERIC, "the columns of a dictionary cannot be completed");
+}
+
+bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs,
+    const Factor *held, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+    const Paper *paper = &header->paper;
+    Schedule plan = {paper->power, paper->key_iterations, iterated_columns(header, patch->size), header->onorm};
+    Factor own;
+    Singles2 start;
+    bool noisy = true;
+    if (paper->exact) {
+        plan.power = EXACT_POWER;
+        plan.iterations = EXACT_ITERATIONS;
+        plan.apart = 0;
+    }
+    if (paper->exact || held == NULL) {
+        if (!factorize_patch(patch, springs, paper->exact ? EXACT_SHIFT : paper->shift, scratch, &own)) return false;
+        held = &own;
+    }
+    if (!resize((Singles2){NULL, 0, 0}, patch->size, least(width, plan.most), scratch, &start)) return false;
+    if (!paper->exact && !look_for_pieces(patch, scratch, &noisy)) return false;
+    if (noisy) add_noise(start, START_NOISE);
+    return iterate_and_complete(context, patch, held, start, plan, width, arena, scratch, dictionary);
+}
+
+bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor,
+    Singles2 previous, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+    Schedule plan = {header->paper.power, header->paper.iterations, iterated_columns(header, patch->size),
+        header->onorm};
+    int64_t first = least(width, plan.most);
+    Singles2 start = previous;
+    bool noisy;
+    if (!look_for_pieces(patch, scratch, &noisy)) return false;
+    if ((noisy || previous.columns < first) && !resize(previous, patch->size, first, scratch, &start)) return false;
+    if (noisy) add_noise(start, FOLLOWING_NOISE);
+    return iterate_and_complete(context, patch, factor, start, plan, width, arena, scratch, dictionary);
+}

@@ -1,0 +1,124 @@
+/* Graph, parts and blocks of a mesh, all integers (specification, M 2 to M 6). */
+#include "codec/basis/structure.h"
+
+#include "codec/blocks/blocks.h"
+#include "codec/geometry/geometry.h"
+#include "bitstream/costs.h"
+
+enum { PASSES = 2, CHAIN_NUMBERS = 7, MOST_WORK = 1 << 16, FULL = -1, TOO_MUCH = -2 };
+
+bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph) {
+    Mark mark = mark_of(scratch);
+    Ints offsets, filled, ends, second, neighbors;
+    bool done = take_ints(arena, size + 1, &offsets) && take_ints(scratch, size, &filled)
+        && take_ints(scratch, 6 * faces.rows, &ends) && take_ints(scratch, 6 * faces.rows, &second);
+    if (done) {
+        int64_t kept = collect_edges(const_ints2(faces), offsets, filled, ends, second);
+        done = take_ints(arena, kept, &neighbors);
+        if (done) memcpy(neighbors.data, ends.data, (size_t)kept * sizeof *ends.data);
+        if (done) *graph = (Graph){size, const_ints(offsets), const_ints(neighbors)};
+    }
+    release_to(scratch, mark);
+    return done;
+}
+
+/* The partition that follows from the graph alone (M 4). */
+static bool derive_labels(Context *context, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
+    Ints order, bounds, votes;
+    Words room;
+    Longs sizes;
+    if (!take_ints(scratch, graph->size, &order) || !take_ints(scratch, parts + 1, &bounds)
+        || !take_ints(scratch, parts, &votes) || !take_words(scratch, bisection_scratch(graph->size), &room)
+        || !take_longs(scratch, parts, &sizes))
+        return false;
+    if (!bisect(graph->offsets, graph->neighbors, order, bounds, room))
+        return FAIL(context, CORRUPT, "# vertices cannot be cut into # parts", graph->size, parts);
+    label_parts(const_ints(order), const_ints(bounds), labels);
+    refine_partition(graph->offsets, graph->neighbors, labels, PASSES, sizes, votes);
+    return true;
+}
+
+static bool grow(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
+    Blocks *blocks) {
+    int64_t parts = header->blocks, n = graph->size, size = header->block_size;
+    Ints bounds, order, seen, chain, members, linked;
+    Longs shares, room;
+    if (!take_ints(scratch, parts + 1, &bounds) || !take_ints(scratch, n, &order) || !take_ints(scratch, n, &seen)
+        || !take_ints(scratch, parts, &chain) || !take_ints(scratch, parts * least(size, n), &members))
+        return false;
+    group_by_label(const_ints(labels), bounds, order);
+    int64_t most = 0;
+    for (int64_t p = 0; p < parts; p++) most = largest(most, bounds.data[p + 1] - bounds.data[p]);
+    if (most > size) return FAIL(context, CORRUPT, "a part of # vertices in blocks of #", most, size);
+    double pairs = (double)parts * (double)(parts - 1);
+    int64_t links = pairs < (double)graph->neighbors.size ? parts * (parts - 1) : graph->neighbors.size;
+    blocks->count = parts;
+    if (!take_ints(scratch, links, &linked) || !take_longs(scratch, links, &shares)
+        || !take_longs(scratch, CHAIN_NUMBERS * parts, &room) || !take_ints(arena, parts, &blocks->cores)
+        || !take_longs(arena, parts + 1, &blocks->starts) || !take_longs(arena, parts, &blocks->edges))
+        return false;
+    int64_t count = chain_blocks(graph->offsets, graph->neighbors, const_ints(order), const_ints(bounds),
+        const_ints(labels), size, linked, shares, room, seen, chain, blocks->starts, blocks->edges, members);
+    if (!take_ints(arena, count, &blocks->members)) return false;
+    memcpy(blocks->members.data, members.data, (size_t)count * sizeof *members.data);
+    for (int64_t i = 0; i < parts; i++)
+        blocks->cores.data[i] = bounds.data[chain.data[i] + 1] - bounds.data[chain.data[i]];
+    return true;
+}
+
+bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
+    Blocks *blocks) {
+    double copies = (double)header->blocks * (double)header->block_size, n = (double)graph->size;
+    if (!reserve(context, COPY_MEMORY * copies, 0)
+        || !charge(context, partition_work(n, (double)graph->neighbors.size, header->blocks, copies), 0))
+        return false;
+    Mark mark = mark_of(scratch);
+    bool done = labels.size > 0
+        || (take_ints(scratch, graph->size, &labels) && derive_labels(context, graph, header->blocks, scratch, labels));
+    done = done && grow(context, header, graph, labels, arena, scratch, blocks);
+    release_to(scratch, mark);
+    return done;
+}
+
+bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch) {
+    int64_t size = members.size, room = 8 * size;
+    Ints vertices, offsets, neighbors;
+    Words scratch;
+    if (!take_ints(arena, size, &vertices) || !take_ints(arena, size + 1, &offsets)) return false;
+    for (;;) {
+        if (!take_ints(arena, room, &neighbors) || !take_words(arena, order_scratch(size, room), &scratch))
+            return false;
+        int64_t ends = order_block(graph->offsets, graph->neighbors, members, vertices, offsets, neighbors, scratch);
+        if (ends <= room) {
+            *patch = (Patch){.size = size, .vertices = const_ints(vertices), .offsets = const_ints(offsets),
+                .neighbors = {neighbors.data, ends}};
+            break;
+        }
+        room = ends;
+    }
+    if (!take_doubles(arena, size, &patch->diagonal)) return false;
+    for (int64_t r = 0; r < size; r++) patch->diagonal.data[r] = (double)(offsets.data[r + 1] - offsets.data[r]);
+    return true;
+}
+
+static ConstWords some(Words words, int64_t count) { return (ConstWords){words.data, count}; }
+
+/* Which rows are eliminated when. */
+bool find_patch_fronts(Context *context, Arena *arena, Patch *patch) {
+    int64_t n = patch->size, room = 16 * n + 64, count = FULL;
+    Words rows, steps, owners, scratch, firsts, starts, places, borders = {NULL, 0};
+    Doubles sums;
+    if (!take_words(arena, n, &rows) || !take_words(arena, n, &steps) || !take_words(arena, n, &owners)
+        || !take_words(arena, 3 * n, &scratch) || !take_words(arena, n + 1, &firsts)
+        || !take_words(arena, n + 1, &starts) || !take_words(arena, n + 1, &places) || !take_doubles(arena, 2, &sums))
+        return false;
+    for (; count == FULL; room *= 4) {
+        if (!take_words(arena, room, &borders)) return false;
+        count = find_fronts(patch->offsets, patch->neighbors, (double)MOST_WORK * (double)n, scratch, rows, steps,
+            owners, firsts, starts, borders, places, sums);
+    }
+    if (count == TOO_MUCH) return FAIL(context, LIMIT, "the faces of a block of # vertices are too entangled", n);
+    patch->fronts = (Fronts){some(rows, n), some(steps, n), some(owners, n), some(firsts, count + 1),
+        some(starts, count + 1), some(borders, starts.data[count]), some(places, count + 1), {sums.data, 2}};
+    return true;
+}

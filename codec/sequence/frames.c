@@ -1,0 +1,611 @@
+/* GOPs to frames (specification, S 3.7 to S 7, S 10): codec/sequence/gop.py and tracks.py. */
+#include "codec/sequence/frames.h"
+
+#include "bitstream/coefficients/coefficients.h"
+#include "codec/signal/signal.h"
+
+static const PredictionRules RULES = {.forgetting = 0.985, .ridge = 0.004, .noise = 30, .around = 30, .dense_rows = 16,
+    .renewal = 8};
+static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24, TRACK_MEMORY = 40;
+static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
+
+/* Some columns of a matrix, in a matrix of their own or as part of one, from column `to` on. */
+static void copy_columns(ConstDoubles2 from, int64_t first, int64_t count, Doubles2 into, int64_t to) {
+    for (int64_t r = 0; count > 0 && r < from.rows; r++)
+        memcpy(into.data + r * into.columns + to, from.data + r * from.columns + first,
+            (size_t)count * sizeof *from.data);
+}
+
+static void gather_rows(ConstDoubles2 field, ConstInts vertices, Doubles2 rows) {
+    for (int64_t r = 0; field.columns > 0 && r < vertices.size; r++)
+        memcpy(rows.data + r * rows.columns, field.data + vertices.data[r] * field.columns,
+            (size_t)field.columns * sizeof *field.data);
+}
+
+/* S 3.7. */
+typedef struct {
+    double center[3], radius;
+} Bend;
+
+static Bend bend_of(ConstDoubles2 x) {
+    Bend bend = {{0, 0, 0}, 0};
+    double n = (double)x.rows;
+    for (int64_t r = 0; r < x.rows; r++)
+        for (int d = 0; d < 3; d++) bend.center[d] += x.data[3 * r + d];
+    for (int d = 0; d < 3; d++) bend.center[d] /= n;
+    for (int64_t r = 0; r < x.rows; r++) {
+        double a = x.data[3 * r] - bend.center[0], b = x.data[3 * r + 1] - bend.center[1],
+               c = x.data[3 * r + 2] - bend.center[2];
+        bend.radius += a * a + b * b + c * c;
+    }
+    bend.radius = __builtin_sqrt(bend.radius / n + SMALLEST_RADIUS);
+    return bend;
+}
+
+static void fill_bends(Bend bend, ConstDoubles2 x, Doubles2 columns) {
+    for (int64_t r = 0; r < x.rows; r++) {
+        double own[3], *to = columns.data + r * columns.columns;
+        for (int d = 0; d < 3; d++) {
+            *to++ = x.data[3 * r + d];
+            own[d] = (x.data[3 * r + d] - bend.center[d]) / bend.radius;
+        }
+        for (int a = 0; a < 3; a++)
+            for (int b = a; b < 3; b++) *to++ = SQUARES * bend.radius * own[a] * own[b];
+        for (int a = 0; a < 3; a++)
+            for (int b = a; b < 3; b++)
+                for (int c = b; c < 3; c++) *to++ = CUBES * bend.radius * own[a] * own[b] * own[c];
+    }
+}
+
+/* Bends and first values at some vertices. */
+static bool fill_known(Bend bend, ConstDoubles2 first_frame, const MovingAttribute *moving, int count,
+    ConstInts vertices, Arena *scratch, Doubles2 known) {
+    Doubles2 places;
+    if (!take_doubles2(scratch, vertices.size, 3, &places)) return false;
+    gather_rows(first_frame, vertices, places);
+    fill_bends(bend, const_doubles2(places), known);
+    for (int64_t r = 0; r < vertices.size; r++) {
+        double *to = known.data + r * known.columns + BENDING;
+        for (int k = 0; k < count; to += moving[k++].width)
+            for (int64_t d = 0; d < moving[k].width; d++)
+                to[d] = moving[k].start.rows > 0 ? moving[k].start.data[vertices.data[r] * moving[k].width + d] : 0.0;
+    }
+    return true;
+}
+
+/* What is known of a part: around it, and its differences. */
+static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const MovingAttribute *moving, int count,
+    int64_t columns, Arena *scratch) {
+    const Site *part = gops->parts.part + index;
+    int64_t n = part->patch.size, ends = part->around.size;
+    Singles2 dictionary;
+    Doubles2 here, around, expected, differences, places;
+    if (!take_doubles2(scratch, n, columns, &here) || !take_doubles2(scratch, ends, columns, &around)
+        || !take_doubles2(scratch, n, columns, &expected) || !take_doubles2(scratch, part->width, columns, &differences)
+        || !lend_dictionary(&gops->parts, index, scratch, &dictionary) || !take_doubles2(scratch, n, 3, &places))
+        return false;
+    gather_rows(first_frame, part->patch.vertices, places);
+    Bend bend = bend_of(const_doubles2(places));
+    if (!fill_known(bend, first_frame, moving, count, part->patch.vertices, scratch, here)
+        || !fill_known(bend, first_frame, moving, count, const_ints(part->around), scratch, around)
+        || !extend_part(part, const_doubles2(around), scratch, expected))
+        return false;
+    for (int64_t i = 0; i < n * columns; i++) here.data[i] -= expected.data[i];
+    project(const_singles2(dictionary), const_doubles2(here), differences);
+    int64_t place = 0;
+    for (int k = 0; k < gops->tracks; k++) {
+        Doubles2 known = gops->track[k].known;
+        copy_columns(const_doubles2(around), place, known.columns, rows_from(known, part->first, ends), 0);
+        copy_columns(const_doubles2(differences), place, known.columns,
+            rows_from(known, part->first + ends, part->width), 0);
+        place += known.columns;
+    }
+    return true;
+}
+
+bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
+    ConstInts2 faces, ConstDoubles2 first_frame, int64_t given, const MovingAttribute *moving, int count,
+    Arena *scratch) {
+    const Arena none = arena_of(context);
+    *gops = (Gops){.given = (double)given, .tracks = count + 1, .begun = true, .arena = none, .history = none,
+        .levels = none, .frames = none};
+    gops->parts = (Parts){.context = context, .header = header, .graph = graph, .blocks = blocks, .arena = &gops->arena,
+        .dictionaries = none};
+    double work, widths = 0, n = (double)graph->size;
+    int64_t columns = BENDING;
+    for (int k = 0; k < count; k++) widths += (double)moving[k].width;
+    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work)
+        || !reserve(context, TRACK_MEMORY * n * widths, 0)
+        || !reserve(context, 8 * (BENDING + widths) * gops->parts.around, 0))
+        return false;
+    if (!TAKE_ZEROS(&gops->arena, gops->tracks, gops->track)) return false;
+    for (int k = 0; k <= count; k++) {
+        Track *track = gops->track + k;
+        track->width = k > 0 ? moving[k - 1].width : 3;
+        track->kept = k > 0 ? 2 : least(MOST_KEPT, largest(2, (1 << 19) / graph->size));
+        if (!take_doubles2(&gops->arena, gops->parts.rows, k > 0 ? track->width : BENDING, &track->known)) return false;
+        track->starts_at_first = k == 0;
+        columns += k > 0 ? track->width : 0;
+    }
+    bool done = true;
+    for (int64_t i = 0; done && i < gops->parts.count; i++) {
+        Mark mark = mark_of(scratch);
+        done = know_part(gops, i, first_frame, moving, count, columns, scratch);
+        release_to(scratch, mark);
+    }
+    return done;
+}
+
+void forget_frames(Gops *gops) { gops->can_follow = gops->can_inherit = false; }
+
+void suspend_gops(Gops *gops) {
+    if (!gops->begun) return;
+    forget_frames(gops);
+    release_all(&gops->history);
+    release_all(&gops->levels);
+    release_all(&gops->frames);
+    release_dictionaries(&gops->parts);
+}
+
+void end_gops(Gops *gops) {
+    if (!gops->begun) return;
+    release_all(&gops->history);
+    release_all(&gops->levels);
+    release_all(&gops->frames);
+    release_all(&gops->parts.dictionaries);
+    release_all(&gops->arena);
+    gops->begun = false;
+}
+
+/* The orthonormal cosines of T frames: row t, column frequency (S 5.1). */
+static bool time_cosines(int64_t frames, Arena *arena, Doubles2 *columns) {
+    Doubles table;
+    if (!take_doubles2(arena, frames, frames, columns) || !take_doubles(arena, frames + 8, &table)) return false;
+    cosines(table, *columns);
+    double scale = __builtin_sqrt(2.0 / (double)frames), first = __builtin_sqrt(1.0 / (double)frames);
+    for (int64_t i = 0; i < frames * frames; i++) columns->data[i] = i % frames == 0 ? first : columns->data[i] * scale;
+    return true;
+}
+
+/* One payload of matrices of levels, of `rows[i]` rows (S 4); references begin where `references` tells, or are none.
+ * With a lead row 0 has `lead[i]` columns, and each next one `stair` more. */
+typedef struct {
+    int64_t rows, lead;
+    int32_t *levels;
+    const int32_t *reference;
+    int64_t reference_rows;
+} Matrix;
+
+static bool read_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count,
+    int64_t columns, int64_t stair, Arena *scratch) {
+    Coding coding;
+    Longs slow;
+    if (!take_longs(scratch, columns, &slow) || !begin_coding(context, payload, &coding)) return false;
+    for (int64_t i = 0; i < count && !ran_over(&coding); i++) {
+        const Matrix *m = matrices + i;
+        Ints2 levels = {m->levels, m->rows, columns};
+        ConstInts2 reference = {m->reference, m->reference_rows, columns};
+        if (m->lead > 0)
+            code_matrix(coding.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns),
+                m->rows, columns, slow);
+        else code_matrix(coding.coder, bank, levels, reference, 0, columns, 0, (m->rows + 1) / 2, 0, slow);
+    }
+    return finish_coding(&coding);
+}
+
+/* to += scalar * from. */
+static void add_row(double *to, double scalar, const double *from, int64_t count) {
+    for (int64_t i = 0; i < count; i++) to[i] += scalar * from[i];
+}
+
+/* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). */
+static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch,
+    Doubles2 *basis) {
+    int64_t width = field->width, r = field->components, size = frames * r;
+    Mark mark = mark_of(scratch);
+    Bank bank;
+    Matrix *matrices;
+    Ints levels;
+    Doubles2 turned, time;
+    Doubles vector, shares;
+    bool done = zero_doubles2(arena, width * frames, r, basis) && make_bank(scratch, MATRIX_BANK, &bank)
+        && TAKE(scratch, width, matrices) && zero_ints(scratch, width * size, &levels)
+        && take_doubles2(scratch, width * frames, r, &turned) && time_cosines(frames, scratch, &time)
+        && take_doubles(scratch, width * frames, &vector) && take_doubles(scratch, r, &shares);
+    for (int64_t c = 0; done && c < width; c++)
+        matrices[c] = (Matrix){
+            frames, c + 1, levels.data + c * size, levels.data + (c > 0 ? c - 1 : 0) * size, c > 0 ? frames : 0};
+    done = done && read_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
+    for (int64_t c = 0; done && c < width; c++) {
+        int state = 0;
+        for (int64_t i = 0; i < size; i++) {
+            int32_t level = levels.data[c * size + i], exponent = field->exponents.data[i % r];
+            double step = QUARTERS[exponent % 4];
+            for (int32_t e = exponent / 4; e > 0; e--) step *= 0.5;
+            turned.data[(i / r * width + c) * r + i % r] = 0.5 * trellis_point(state, level) * step;
+            state = trellis_following(state, level);
+        }
+    }
+    if (done) turn_columns(turned, vector, shares);
+    for (int64_t c = 0; done && c < width; c++)
+        for (int64_t t = 0; t < frames; t++)
+            for (int64_t f = 0; f < frames; f++)
+                add_row(basis->data + (c * frames + t) * r, time.data[t * frames + f],
+                    turned.data + (f * width + c) * r, r);
+    release_to(scratch, mark);
+    return done;
+}
+
+/* A closed loop over the rows of a part (S 6): `decoded` from levels, given what is known around it and in it. */
+static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 ends, ConstDoubles2 known,
+    ConstInts2 levels, double step, Arena *scratch, Doubles2 decoded) {
+    int64_t width = known.columns + levels.columns, rows = known.columns + least(levels.columns, INHERITED);
+    Mark mark = mark_of(scratch);
+    Doubles2 moments, factor;
+    Doubles row, expected;
+    double spoiled = 0.0;
+    bool done = take_doubles2(scratch, rows, width, &moments) && zero_doubles2(scratch, rows, width, &factor)
+        && take_doubles(scratch, width, &row) && take_doubles(scratch, width, &expected);
+    if (done) {
+        learn_around(around, ends, moments, step, RULES, expected, row);
+        follow_rows(known, levels, decoded, moments, step, RULES, factor, row, expected);
+        for (int64_t i = 0; i < decoded.rows * decoded.columns; i++) spoiled += decoded.data[i] * 0.0;
+    }
+    release_to(scratch, mark);
+    return done
+        && (spoiled == 0.0 || FAIL(context, NUMERIC, "the levels reconstruct to coefficients that are not finite"));
+}
+
+/* Columns of two matrices side by side. */
+static bool join_columns(Doubles2 one, Doubles2 other, Arena *scratch, Doubles2 *both) {
+    *both = one;
+    if (other.columns == 0) return true;
+    if (!take_doubles2(scratch, one.rows, one.columns + other.columns, both)) return false;
+    copy_columns(const_doubles2(one), 0, one.columns, *both, 0);
+    copy_columns(const_doubles2(other), 0, other.columns, *both, one.columns);
+    return true;
+}
+
+/* The coded values of each part, in turn. */
+typedef struct {
+    const Gop *gop;
+    Ints *levels;        /* of each track */
+    Doubles2 *found;     /* of each track: what is inherited, or what low-delay frames are; stacked rows */
+    Doubles2 time;
+} GopContext;
+
+/* Differences of a part in a learned field (S 7.1), which is `ends` around it. */
+static bool decode_learned_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
+    ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+    const GopField *field = decoding->gop->field + k;
+    Track *track = gops->track + k;
+    int64_t m = ends.rows, c = part->width;
+    Doubles2 before = decoding->gop->method == LEARNED_NEXT ? track->inherited : (Doubles2){NULL, gops->parts.rows, 0};
+    Doubles2 known, found = decoding->found[k];
+    if (!join_columns(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch,
+            &known))
+        return false;
+    if (field->components > 0
+        && !follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), ends,
+            const_doubles2(rows_from(known, m, c)), levels, field->step, scratch, differences))
+        return false;
+    copy_columns(ends, 0, found.columns, rows_from(found, part->first, m), 0);
+    copy_columns(const_doubles2(differences), 0, found.columns, rows_from(found, part->first + m, c), 0);
+    return true;
+}
+
+/* The frame that is `age` before the GOP, and the first one before all. */
+static const double *kept_frame(const Track *track, int64_t age) {
+    return track->ring[(track->latest + least(age, track->count - 1)) % track->kept].data;
+}
+
+/* What low-delay frames start from: `base`, of `rows` rows from `first` on (S 7.2). */
+static void fill_base(const Track *track, const GopField *field, ConstDoubles2 time, int64_t first, Doubles2 base) {
+    int64_t width = track->width;
+    for (int64_t i = 0; i < base.rows * base.columns; i++) base.data[i] = 0.0;
+    for (int64_t t = 0; t < time.rows; t++) {
+        const double *begun = kept_frame(track, field->back > 0 ? field->back - 1 - t : 0) + first * width;
+        for (int64_t r = 0; r < base.rows; r++)
+            for (int64_t f = 0; f < time.rows; f++)
+                for (int64_t d = 0; d < width; d++)
+                    base.data[r * base.columns + f * width + d] += begun[r * width + d] * time.data[t * time.rows + f];
+    }
+}
+
+/* Columns that are known of low-delay frames, in some stacked rows (S 7.2). */
+static void fill_references(const Track *track, const GopField *field, int64_t first, Doubles2 known) {
+    int64_t width = track->width, lags = lags_of(track->kept);
+    const double *latest = kept_frame(track, 0);
+    for (int64_t r = 0; r < known.rows; r++) {
+        double *to = known.data + r * known.columns;
+        int64_t row = first + r;
+        for (int64_t d = 0; d < width; d++) *to++ = track->known.data[row * track->known.columns + d];
+        for (int64_t d = 0; d < width; d++) *to++ = latest[row * width + d];
+        for (int64_t i = 0; i < lags; i++) {
+            const double *late = kept_frame(track, i > 0 ? LAG[i - 1] : 0), *early = kept_frame(track, LAG[i]);
+            for (int64_t d = 0; d < width; d++) *to++ = late[row * width + d] - early[row * width + d];
+        }
+        if (field->back == 0) continue;
+        const double *back = kept_frame(track, field->back - 1);
+        for (int64_t d = 0; d < width; d++) *to++ = back[row * width + d] - latest[row * width + d];
+    }
+}
+
+/* What a part is in low-delay frames, as cosines over time. */
+static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
+    ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+    const GopField *field = decoding->gop->field + k;
+    Track *track = gops->track + k;
+    int64_t m = ends.rows, c = part->width, columns = ends.columns;
+    Doubles2 own = rows_from(decoding->found[k], part->first, m + c), inside = rows_from(own, m, c);
+    fill_base(track, field, const_doubles2(decoding->time), part->first, own);
+    if (field->components > 0) {
+        int64_t wide = track->width * (2 + lags_of(track->kept) + (field->back > 0));
+        Doubles2 known, changes;
+        if (!take_doubles2(scratch, m + c, wide, &known) || !take_doubles2(scratch, m, columns, &changes)) return false;
+        fill_references(track, field, part->first, known);
+        for (int64_t i = 0; i < m * columns; i++) changes.data[i] = ends.data[i] - own.data[i];
+        if (!follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes),
+                const_doubles2(rows_from(known, m, c)), levels, field->step, scratch, differences))
+            return false;
+        for (int64_t i = 0; i < c * columns; i++) inside.data[i] += differences.data[i];
+        copy_columns(ends, 0, columns, own, 0);
+    }
+    copy_columns(const_doubles2(inside), 0, columns, differences, 0);
+    return true;
+}
+
+/* Fill a part of the field from its coded values. */
+static bool place_part(Gops *gops, const GopContext *decoding, int64_t index, int64_t *begin, Arena *scratch) {
+    const Site *part = gops->parts.part + index;
+    int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;
+    Singles2 dictionary;
+    Doubles2 around, differences, positions, extension;
+    if (!lend_dictionary(&gops->parts, index, scratch, &dictionary) || !take_doubles2(scratch, m, total, &around)
+        || !take_doubles2(scratch, c, total, &differences) || !take_doubles2(scratch, n, total, &positions)
+        || !take_doubles2(scratch, n, total, &extension))
+        return false;
+    gather_rows(const_doubles2(gops->field), const_ints(part->around), around);
+    for (int k = 0; k < gops->tracks; k++) {
+        int64_t columns = gops->basis[k].columns;
+        Mark mark = mark_of(scratch);
+        Doubles2 ends, own;
+        if (!take_doubles2(scratch, m, columns, &ends) || !take_doubles2(scratch, c, columns, &own)) return false;
+        copy_columns(const_doubles2(around), place, columns, ends, 0);
+        ConstInts2 levels = {decoding->levels[k].data + *begin * columns, c, columns};
+        bool done = (has_basis(decoding->gop) ? decode_learned_part : decode_next_part)(gops, decoding, k, part,
+            const_doubles2(ends), levels, scratch, own);
+        if (!done) return false;
+        copy_columns(const_doubles2(own), 0, columns, differences, place);
+        place += columns;
+        release_to(scratch, mark);
+    }
+    *begin += c;
+    if (total == 0) return true;
+    if (!extend_part(part, const_doubles2(around), scratch, extension)) return false;
+    reconstruct(const_singles2(dictionary), const_doubles2(differences), positions);
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t j = 0; j < total; j++)
+            gops->field.data[part->patch.vertices.data[r] * total + j] =
+                positions.data[r * total + j] + extension.data[r * total + j];
+    return true;
+}
+
+static bool place_parts(Gops *gops, const GopContext *decoding, Arena *scratch) {
+    int64_t begin = 0;
+    bool done = true;
+    for (int64_t i = 0; done && i < gops->parts.count; i++) {
+        Mark mark = mark_of(scratch);
+        done = place_part(gops, decoding, i, &begin, scratch);
+        release_to(scratch, mark);
+    }
+    return done;
+}
+
+static int64_t coded_rows(const Gops *gops) {
+    int64_t rows = 0;
+    for (int64_t i = 0; i < gops->parts.count; i++) rows += gops->parts.part[i].width;
+    return rows;
+}
+
+/* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
+static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns,
+    Arena *scratch, Ints levels) {
+    Mark mark = mark_of(scratch);
+    Matrix *matrices;
+    if (!TAKE(scratch, gops->parts.count, matrices)) return false;
+    int64_t begin = 0;
+    for (int64_t i = 0; i < gops->parts.count; i++) {
+        int64_t rows = gops->parts.part[i].width, earlier = i > 0 && before == NULL ? gops->parts.part[i - 1].width : 0;
+        int32_t *own = levels.data + begin * columns;
+        matrices[i] = (Matrix){rows, 0, own, before != NULL ? before + begin * columns : own - earlier * columns,
+            before != NULL ? rows : earlier};
+        begin += rows;
+    }
+    bool done =
+        read_matrices(gops->parts.context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
+    release_to(scratch, mark);
+    return done;
+}
+
+/* Make room for the field of a GOP, and for batches of its frames. */
+static bool begin_field(Gops *gops, const Gop *gop) {
+    int64_t columns = 0, n = gops->parts.graph->size, shown = least(gop->frames, BATCH);
+    for (int k = 0; k < gops->tracks; k++) columns += gops->basis[k].columns;
+    gops->batched = -1;
+    if (!zero_doubles2(&gops->frames, n, columns, &gops->field) || !TAKE(&gops->frames, gops->tracks, gops->batch))
+        return false;
+    for (int k = 0; k < gops->tracks; k++)
+        if (!take_doubles2(&gops->frames, shown * n, gops->track[k].width, gops->batch + k)) return false;
+    return true;
+}
+
+static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
+    Context *context = gops->parts.context;
+    bool follows = gop->method == LEARNED_NEXT;
+    if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to a missing GOP");
+    forget_frames(gops);
+    GopContext decoding = {.gop = gop};
+    if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)) return false;
+    for (int i = 1; i <= gops->tracks; i++) {
+        int k = i % gops->tracks; /* the positions come last in the payload */
+        const GopField *field = gop->field + k;
+        Bank bank;
+        if (field->step > 0) {
+            if (!decode_basis(context, field, gop->coded, &gops->frames, scratch, gops->basis + k)) return false;
+        } else {
+            gops->basis[k] = (Doubles2){NULL, field->width * gop->coded, 0};
+        }
+        if (!zero_ints(scratch, coded_rows(gops) * field->components, decoding.levels + k)
+            || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), decoding.found + k))
+            return false;
+        Mark mark = mark_of(scratch);
+        if (!make_bank(scratch, MATRIX_BANK, &bank)
+            || (field->step > 0
+                && !read_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
+            return false;
+        release_to(scratch, mark);
+    }
+    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)) return false;
+    release_all(&gops->history);
+    for (int k = 0; k < gops->tracks; k++) {
+        Doubles2 found = decoding.found[k], *inherited = &gops->track[k].inherited;
+        if (!take_doubles2(&gops->history, gops->parts.rows, found.columns, inherited)) return false;
+        copy_columns(const_doubles2(found), 0, found.columns, *inherited, 0);
+    }
+    gops->can_inherit = true;
+    return true;
+}
+
+/* Key frames begin a history of their own, with the first frame (S 7.3, S 10.3). */
+static bool begin_history(Gops *gops) {
+    release_all(&gops->history);
+    gops->together = 0;
+    for (int k = 0; k < gops->tracks; k++) {
+        Track *track = gops->track + k;
+        memset(track->ring, 0, sizeof track->ring);
+        track->latest = 0;
+        track->count = 1;
+        if (!make_bank(&gops->history, MATRIX_BANK, &track->bank)
+            || !zero_doubles(&gops->history, gops->parts.rows * track->width, track->ring))
+            return false;
+        if (track->starts_at_first)
+            copy_columns(const_doubles2(track->known), 0, track->width,
+                (Doubles2){track->ring[0].data, gops->parts.rows, track->width}, 0);
+    }
+    return true;
+}
+
+/* Make frames the latest (S 7.2): `spectra` are of all stacked rows, as cosines over time. */
+static bool keep_frames(Gops *gops, Track *track, ConstDoubles2 time, ConstDoubles2 spectra) {
+    int64_t width = track->width, frames = time.rows;
+    for (int64_t t = largest(0, frames - track->kept); t < frames; t++) {
+        track->latest = (track->latest + track->kept - 1) % track->kept;
+        Doubles *frame = track->ring + track->latest;
+        if (frame->data == NULL && !take_doubles(&gops->history, gops->parts.rows * width, frame)) return false;
+        for (int64_t r = 0; r < gops->parts.rows; r++)
+            for (int64_t d = 0; d < width; d++) {
+                double sum = 0.0;
+                for (int64_t f = 0; f < frames; f++)
+                    sum += spectra.data[r * spectra.columns + f * width + d] * time.data[t * frames + f];
+                frame->data[r * width + d] = sum;
+            }
+        track->count = least(track->count + 1, track->kept);
+    }
+    return true;
+}
+
+/* The basis of low-delay frames: each cosine by itself in one number after the other. */
+static bool hold_cosines(int64_t width, ConstDoubles2 time, Arena *arena, Doubles2 *basis) {
+    if (!zero_doubles2(arena, width * time.rows, width * time.rows, basis)) return false;
+    for (int64_t d = 0; d < width; d++)
+        for (int64_t t = 0; t < time.rows; t++)
+            for (int64_t f = 0; f < time.rows; f++)
+                basis->data[(d * time.rows + t) * basis->columns + f * width + d] = time.data[t * time.rows + f];
+    return true;
+}
+
+static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
+    Context *context = gops->parts.context;
+    if (gop->method == KEY_FRAMES) {
+        if (!begin_history(gops)) return false;
+    } else if (!gops->can_follow) {
+        forget_frames(gops);
+        return FAIL(context, CORRUPT, "a frame refers to a missing frame");
+    }
+    forget_frames(gops);
+    GopContext decoding = {.gop = gop};
+    int64_t rows = coded_rows(gops);
+    if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)
+        || !time_cosines(gop->frames, &gops->frames, &decoding.time))
+        return false;
+    if (gops->together != gop->frames) release_all(&gops->levels);
+    for (int i = 1; i <= gops->tracks; i++) {
+        int k = i % gops->tracks;
+        const GopField *field = gop->field + k;
+        Track *track = gops->track + k;
+        int64_t columns = track->width * gop->frames;
+        if (field->back > track->count)
+            return FAIL(context, CORRUPT, "a frame refers # frames back, where # are kept", field->back,
+                track->count);
+        if (gops->together != gop->frames && !zero_ints(&gops->levels, rows * columns, &track->levels)) return false;
+        if (!zero_ints(scratch, rows * columns, decoding.levels + k)
+            || !take_doubles2(scratch, gops->parts.rows, columns, decoding.found + k)
+            || !hold_cosines(track->width, const_doubles2(decoding.time), &gops->frames, gops->basis + k))
+            return false;
+        if (field->components > 0
+            && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
+            return false;
+    }
+    gops->together = gop->frames;
+    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)) return false;
+    for (int k = 0; k < gops->tracks; k++) {
+        Track *track = gops->track + k;
+        memcpy(track->levels.data, decoding.levels[k].data, (size_t)track->levels.size * sizeof *track->levels.data);
+        if (!keep_frames(gops, track, const_doubles2(decoding.time), const_doubles2(decoding.found[k]))) return false;
+    }
+    gops->can_follow = true;
+    return true;
+}
+
+bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch) {
+    release_all(&gops->frames);
+    gops->gop = *gop;
+    Longs shown;
+    if (!TAKE(&gops->frames, gops->tracks, gops->basis) || !take_longs(&gops->frames, gop->frames, &shown))
+        return false;
+    memcpy(shown.data, gop->shown.data, (size_t)gop->frames * sizeof *shown.data);
+    gops->gop.shown = shown;
+    Mark mark = mark_of(scratch);
+    bool done = (has_basis(gop) ? decode_learned : decode_next)(gops, gop, scratch);
+    release_to(scratch, mark);
+    return done;
+}
+
+static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
+    int64_t shown = least(BATCH, gops->gop.frames - first), n = gops->parts.graph->size, place = 0;
+    for (int k = 0; k < gops->tracks; k++) {
+        Doubles2 basis = gops->basis[k], weights;
+        int64_t width = gops->track[k].width, coded = basis.rows / width;
+        Mark mark = mark_of(scratch);
+        if (!zero_doubles2(scratch, basis.columns, width * BATCH, &weights)) return false;
+        for (int64_t i = 0; i < basis.columns; i++)
+            for (int64_t d = 0; d < width; d++)
+                for (int64_t t = 0; t < shown; t++)
+                    weights.data[i * weights.columns + d * BATCH + t] =
+                        basis.data[(d * coded + gops->gop.shown.data[first + t]) * basis.columns + i];
+        show_frames(const_doubles2(gops->field), place, const_doubles2(weights),
+            (Doubles2){gops->batch[k].data, shown * n, width});
+        release_to(scratch, mark);
+        place += basis.columns;
+    }
+    gops->batched = first;
+    return true;
+}
+
+bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 *frame) {
+    if (gops->batched != t - t % BATCH && !show_batch(gops, t - t % BATCH, scratch)) return false;
+    *frame =
+        const_doubles2(rows_from(gops->batch[track], t % BATCH * gops->parts.graph->size, gops->parts.graph->size));
+    return true;
+}

@@ -1,0 +1,99 @@
+#include "codec/signal/assembly.h"
+
+#include "codec/blocks/blocks.h"
+#include "codec/geometry/geometry.h"
+#include "codec/signal/signal.h"
+
+bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena) {
+    assembly->lossy = false;
+    return zero_doubles2(arena, vertices, 3, &assembly->blend.sums)
+        && zero_doubles(arena, vertices, &assembly->blend.weights) && zero_bytes(arena, vertices, &assembly->lost)
+        && zero_bytes(arena, blocks, &assembly->added);
+}
+
+void add_block(Assembly *assembly, const DecodedBlock *block) {
+    add_copies(assembly->blend.sums, assembly->blend.weights, block->vertices, block->positions, block->weights);
+    assembly->added.data[block->index] = 1;
+}
+
+void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index) {
+    ConstInts members = members_of(blocks, index, size_of_block(blocks, index));
+    for (int64_t i = 0; i < members.size; i++) assembly->lost.data[members.data[i]] = 1;
+    assembly->lossy = true;
+}
+
+/* By divided differences. */
+void filter_polynomial(double amount, double *powers) {
+    static const double NODES_OF[POWERS] = {0.4, 0.9, 1.4, 1.8};
+    double table[POWERS], before[POWERS];
+    for (int i = 0; i < POWERS; i++) {
+        table[i] = -amount / (1.0 + amount * NODES_OF[i] * NODES_OF[i]);
+        powers[i] = 0.0;
+    }
+    for (int level = 1; level < POWERS; level++)
+        for (int i = POWERS - 1; i >= level; i--)
+            table[i] = (table[i] - table[i - 1]) / (NODES_OF[i] - NODES_OF[i - level]);
+    for (int i = POWERS - 1; i >= 0; i--) {
+        memcpy(before, powers, sizeof before);
+        for (int k = 0; k < POWERS; k++) {
+            double product = NODES_OF[i] * before[k];
+            powers[k] = (k > 0 ? before[k - 1] : table[i]) - product;
+        }
+    }
+}
+
+bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
+    Doubles2 *positions) {
+    int64_t n = graph->size;
+    Mark mark = mark_of(scratch);
+    bool smoothing = header->smoothing > 0.0, done = take_doubles2(arena, n, 3, positions);
+    Doubles2 blended = *positions;
+    Doubles room = {NULL, 0};
+    if (smoothing) done = done && take_doubles2(scratch, n, 3, &blended) && take_doubles(scratch, 6 * n + 2, &room);
+    if (done) {
+        for (int64_t i = 0; i < 3 * n; i++) {
+            double weight = assembly->blend.weights.data[i / 3];
+            blended.data[i] = weight > 0.0 ? assembly->blend.sums.data[i] / weight : 0.0;
+        }
+        double powers[POWERS];
+        filter_polynomial(header->smoothing, powers);
+        if (smoothing)
+            smooth_all(graph->offsets, graph->neighbors, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room,
+                *positions);
+    }
+    release_to(scratch, mark);
+    return done;
+}
+
+/* Mark the neighbors of marked vertices, a number of times. */
+static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch) {
+    Bytes before;
+    if (!take_bytes(scratch, marks.size, &before)) return false;
+    for (; rings > 0; rings--) {
+        memcpy(before.data, marks.data, (size_t)marks.size);
+        for (int64_t v = 0; v < graph->size; v++)
+            for (int64_t i = graph->offsets.data[v]; i < graph->offsets.data[v + 1]; i++)
+                marks.data[v] |= before.data[graph->neighbors.data[i]];
+    }
+    return true;
+}
+
+bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
+    int beyond, Bytes *whole) {
+    *whole = (Bytes){NULL, 0};
+    if (!assembly->lossy) return true;
+    Mark mark = mark_of(scratch);
+    bool done = take_bytes(arena, graph->size, whole);
+    if (done) {
+        memcpy(whole->data, assembly->lost.data, (size_t)graph->size);
+        done = spread_marks(graph, *whole, (header->smoothing > 0.0 ? DEGREE : 0) + beyond, scratch);
+        for (int64_t v = 0; v < graph->size; v++) whole->data[v] = !whole->data[v];
+    }
+    release_to(scratch, mark);
+    return done;
+}
+
+bool into_unit(Context *context, const Header *header, Doubles2 positions) {
+    return back_into_unit(const_doubles2(positions), header->scale, (ConstDoubles){header->center, 3}, positions)
+        || FAIL(context, NUMERIC, "positions are not finite in the unit of the mesh");
+}

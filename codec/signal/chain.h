@@ -1,0 +1,63 @@
+/* Blocks to positions: what the blocks of a chain know of those before them (specification, M 7 to M 12). */
+#ifndef BSMDEC_CHAIN_H
+#define BSMDEC_CHAIN_H
+
+#include "bitstream/coefficients/coefficients.h"
+#include "bitstream/payloads/coding.h"
+#include "codec/basis/dictionaries.h"
+
+/* Sums of weight times position, and weights. */
+typedef struct {
+    Doubles2 sums;
+    Doubles weights;
+} Blended;
+
+/* One chain after the other: memory of the mesh, and of a chain. */
+typedef struct {
+    Context *context;
+    const Header *header;
+    const Graph *graph;
+    const Blocks *blocks;
+    Arena chain, subspaces[2]; /* what the coder has learned; the present dictionary, and the next */
+    int present;
+    Singles2 subspace;         /* of the block before; no rows if there is none */
+    bool knows;                /* whether blocks know of others' positions */
+    Blended known;
+    Bytes inside;
+    int64_t number, first, next;
+    bool elsewhere;            /* what the chain has learned is not here: its blocks were decoded ahead */
+    Bank bank;
+    Past past;
+    Ints2 expectations;
+} Chains;
+
+/* A block's own reconstruction, in BSM units; its arrays live until `scratch` is released. */
+typedef struct {
+    int64_t index;
+    ConstInts vertices;
+    ConstDoubles2 positions;
+    ConstDoubles weights;
+} DecodedBlock;
+
+/* Copy a block into `arena`; without memory the arena's context has failed. */
+bool copy_block(const DecodedBlock *block, Arena *arena, DecodedBlock *copy);
+/* A block that was decoded ahead: the contents of its packet, where it ended, and the charges to make in its turn. */
+typedef struct {
+    int64_t index, coefficients, end;
+    Span data;
+    bool done;
+    DecodedBlock block;
+    Ledger ledger;
+} ReadyBlock;
+
+bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
+    Arena *arena);
+void end_chains(Chains *chains);
+bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch,
+    DecodedBlock *decoded);
+/* Forget the chain under way: the next block begins one. */
+void leave_chain(Chains *chains);
+/* Count a block as decoded that other chains decoded, and make its charges. */
+bool settle_block(Chains *chains, int64_t index, const Ledger *ledger);
+
+#endif

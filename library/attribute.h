@@ -1,0 +1,77 @@
+/* An attribute of a mesh: its values, and how the user is given them (specification, D, A). */
+#ifndef BSMDEC_ATTRIBUTE_H
+#define BSMDEC_ATTRIBUTE_H
+
+#include "bitstream/attributes/attributes.h"
+#include "bitstream/container/header.h"
+#include "bitstream/payloads/order.h"
+
+/* Corners that share a value, where attributes have seams: the seams, and how many values there are. */
+typedef struct {
+    Bytes seams;
+    int64_t count;
+} Joins;
+
+/* One of the groups of at most four pieces that an attribute's words are coded in (D 3.3). */
+enum { MOST_GROUPS = 4, MOST_PIECES = 2 * MOST_WORDS };
+typedef struct {
+    Corners corners;
+    ValueModel model;
+    Values values;         /* of vertices or corners */
+    FaceValues face_values;
+    Ints order;            /* empty: rows come as they are numbered */
+    Ints2 pieces;
+    int columns;
+} Group;
+
+typedef struct {
+    Declaration declaration;
+    const Joins *joins;    /* of corners, NULL for others */
+    bool own_joins, whole;
+    int64_t rows;          /* values, also of one that is recomputed */
+    ConstInts2 faces;      /* the row of each coded corner */
+    Ints vertices;         /* the vertex of each row, -1 for loose ones; none for faces */
+    void *values;          /* rows times components, of the kind */
+    void *moved;           /* the same in the frame reported last, if it moves; NULL: in the first one */
+    double coding;         /* bytes that are kept while values come */
+    int64_t coded;
+    bool begun;
+    int groups;
+    Group group[MOST_GROUPS];
+} Attribute;
+
+/* Zeros for the values of all rows. */
+MUST_CHECK bool take_values(Arena *arena, const Attribute *attribute, void **values);
+/* Normals that follow from positions (D 4.4). */
+bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch);
+
+/* First values less those of vertex 0; the values of a frame, given its change from the first (S 10). */
+void relative_values(const Attribute *attribute, Doubles2 beyond);
+bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved);
+
+/* Values of rows from their pieces (D 3.2, D 4). */
+bool restore_values(Context *context, Attribute *attribute, int64_t first, int64_t count);
+INLINE size_t kind_size(int kind) {
+    static const size_t SIZES[] = {1, 1, 2, 2, 4, 4, 4, 8};
+    return SIZES[kind];
+}
+
+INLINE bool is_kind(int kind) { return kind >= BSMDEC_UINT8 && kind <= BSMDEC_FLOAT64; }
+/* The direction of a place on the unfolded octahedron, 0 to twice `size` on each axis (D 4.2). */
+void unfold_direction(const int64_t *word, int64_t size, double *direction);
+/* One number of values of a kind. */
+double load_number(const void *values, int64_t place, int kind);
+void store_number(void *values, int64_t place, int kind, double number);
+
+/* How the user is given an attribute (D 4.5). */
+typedef struct {
+    int domain;
+    int64_t rows;
+} Given;
+Given given_shape(const Attribute *attribute, const Numbering *numbering);
+/* The row that each of the user's values is. */
+bool given_rows(const Attribute *attribute, const Numbering *numbering, Arena *scratch, Longs rows);
+/* The row of each of the user's corners. */
+int32_t row_of_corner(const Attribute *attribute, const Numbering *numbering, int64_t corner);
+
+#endif

@@ -1,0 +1,102 @@
+/* A given mesh as it is coded: one vertex at each position (encoder only). */
+#include "library/encode/joining.h"
+
+#ifdef BSMDEC_WRITES
+
+static uint64_t hash_of(const int64_t *row, int width) {
+    uint64_t hash = 0;
+    for (int i = 0; i < width; i++) hash = ((hash ^ hash >> 29) ^ (uint64_t)row[i]) * UINT64_C(0xBF58476D1CE4E5B9);
+    return hash ^ hash >> 32;
+}
+
+int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratch, Ints numbers) {
+    int64_t size = 16, known = 0;
+    Ints place, first; /* the number of the rows with a hash, or the next free place; the first row of a number */
+    Mark mark = mark_of(scratch);
+    while (size < 2 * count) size *= 2;
+    if (!take_ints(scratch, size, &place) || !take_ints(scratch, count, &first)) return -1;
+    for (int64_t i = 0; i < size; i++) place.data[i] = -1;
+    for (int64_t i = 0; i < count; i++) {
+        const int64_t *row = rows + width * i;
+        uint64_t at = hash_of(row, width) & (uint64_t)(size - 1);
+        for (; place.data[at] >= 0; at = (at + 1) & (uint64_t)(size - 1)) {
+            const int64_t *other = rows + width * (int64_t)first.data[place.data[at]];
+            int same = 0;
+            while (same < width && other[same] == row[same]) same++;
+            if (same == width) break;
+        }
+        if (place.data[at] < 0) {
+            first.data[known] = (int32_t)i;
+            place.data[at] = (int32_t)known++;
+        }
+        numbers.data[i] = place.data[at];
+    }
+    release_to(scratch, mark);
+    return known;
+}
+
+static bool repeats(int32_t a, int32_t b, int32_t c) { return a == b || b == c || c == a; }
+
+/* The given vertices in faces that are kept, by the number of their position. */
+static void number_used(const GivenMesh *given, Ints place, Ints seen, JoinedMesh *joined) {
+    Bytes used = {(uint8_t *)seen.data, given->vertices};
+    memset(used.data, 0, (size_t)given->vertices);
+    for (int64_t i = 0; i < 3 * joined->kept.size; i++)
+        used.data[given->corners[3 * (int64_t)joined->kept.data[i / 3] + i % 3]] = 1;
+    for (int64_t v = 0; v < given->vertices; v++) joined->index.data[v] = used.data[v] ? place.data[v] : -1;
+    for (int64_t v = 0; v < given->vertices; v++) seen.data[v] = -1;
+    joined->first.size = 0;
+    for (int64_t v = 0; v < given->vertices; v++) {
+        int32_t *index = joined->index.data + v;
+        if (*index < 0) continue;
+        if (seen.data[*index] < 0) {
+            seen.data[*index] = (int32_t)joined->first.size;
+            joined->first.data[joined->first.size++] = (int32_t)v;
+        }
+        *index = seen.data[*index];
+    }
+}
+
+bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined) {
+    Arena *arena = &writer->arena, *scratch = &writer->scratch;
+    int64_t n = given->vertices, m = given->faces, mentioned = 0;
+    const uint32_t *corners = given->corners;
+    Mark mark = mark_of(scratch);
+    Ints place, seen;
+    *joined = (JoinedMesh){0};
+    if (!take_ints(arena, n, &joined->index) || !take_ints(arena, n, &joined->first)
+        || !take_ints(arena, m, &joined->kept) || !take_ints2(arena, m, 3, &joined->faces)
+        || !take_ints(scratch, n, &place) || !zero_ints(scratch, n, &seen))
+        return false;
+    Longs2 bits;
+    if (!take_longs2(scratch, n, 3, &bits)) return false;
+    for (int64_t i = 0; i < 3 * n; i++) {
+        double value = exact ? given->positions.data[i] : given->positions.data[i] + 0.0;
+        memcpy(bits.data + i, &value, sizeof value);
+    }
+    if (number_rows(bits.data, n, 3, scratch, place) < 0) return false;
+    for (int64_t i = 0; i < 3 * m; i++) {
+        mentioned += !seen.data[corners[i]];
+        seen.data[corners[i]] = 1;
+    }
+    int64_t kept = 0;
+    for (int64_t f = 0; f < m; f++) {
+        const uint32_t *face = corners + 3 * f;
+        bool was = repeats((int32_t)face[0], (int32_t)face[1], (int32_t)face[2]);
+        if (keep || was || !repeats(place.data[face[0]], place.data[face[1]], place.data[face[2]]))
+            joined->kept.data[kept++] = (int32_t)f;
+    }
+    if (kept == 0) /* without any, all of them stay */
+        for (; kept < m; kept++) joined->kept.data[kept] = (int32_t)kept;
+    joined->kept.size = joined->faces.rows = kept;
+    number_used(given, place, seen, joined);
+    for (int64_t i = 0; i < 3 * kept; i++)
+        joined->faces.data[i] = joined->index.data[corners[3 * (int64_t)joined->kept.data[i / 3] + i % 3]];
+    joined->merged = mentioned - joined->first.size;
+    joined->loose = n - mentioned;
+    joined->collapsed = m - kept;
+    release_to(scratch, mark);
+    return true;
+}
+
+#endif

@@ -1,0 +1,27 @@
+/* Which grid positions are coded on, and where on it they are (encoder only). */
+#ifndef BSMDEC_ROUNDING_H
+#define BSMDEC_ROUNDING_H
+
+#include "library/encode/joining.h"
+
+/* Positions on a grid: place k of an axis is at origin + k * step. */
+typedef struct {
+    double origin[3], step;
+    int32_t largest[3];
+    Ints2 places;
+    bool exact; /* positions are those that are given, floats in the cells of their places */
+} Rounded;
+
+/* To `bits` along the longest side of the bounding box. */
+bool round_to_bits(Context *context, ConstDoubles2 positions, int bits, Rounded *rounded);
+/* To the points origin + k * cell. */
+bool round_to_cells(Context *context, ConstDoubles2 positions, double cell, const double *origin, Rounded *rounded);
+/* Floats, exactly; the rest of the doubles that hold them is 0. */
+bool round_exactly(Context *context, ConstDoubles2 positions, Rounded *rounded);
+/* The position that a decoder gives. */
+INLINE double rounded_at(const Rounded *rounded, int64_t place, int axis) {
+    double product = (double)rounded->places.data[3 * place + axis] * rounded->step;
+    return product + rounded->origin[axis];
+}
+
+#endif

@@ -1,0 +1,224 @@
+/* Packets to bytes: what bitstream/container/reader.c reads (specification, F 1 to F 5). */
+#include "library/encode/writer.h"
+
+#ifdef BSMDEC_WRITES
+
+enum { LEAST_ROOM = 1 << 12, TAG_BITS = 4 };
+
+void give_buffer(Buffer *buffer) {
+    host_give(buffer->context, buffer->data, (size_t)buffer->room);
+    buffer->data = NULL;
+    buffer->size = buffer->room = 0;
+}
+
+/* Room for so many more bytes; NULL if there is none. */
+static uint8_t *more(Buffer *buffer, int64_t size) {
+    if (failed(buffer->context)) return NULL;
+    if (size > buffer->room - buffer->size) {
+        int64_t room = largest(2 * (buffer->size + size), LEAST_ROOM);
+        uint8_t *data;
+        if (!TAKE_OF_HOST(buffer->context, room, data)) return NULL;
+        if (buffer->size > 0) memcpy(data, buffer->data, (size_t)buffer->size);
+        host_give(buffer->context, buffer->data, (size_t)buffer->room);
+        buffer->data = data;
+        buffer->room = room;
+    }
+    buffer->size += size;
+    return buffer->data + buffer->size - size;
+}
+
+void put_bytes(Buffer *buffer, Span bytes) {
+    uint8_t *to = more(buffer, bytes.size);
+    if (to != NULL && bytes.size > 0) memcpy(to, bytes.data, (size_t)bytes.size);
+}
+
+static void put_byte(Buffer *buffer, int value) {
+    uint8_t *to = more(buffer, 1);
+    if (to != NULL) *to = (uint8_t)value;
+}
+
+void put_varint(Buffer *buffer, int64_t value) {
+    for (; value > 0x7f; value >>= 7) put_byte(buffer, (int)(value & 0x7f) | 0x80);
+    put_byte(buffer, (int)value);
+}
+
+void put_little(Buffer *buffer, uint64_t value, int size) {
+    for (int i = 0; i < size; i++) put_byte(buffer, (int)(value >> 8 * i & 255));
+}
+
+static void put_big(Buffer *buffer, uint64_t value, int size) {
+    while (size-- > 0) put_byte(buffer, (int)(value >> 8 * size & 255));
+}
+
+/* A tag of msgpack, and a number after it in the fewest of 1, 2, 4 and 8 bytes, for which there are tags in a row. */
+static void put_tagged(Buffer *buffer, int tag, uint64_t value, int first) {
+    int size = first;
+    for (; size < 8 && value >> 8 * size > 0; size *= 2) tag++;
+    put_byte(buffer, tag);
+    put_big(buffer, value, size);
+}
+
+static void put_whole(Buffer *buffer, int64_t value) {
+    if (value >= -32 && value < 128) put_byte(buffer, (int)(value & 255));
+    else if (value >= 0) put_tagged(buffer, 0xcc, (uint64_t)value, 1);
+    else {
+        int size = value >= INT8_MIN ? 1 : value >= INT16_MIN ? 2 : value >= INT32_MIN ? 4 : 8;
+        put_byte(buffer, size == 1 ? 0xd0 : size == 2 ? 0xd1 : size == 4 ? 0xd2 : 0xd3);
+        put_big(buffer, (uint64_t)value, size);
+    }
+}
+
+/* In single precision where that is exact. */
+static void put_real(Buffer *buffer, double value) {
+    float narrow = value >= -FLT_MAX && value <= FLT_MAX ? (float)value : 0.0f;
+    bool fits = (double)narrow == value;
+    uint32_t word;
+    uint64_t wide;
+    memcpy(&word, &narrow, sizeof word);
+    memcpy(&wide, &value, sizeof wide);
+    put_byte(buffer, fits ? 0xca : 0xcb);
+    put_big(buffer, fits ? word : wide, fits ? 4 : 8);
+}
+
+static void put_text(Buffer *buffer, Span text) {
+    if (text.size < 32) put_byte(buffer, 0xa0 | (int)text.size);
+    else put_tagged(buffer, 0xd9, (uint64_t)text.size, 1);
+    put_bytes(buffer, text);
+}
+
+static void put_count(Buffer *buffer, int few, int many, int64_t count) {
+    if (count < 16) put_byte(buffer, few | (int)count);
+    else put_tagged(buffer, many, (uint64_t)count, 2);
+}
+
+static void put_reals(Buffer *buffer, const double *values, int count) {
+    put_count(buffer, 0x90, 0xdc, count);
+    for (int i = 0; i < count; i++) put_real(buffer, values[i]);
+}
+
+static bool are(const double *values, int count, double value) {
+    for (int i = 0; i < count; i++)
+        if (values[i] != value) return false;
+    return true;
+}
+
+/* An entry of a map, unless its value is the default: the entries are counted first, and written then. */
+#define ENTRY(key, is_default, put)                                                                                    \
+    do {                                                                                                               \
+        if (!(is_default)) {                                                                                           \
+            if (counts) entries++;                                                                                     \
+            else {                                                                                                     \
+                put_byte(buffer, key);                                                                                 \
+                put;                                                                                                   \
+            }                                                                                                          \
+        }                                                                                                              \
+    } while (0)
+
+void put_header(Buffer *buffer, const Header *h) {
+    int entries = 0;
+    for (int counts = 1; counts >= 0; counts--) {
+        if (!counts) put_count(buffer, 0x80, 0xde, entries);
+        ENTRY(1, false, put_whole(buffer, h->vertices));
+        ENTRY(2, false, put_whole(buffer, h->faces));
+        ENTRY(8, are(h->center, 3, 0.0), put_reals(buffer, h->center, 3));
+        ENTRY(9, h->scale == 1.0, put_real(buffer, h->scale));
+        ENTRY(12, h->attributes == 0, put_whole(buffer, h->attributes));
+        ENTRY(13, false, {
+            put_count(buffer, 0x90, 0xdc, 3);
+            for (int j = 0; j < 3; j++) put_whole(buffer, h->grid[j]);
+        });
+        ENTRY(16, h->light == 0, put_whole(buffer, h->light));
+    }
+}
+
+void put_declaration(Buffer *buffer, const Declaration *d) {
+    int entries = 0, steps = are(d->step, d->words, d->step[0]) ? 1 : d->words;
+    for (int counts = 1; counts >= 0; counts--) {
+        if (!counts) put_count(buffer, 0x80, 0xde, entries);
+        ENTRY(1, false, put_text(buffer, (Span){(const uint8_t *)d->name, d->name_size}));
+        ENTRY(2, d->domain == 0, put_whole(buffer, d->domain));
+        ENTRY(3, d->origin == 0, put_whole(buffer, d->origin));
+        ENTRY(4, d->semantic == 0, put_whole(buffer, d->semantic));
+        ENTRY(5, d->kind == BSMDEC_FLOAT32, put_whole(buffer, d->kind));
+        ENTRY(6, d->components == 1, put_whole(buffer, d->components));
+        ENTRY(7, d->coding == 0, put_whole(buffer, d->coding));
+        ENTRY(8, d->rows == 0, put_whole(buffer, d->rows));
+        ENTRY(9, d->words == 0, {
+            put_count(buffer, 0x90, 0xdc, d->words);
+            for (int i = 0; i < d->words; i++) put_whole(buffer, d->largest[i]);
+        });
+        ENTRY(10, are(d->offset, d->words, 0.0), put_reals(buffer, d->offset, d->words));
+        ENTRY(11, are(d->step, d->words, 1.0), put_reals(buffer, d->step, steps));
+        ENTRY(12, !d->leans, put_whole(buffer, d->leans));
+        ENTRY(15, d->seams_of == 0, put_whole(buffer, d->seams_of));
+    }
+}
+
+void put_metadata(Buffer *buffer, const bsmdec_metadata *const *entries, int count) {
+    put_count(buffer, 0x80, 0xde, count);
+    for (int i = 0; i < count; i++) {
+        const bsmdec_metadata *entry = entries[i];
+        Span bytes = {entry->bytes, (int64_t)entry->size};
+        put_text(buffer, (Span){(const uint8_t *)entry->name, (int64_t)strlen(entry->name)});
+        if (entry->type == BSMDEC_WHOLE) put_whole(buffer, entry->whole);
+        if (entry->type == BSMDEC_NUMBER) put_real(buffer, entry->number);
+        if (entry->type == BSMDEC_TEXT) put_text(buffer, bytes);
+        if (entry->type == BSMDEC_BYTES) put_tagged(buffer, 0xc4, (uint64_t)bytes.size, 1), put_bytes(buffer, bytes);
+    }
+}
+
+void put_order(Buffer *buffer, Arrangement *a, ConstDoubles2 loose, Arena *scratch) {
+    Context *context = buffer->context;
+    Writing writing;
+    for (int64_t v = 0; v < a->source.size; v++) a->loose += a->source.data[v] < 0;
+    a->copies = a->source.size > 0 ? a->source.size - a->loose - a->vertices.size : 0;
+    if (begin_payloads(context, 1 << 12, &writing) && write_order(context, a, scratch, &writing)) {
+        put_varint(buffer, a->copies);
+        put_varint(buffer, a->loose);
+        for (int64_t i = 0; i < 3 * a->loose; i++) {
+            uint64_t bits;
+            memcpy(&bits, loose.data + i, sizeof bits);
+            put_little(buffer, bits, 8);
+        }
+        put_bytes(buffer, (Span){writing.data, writing.size});
+    }
+    end_payloads(context, &writing);
+}
+
+void start_stream(StreamWriter *writer, Context *context) {
+    static const uint8_t PREAMBLE[] = {0x89, 'B', 'S', 'M', 16 * MAJOR};
+    writer->bytes = writer->payload = (Buffer){.context = context};
+    writer->sections = 0;
+    make_sums(&writer->sums);
+    put_bytes(&writer->bytes, (Span){PREAMBLE, sizeof PREAMBLE});
+    writer->sum = crc32_of(&writer->sums, (Span){PREAMBLE, sizeof PREAMBLE}, 0);
+}
+
+void put_section(StreamWriter *writer, FrameType type) {
+    Buffer *bytes = &writer->bytes;
+    int64_t start = bytes->size, size = writer->payload.size;
+    bool brief = type == BLOCK_FRAME || size < SHORT_PAYLOAD;
+    put_varint(bytes, size << TAG_BITS | type);
+    put_bytes(bytes, bytes_of(&writer->payload));
+    writer->payload.size = 0;
+    if (failed(bytes->context)) return;
+    Span body = {bytes->data + start, bytes->size - start};
+    put_little(bytes, brief ? crc16_of(&writer->sums, body) : crc32_of(&writer->sums, body, 0), brief ? 2 : 4);
+    if (failed(bytes->context)) return;
+    writer->sum = crc32_of(&writer->sums, (Span){bytes->data + start, bytes->size - start}, writer->sum);
+    writer->sections++;
+}
+
+void end_stream(StreamWriter *writer, ConstDoubles2 positions) {
+    put_varint(&writer->payload, writer->sections);
+    put_little(&writer->payload, writer->sum, 4);
+    put_little(&writer->payload, crc32_of_positions(&writer->sums, positions, 0), 4);
+    put_section(writer, END_FRAME);
+}
+
+void give_stream(StreamWriter *writer) {
+    give_buffer(&writer->bytes);
+    give_buffer(&writer->payload);
+}
+
+#endif

@@ -1,0 +1,567 @@
+// bsmdec as a class of Python. Arrays are numpy's own; nothing is decoded under the interpreter's lock.
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+extern "C" {
+#include "library/python/inside.h"
+}
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+// Fields of bsmdec_limits, which have the names of bsm.Limits.
+const struct {
+    const char *name;
+    double bsmdec_limits::*field;
+} LIMITS[] = {
+#define LIMIT(name) {#name, &bsmdec_limits::name}
+    LIMIT(vertices), LIMIT(faces), LIMIT(blocks), LIMIT(block_size), LIMIT(coefficients), LIMIT(frames),
+    LIMIT(gop_frames), LIMIT(frame_bytes), LIMIT(metadata_bytes), LIMIT(attributes), LIMIT(attribute_values),
+    LIMIT(sequence_bytes), LIMIT(field_bytes), LIMIT(work), LIMIT(work_per_vertex), LIMIT(work_per_byte),
+    LIMIT(most_work), LIMIT(memory), LIMIT(memory_per_vertex), LIMIT(memory_per_byte), LIMIT(most_memory),
+#undef LIMIT
+};
+const char *const KINDS[] = {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"};
+
+nb::handle numpy_empty; // runs no code of Python, which could call the decoder whose memory is copied
+
+struct Array {
+    nb::object numpy;
+    void *data;
+    size_t bytes;
+};
+
+Array array_of(const char *kind, size_t rows, size_t columns = 0) {
+    nb::object shape = columns > 0 ? nb::object(nb::make_tuple(rows, columns)) : nb::object(nb::int_(rows));
+    nb::object made = numpy_empty(shape, kind);
+    auto view = nb::cast<nb::ndarray<nb::c_contig, nb::device::cpu>>(made);
+    return {made, view.data(), view.nbytes()};
+}
+
+nb::object copy_of(const void *data, const char *kind, size_t rows, size_t columns = 0) {
+    Array made = array_of(kind, rows, columns);
+    if (made.bytes > 0) std::memcpy(made.data, data, made.bytes);
+    return made.numpy;
+}
+
+template <typename Number, size_t count> nb::list list_of(const Number (&numbers)[count]) {
+    nb::list all;
+    for (Number number : numbers) all.append(number);
+    return all;
+}
+
+// Text that a message may have cut inside a character.
+nb::object text_of(const char *text) {
+    return nb::steal(PyUnicode_DecodeUTF8(text, (Py_ssize_t)std::strlen(text), "ignore"));
+}
+
+// Runs tasks of a decoder side by side: each on a thread of its own, the first on the caller's.
+void run_tasks(void *, int count, void (*task)(void *context, int index), void *context) {
+    std::vector<std::thread> threads;
+    int next = 1;
+    try {
+        threads.reserve((size_t)count);
+        for (; next < count; next++) threads.emplace_back(task, context, next);
+    } catch (const std::exception &) { // no more threads: the caller's does the rest
+        for (; next < count; next++) task(context, next);
+    }
+    task(context, 0);
+    for (std::thread &thread : threads) thread.join();
+}
+
+[[noreturn]] void raise(const nb::object &error) {
+    PyErr_SetObject((PyObject *)Py_TYPE(error.ptr()), error.ptr());
+    throw nb::python_error();
+}
+
+nb::object error_of(const bsmdec_error &error, const nb::object &limits, const nb::object &state) {
+    return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
+        (int)error.status, text_of(error.message), error.offset, error.frame, error.block, limits, state);
+}
+
+// Python threads that share an object take turns: results are copied before the next call begins.
+struct Shared {
+    std::recursive_mutex mutex; // a signal handler may call the decoder that it interrupts
+};
+
+template <typename Result, typename Class, typename... Given> auto in_turn(Result (Class::*method)(Given...)) {
+    return [method](Class &self, Given... given) -> Result {
+        std::unique_lock<std::recursive_mutex> turn(self.mutex, std::defer_lock);
+        {
+            nb::gil_scoped_release released;
+            turn.lock();
+        }
+        return (self.*method)(std::move(given)...);
+    };
+}
+
+// Work on our own memory, without the interpreter lock.
+template <typename Work> auto unlocked(Work work) {
+    nb::gil_scoped_release released;
+    return work();
+}
+
+class Decoder : public Shared {
+  public:
+    Decoder(nb::object limits, int64_t threads, bool tolerant, int64_t start, int64_t layers)
+        : given(std::move(limits)) {
+        bsmdec_limits bounds;
+        bsmdec_default_limits(&bounds, sizeof bounds);
+        for (const auto &[name, field] : LIMITS) bounds.*field = nb::cast<double>(nb::float_(given.attr(name)));
+        bsmdec_parallel parallel = {sizeof parallel, run_tasks, nullptr, threads};
+        bsmdec_options options = {};
+        options.size = sizeof options;
+        options.limits = &bounds;
+        options.tolerant = tolerant;
+        options.start = start;
+        options.layers = layers;
+        if (threads > 1) options.parallel = &parallel;
+        decoder = bsmdec_open(&options);
+        if (decoder == nullptr) throw std::bad_alloc();
+    }
+    ~Decoder() { bsmdec_close(decoder); }
+    Decoder(const Decoder &) = delete;
+
+    void push(nb::ndarray<const uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu> bytes) {
+        const void *data = bytes.data();
+        size_t size = bytes.size();
+        unlocked([&] { return bsmdec_push(decoder, data, size); });
+    }
+
+    void finish() {
+        unlocked([&] { return bsmdec_finish(decoder); });
+    }
+
+    // The next event of a wanted type, or one that nothing follows for now: type, index, count, vertices, faces.
+    nb::tuple next(uint32_t wanted) {
+        wanted |= 1u << BSMDEC_NEED_DATA | 1u << BSMDEC_END_OF_STREAM;
+        bsmdec_event event;
+        bsmdec_status status;
+        do {
+            status = unlocked([&] {
+                bsmdec_status found;
+                int left = 64;  // then signals are looked at
+                do found = bsmdec_next(decoder, &event);
+                while (found == BSMDEC_OK && --left > 0 && !(wanted >> event.type & 1));
+                return found;
+            });
+            if (PyErr_CheckSignals() != 0) throw nb::python_error();
+            if (status != BSMDEC_OK) raise_error();
+        } while (!(wanted >> event.type & 1));
+        return nb::make_tuple((int)event.type, event.index, event.count, event.vertices, event.faces);
+    }
+
+    // Name and numbers of the next packet (see inside.h); None: it has not come as a whole.
+    nb::object skim() {
+        int64_t numbers[SKIMMED_NUMBERS] = {};
+        const char *name = "";
+        check(unlocked([&] { return name = decoder_skim(decoder, numbers), bsmdec_last_error(decoder)->status; }));
+        if (numbers[0] < 0) return nb::none();
+        return nb::make_tuple(text_of(name), list_of(numbers));
+    }
+
+    nb::object faces(size_t count) {
+        Array made = array_of("int32", count, 3);
+        check(unlocked([&] { return bsmdec_faces(decoder, (uint32_t *)made.data, 3 * count); }));
+        return made.numpy;
+    }
+
+    nb::object positions(size_t count) {
+        Array made = array_of("float64", count, 3);
+        check(unlocked([&] { return bsmdec_positions(decoder, (double *)made.data, 3 * count); }));
+        return made.numpy;
+    }
+
+    nb::tuple changes() { return changed_by(bsmdec_read_changes); }
+
+    nb::tuple loose() { return changed_by(bsmdec_read_loose); }
+
+    nb::tuple losses() {
+        bsmdec_losses found;
+        check(unlocked([&] { return bsmdec_read_losses(decoder, &found); }));
+        return nb::make_tuple(copy_of(found.missing, "int32", (size_t)found.missing_count),
+            copy_of(found.degraded, "int32", (size_t)found.degraded_count));
+    }
+
+    nb::tuple metadata(int64_t index) {
+        bsmdec_metadata entry;
+        check(unlocked([&] { return bsmdec_metadata_at(decoder, index, &entry); }));
+        const char *bytes = (const char *)entry.bytes;
+        nb::object value = entry.type == BSMDEC_WHOLE ? nb::object(nb::int_(entry.whole))
+            : entry.type == BSMDEC_NUMBER             ? nb::object(nb::float_(entry.number)) : entry.type == BSMDEC_TEXT
+            ? nb::object(nb::str(bytes, entry.size)) : nb::object(nb::bytes(bytes, entry.size));
+        return nb::make_tuple(nb::str(entry.name), value);
+    }
+
+    int attribute_count() { return bsmdec_attribute_count(decoder); }
+
+    // (name, domain, semantic, values, indices or None, whether it moves); None if it is not whole.
+    nb::object attribute(int index) {
+        bsmdec_attribute shape;
+        if (unlocked([&] { return bsmdec_attribute_at(decoder, index, &shape); }) != BSMDEC_OK) return nb::none();
+        Array made = array_of(KINDS[shape.kind], (size_t)shape.rows, (size_t)shape.components);
+        check(unlocked([&] { return bsmdec_attribute_values(decoder, index, made.data, made.bytes); }));
+        return nb::make_tuple(shape.name, shape.domain, shape.semantic, made.numpy, indices(index, shape),
+            shape.moves != 0);
+    }
+
+    // The part that came last: (name, domain, semantic, indices or None, rows, values).
+    nb::tuple values(int index) {
+        bsmdec_values found;
+        check(unlocked([&] { return bsmdec_read_values(decoder, index, &found); }));
+        const bsmdec_attribute &shape = found.attribute;
+        return nb::make_tuple(shape.name, shape.domain, shape.semantic, indices(index, shape),
+            copy_of(found.rows, "int32", (size_t)found.count),
+            copy_of(found.values, KINDS[shape.kind], (size_t)found.count, (size_t)shape.components));
+    }
+
+    // The numbers of bitstream/container/header.h, in the order of `list_header`.
+    nb::list header() {
+        double numbers[MOST_HEADER_NUMBERS] = {};
+        unlocked([&] { return decoder_header(decoder, numbers), BSMDEC_OK; });
+        return list_of(numbers);
+    }
+
+    nb::list state() {
+        double numbers[STATE_NUMBERS];
+        unlocked([&] { return decoder_state(decoder, numbers), BSMDEC_OK; });
+        return list_of(numbers);
+    }
+
+    // The loss of the last LOSS event, as an error.
+    nb::object loss() { return error_of(*bsmdec_last_loss(decoder), given, state()); }
+
+  private:
+    bsmdec *decoder;
+    nb::object given;
+
+    nb::tuple changed_by(bsmdec_status (*read)(bsmdec *, bsmdec_changes *)) {
+        bsmdec_changes found;
+        check(unlocked([&] { return read(decoder, &found); }));
+        size_t count = (size_t)found.count;
+        return nb::make_tuple(copy_of(found.vertices, "int32", count), copy_of(found.positions, "float64", count, 3),
+            copy_of(found.final, "bool", count));
+    }
+
+    nb::object indices(int index, const bsmdec_attribute &shape) {
+        if (shape.indices == 0) return nb::none();
+        Array made = array_of("int32", (size_t)shape.indices / 3, 3);
+        check(unlocked(
+            [&] { return bsmdec_attribute_indices(decoder, index, (uint32_t *)made.data, (size_t)shape.indices); }));
+        return made.numpy;
+    }
+
+    [[noreturn]] void raise_error() { raise(error_of(*bsmdec_last_error(decoder), given, state())); }
+
+    void check(bsmdec_status status) {
+        if (status == BSMDEC_OK) return;
+        if (status != BSMDEC_MISUSED) raise_error();
+        throw nb::value_error(bsmdec_last_misuse(decoder));
+    }
+};
+
+template <typename T, int64_t columns>
+using Rows = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
+template <typename T> using Row = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Table = nb::ndarray<const int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+// What encoders write with, and the payloads that they have written.
+class Output {
+  public:
+    Output() : encoding(open_encoding()) {
+        if (encoding == nullptr) throw std::bad_alloc();
+    }
+    ~Output() { close_encoding(encoding); }
+    Output(const Output &) = delete;
+
+    template <typename Work> void run(Work work) {
+        if (unlocked(work)) return;
+        nb::object limits = nb::module_::import_("bsm.bitstream.limits").attr("DEFAULT_LIMITS");
+        raise(error_of(*encoding_error(encoding), limits, nb::make_tuple(0, 0, 0, 0, 0, 0, 0)));
+    }
+
+    nb::list payloads() const {
+        const Writing &written = *encoding_payloads(encoding);
+        nb::list all;
+        for (int i = 0; i < written.count; i++) {
+            int64_t first = i > 0 ? written.ends[i - 1] : 0;
+            all.append(nb::bytes(written.data + first, (size_t)(written.ends[i] - first)));
+        }
+        return all;
+    }
+
+    Encoding *encoding;
+};
+
+// The payload of faces, the order of vertices and of faces in it, and the decoded faces (see writing.h).
+nb::tuple faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional<Row<int32_t>> merged) {
+    Output output;
+    size_t count = faces.shape(0);
+    Written given = {faces.data(), merged ? merged->data() : nullptr, (int64_t)count,
+        merged ? (int64_t)merged->size() : vertices, 1};
+    Array order = array_of("int32", (size_t)vertices), face_order = array_of("int32", count);
+    Array coded = array_of("int32", count, 3);
+    output.run([&] {
+        return encode_faces(output.encoding, given, vertices, (int32_t *)order.data, (int32_t *)face_order.data,
+            (int32_t *)coded.data);
+    });
+    return nb::make_tuple(output.payloads()[0], order.numpy, face_order.numpy, coded.numpy);
+}
+
+// The payload of ORDER (see inside.h); a mesh whose vertices are several given ones, or none, has `source`.
+nb::object order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<int32_t> vertices,
+    Row<int32_t> face_places, std::optional<Row<int32_t>> source, std::optional<Rows<int32_t, 3>> corners,
+    std::optional<Rows<double, 3>> loose) {
+    size_t count = faces.shape(0);
+    if (coded.shape(0) != count || face_places.size() != count || !source != !corners || !source != !loose
+        || (corners && corners->shape(0) != count))
+        throw nb::value_error("vertices and faces do not fit together");
+    Output output;
+    Written given = {faces.data(), coded.data(), (int64_t)count, (int64_t)vertices.size(), 3};
+    output.run([&] {
+        return encode_order(output.encoding, given, vertices.data(), face_places.data(),
+            source ? source->data() : nullptr, source ? (int64_t)source->size() : 0,
+            corners ? corners->data() : nullptr, loose ? loose->data() : nullptr,
+            loose ? (int64_t)loose->shape(0) : 0);
+    });
+    return output.payloads()[0];
+}
+
+// The corners of faces, whose values are joined between seams.
+class Corners : public Shared, Output {
+  public:
+    Corners(Rows<int32_t, 3> faces, int64_t vertices) : faces(faces) {
+        run([&] { return encode_corners(encoding, faces.data(), (int64_t)faces.shape(0), vertices); });
+    }
+    // Seams of the numbers of corners, the value of each corner, and the first corner of each value.
+    nb::tuple join(Rows<int32_t, 3> numbers) {
+        size_t size = 3 * faces.shape(0);
+        if (3 * numbers.shape(0) != size) throw nb::value_error("each corner has a number");
+        Array seams = array_of("uint8", size), joined = array_of("int32", size / 3, 3), first = array_of("int32", size);
+        int64_t count = unlocked([&] {
+            return encode_joins(encoding, numbers.data(), (uint8_t *)seams.data, (int32_t *)joined.data,
+                (int32_t *)first.data);
+        });
+        return nb::make_tuple(seams.numpy, joined.numpy, copy_of(first.data, "int32", (size_t)count));
+    }
+    nb::object seams(Row<uint8_t> own, std::optional<Row<uint8_t>> last, std::optional<Row<uint8_t>> before_last) {
+        size_t size = 3 * faces.shape(0);
+        if (own.size() != size || (last && last->size() != size) || (before_last && before_last->size() != size))
+            throw nb::value_error("each corner has a seam or none");
+        run([&] {
+            return encode_seams(encoding, own.data(), last ? last->data() : nullptr,
+                before_last ? before_last->data() : nullptr);
+        });
+        return payloads()[0];
+    }
+
+  private:
+    Rows<int32_t, 3> faces;
+};
+
+// An attribute's values as whole numbers: coding, largest levels, offsets, step, levels, and the outcome: error, step
+// of integers, bits, normals without length, whether others had another length than 1.
+nb::tuple quantized(nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int semantic,
+    int quality, double amount) {
+    if (kind < 0 || kind > 7 || values.itemsize() != bsmdec_kind_size(kind) || values.shape(0) < 1
+        || values.shape(1) < 1 || values.shape(1) > 4)
+        throw nb::value_error("values are not of this kind");
+    Output output;
+    Whole whole;
+    size_t rows = values.shape(0);
+    output.run([&] {
+        return encode_quantized(output.encoding, values.data(), (int64_t)rows, semantic, kind, (int)values.shape(1),
+            quality, amount, &whole);
+    });
+    nb::list largest, offset;
+    for (int i = 0; i < whole.words; i++) {
+        largest.append((int64_t)whole.largest[i]);
+        offset.append(whole.offset[i]);
+    }
+    return nb::make_tuple(whole.coding, largest, offset, whole.step,
+        copy_of(whole.levels, "int64", whole.words > 0 ? rows : 0, (size_t)whole.words),
+        nb::make_tuple(whole.error, whole.whole_step, whole.bits, (int64_t)whole.zeros, whole.scaled != 0));
+}
+
+// Positions on a grid: its origin, step and largest places, and the places.
+nb::tuple rounded(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
+    if (origin.size() != 3 || positions.shape(0) < 1 || bits < 0 || bits > 20)
+        throw nb::value_error("a grid has three axes, and at most 20 bits");
+    Output output;
+    double grid[7];
+    Array places = array_of("int32", positions.shape(0), 3);
+    output.run([&] {
+        return encode_rounded(output.encoding, positions.data(), (int64_t)positions.shape(0), bits, cell,
+            origin.data(), grid, (int32_t *)places.data);
+    });
+    return nb::make_tuple(nb::make_tuple(grid[0], grid[1], grid[2]), grid[3],
+        nb::make_tuple((int)grid[4], (int)grid[5], (int)grid[6]), places.numpy);
+}
+
+// Writes or reads the values of one field, chunk after chunk.
+class Field : public Shared, Output {
+  public:
+    Field(Rows<int32_t, 3> faces, Table values) : faces(faces), values(values) {}
+
+    void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact,
+        std::optional<Rows<int32_t, 8>> transforms) {
+        if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows()))
+            throw nb::value_error("a grid has three axes");
+        begin([&] {
+            return encode_positions(encoding, given(), largest.data(), light, origin.data(), step,
+                exact ? exact->data() : nullptr, transforms ? transforms->data() : nullptr,
+                transforms ? (int64_t)transforms->shape(0) : -1);
+        });
+    }
+    void levels() {
+        if (values.shape(1) != 3) throw nb::value_error("levels have three axes");
+        begin([&] { return encode_levels(encoding, given()); });
+    }
+    void attribute(nb::bytes declaration, int64_t vertices, Row<int32_t> at, std::optional<Rows<int32_t, 3>> places) {
+        if ((at.size() > 0 && at.size() != rows()) || (places && (int64_t)places->shape(0) != vertices))
+            throw nb::value_error("rows and vertices do not fit together");
+        kept = nb::make_tuple(at, places);
+        begin([&] {
+            return encode_attribute(encoding, given(), (const uint8_t *)declaration.c_str(),
+                (int64_t)declaration.size(), vertices, at.size() > 0 ? at.data() : nullptr,
+                places ? places->data() : nullptr);
+        });
+    }
+
+    // The payloads of the next rows.
+    nb::list write(int64_t count) {
+        code(count, [&](int64_t first) { return encode_chunk(encoding, first, count); });
+        return payloads();
+    }
+
+    // Read the next rows; all values, as far as they are known.
+    nb::object read(nb::bytes payload, int64_t count) {
+        const uint8_t *data = (const uint8_t *)payload.c_str();
+        int64_t size = (int64_t)payload.size();
+        code(count, [&](int64_t first) { return decode_chunk(encoding, first, count, data, size); });
+        return copy_of(encoding_values(encoding), "int32", rows(), values.shape(1));
+    }
+
+    nb::object order() {
+        const int32_t *all = encoding_order(encoding);
+        return all == nullptr ? nb::none() : copy_of(all, "int32", rows());
+    }
+
+  private:
+    Rows<int32_t, 3> faces;
+    Table values;
+    nb::object kept;
+    int64_t next = -1; // before it has begun
+
+    size_t rows() const { return values.shape(0); }
+    Written given() const {
+        return {faces.data(), values.data(), (int64_t)faces.shape(0), (int64_t)values.shape(0),
+            (int64_t)values.shape(1)};
+    }
+    template <typename Work> void begin(Work work) {
+        if (next >= 0) throw nb::value_error("a field begins once");
+        next = (int64_t)rows(); // nothing goes on after an error
+        run(work);
+        next = 0;
+    }
+    template <typename Work> void code(int64_t count, Work work) {
+        int64_t first = next;
+        if (first < 0 || count < 1 || count > (int64_t)rows() - first)
+            throw nb::value_error("so many rows are not left");
+        next = (int64_t)rows();
+        run([&] { return work(first); });
+        next = first + count;
+    }
+};
+
+}  // namespace
+
+// Types of Python in signatures.
+#define SIG(text) nb::sig("def " text)
+#define ARRAY(kind) "numpy.typing.NDArray[numpy." #kind "]"
+#define BYTES ARRAY(uint8)
+#define INTS ARRAY(int32)
+#define LONGS ARRAY(int64)
+#define DOUBLES ARRAY(float64)
+#define CHANGES "tuple[" INTS ", " DOUBLES ", " ARRAY(bool_) "]"
+
+// The kernels of each room (kernels.cpp there).
+void bind_bitstream(nb::module_ &m);
+void bind_codec(nb::module_ &m);
+void bind_bsm(nb::module_ &m);
+
+NB_MODULE(_core, m) {
+    nb::set_leak_warnings(false); /* the traceback of an error keeps its decoder until the process ends */
+    m.attr("version") = BSM_VERSION;
+    numpy_empty = nb::object(nb::module_::import_("numpy").attr("empty")).release();
+    nb::module_ bitstream = m.def_submodule("bitstream"), codec = m.def_submodule("codec");
+    bind_bitstream(bitstream);
+    bind_codec(codec);
+    bind_bsm(m);
+    m.def("write_faces", faces_to_bytes, "faces"_a, "vertices"_a, "merged"_a.none() = nb::none(),
+        SIG("write_faces(faces: " INTS ", vertices: int, merged: " INTS " | None = None) -> tuple[bytes, " INTS ", "
+            INTS ", " INTS "]"));
+    m.def("write_order", order_to_bytes, "faces"_a, "coded"_a, "vertices"_a, "face_places"_a,
+        "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none(),
+        SIG("write_order(faces: " INTS ", coded: " INTS ", vertices: " INTS ", face_places: " INTS ", source: " INTS
+            " | None = None, corners: " INTS " | None = None, loose: " DOUBLES " | None = None) -> bytes"));
+    m.def("quantized", quantized, "values"_a, "kind"_a, "semantic"_a, "quality"_a, "amount"_a,
+        SIG("quantized(values: typing.Any, kind: int, semantic: int, quality: int, amount: float) -> tuple[int, "
+            "list[int], list[float], float, " LONGS ", tuple[float, float, int, int, bool]]"));
+    m.def("rounded", rounded, "positions"_a, "bits"_a, "cell"_a, "origin"_a,
+        SIG("rounded(positions: " DOUBLES ", bits: int, cell: float, origin: " DOUBLES
+            ") -> tuple[tuple[float, float, float], float, tuple[int, int, int], " INTS "]"));
+    nb::class_<Corners>(m, "Corners")
+        .def(nb::init<Rows<int32_t, 3>, int64_t>(), "faces"_a, "vertices"_a)
+        .def("join", in_turn(&Corners::join), "numbers"_a,
+            SIG("join(self, numbers: " INTS ") -> tuple[" BYTES ", " INTS ", " INTS "]"))
+        .def("seams", in_turn(&Corners::seams), "own"_a, "last"_a.none() = nb::none(),
+            "before_last"_a.none() = nb::none(),
+            SIG("seams(self, own: " BYTES ", last: " BYTES " | None = None, before_last: " BYTES
+                " | None = None) -> bytes"));
+    nb::class_<Field>(m, "Field")
+        .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
+        .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
+            "transforms"_a.none() = nb::none())
+        .def("levels", in_turn(&Field::levels))
+        .def("attribute", in_turn(&Field::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
+        .def("write", in_turn(&Field::write), "count"_a, SIG("write(self, count: int) -> list[bytes]"))
+        .def("read", in_turn(&Field::read), "payload"_a, "count"_a,
+            SIG("read(self, payload: bytes, count: int) -> " INTS))
+        .def_prop_ro("order", in_turn(&Field::order), SIG("order(self) -> typing.Any"));
+    nb::class_<Decoder>(m, "Decoder")
+        .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1,
+            "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)
+        .def("push", in_turn(&Decoder::push), "bytes"_a)
+        .def("finish", in_turn(&Decoder::finish))
+        .def("next", in_turn(&Decoder::next), "wanted"_a,
+            SIG("next(self, wanted: int) -> tuple[int, int, int, int, int]"))
+        .def("skim", in_turn(&Decoder::skim), SIG("skim(self) -> tuple[str, list[int]] | None"))
+        .def("faces", in_turn(&Decoder::faces), "count"_a, SIG("faces(self, count: int) -> " INTS))
+        .def("positions", in_turn(&Decoder::positions), "count"_a, SIG("positions(self, count: int) -> " DOUBLES))
+        .def("changes", in_turn(&Decoder::changes), SIG("changes(self) -> " CHANGES))
+        .def("loose", in_turn(&Decoder::loose), SIG("loose(self) -> " CHANGES))
+        .def("losses", in_turn(&Decoder::losses), SIG("losses(self) -> tuple[" INTS ", " INTS "]"))
+        .def("metadata", in_turn(&Decoder::metadata), "index"_a,
+            SIG("metadata(self, index: int) -> tuple[str, typing.Any]"))
+        .def("attribute_count", in_turn(&Decoder::attribute_count))
+        .def("attribute", in_turn(&Decoder::attribute), "index"_a,
+            SIG("attribute(self, index: int) -> tuple[str, int, int, typing.Any, typing.Any, bool] | None"))
+        .def("values", in_turn(&Decoder::values), "index"_a,
+            SIG("values(self, index: int) -> tuple[str, int, int, typing.Any, " INTS ", typing.Any]"))
+        .def("header", in_turn(&Decoder::header), SIG("header(self) -> list[float]"))
+        .def("state", in_turn(&Decoder::state), SIG("state(self) -> list[float]"))
+        .def("loss", in_turn(&Decoder::loss), SIG("loss(self) -> typing.Any"));
+}

@@ -1,0 +1,192 @@
+/* What lies inside a decoder, for the binding in C++, which cannot read the headers in C. */
+#include "library/python/inside.h"
+
+#include <stdlib.h>
+
+#include "library/decoder.h"
+#include "bitstream/payloads/corners.h"
+#include "library/encode/carrying.h"
+#include "library/encode/rounding.h"
+#include "library/writing.h"
+
+void decoder_state(const bsmdec *decoder, double *state) {
+    const Spent *spent = &decoder->context.spent;
+    const double all[STATE_NUMBERS] = {(double)decoder->reader.offset, spent->spent, (double)spent->vertices,
+        (double)(spent->vertices + spent->shown), (double)(spent->vertices - spent->gone), spent->received,
+        spent->reserved};
+    memcpy(state, all, sizeof all);
+}
+
+void decoder_header(const bsmdec *decoder, double *numbers) {
+    list_header(&decoder->reader.headers[decoder->reader.header], numbers);
+}
+
+const char *decoder_skim(bsmdec *decoder, int64_t *numbers) {
+    Reader *reader = &decoder->reader;
+    const Header *header = &reader->headers[0];
+    Packet p;
+    Gop gop = {0};
+    numbers[0] = NO_FRAME;
+    if (next_packet(reader, &p) != A_PACKET) return "";
+    header += reader->header;
+    if (p.type == GOP_FRAME
+        && !parse_beginning(&(Cursor){&decoder->context, p.data}, header->gop_frames, header->run, &gop))
+        return "";
+    const Declaration none = {0}, *d = p.type == ATTRIBUTE_FRAME ? p.declaration : &none;
+    const int64_t all[SKIMMED_NUMBERS] = {p.type, reader->last_offset, reader->offset - reader->last_offset, p.size,
+        p.data.size, p.index, p.coefficients + p.count + gop.frames, reader->metadata.count, reader->version,
+        gop.method == LEARNED || gop.method == KEY_FRAMES, p.has_positions ? (int64_t)p.positions : -1, d->domain,
+        d->semantic, d->kind, d->components, d->rows, d->coding, d->moves};
+    memcpy(numbers, all, sizeof all);
+    return p.type == ATTRIBUTE_FRAME ? p.declaration->name : "";
+}
+
+struct Encoding {
+    Writer writer;
+    CodedField field;
+    Corners corners;
+    Writing payloads;
+};
+
+Encoding *open_encoding(void) {
+    Encoding *encoding = calloc(1, sizeof *encoding);
+    if (encoding != NULL) open_writer(&encoding->writer, library_allocator());
+    return encoding;
+}
+
+void close_encoding(Encoding *encoding) {
+    end_payloads(&encoding->writer.context, &encoding->payloads);
+    end_field(&encoding->field);
+    close_writer(&encoding->writer);
+    free(encoding);
+}
+
+const bsmdec_error *encoding_error(const Encoding *encoding) { return &encoding->writer.context.error; }
+const Writing *encoding_payloads(const Encoding *encoding) { return &encoding->payloads; }
+
+static bool begin_again(Encoding *encoding, int64_t room) {
+    end_payloads(&encoding->writer.context, &encoding->payloads);
+    encoding->payloads = (Writing){0};
+    return begin_payloads(&encoding->writer.context, room, &encoding->payloads);
+}
+
+bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
+    int32_t *faces) {
+    return begin_again(encoding, 1 << 16)
+        && write_faces(&encoding->writer, given, vertices, &encoding->payloads, order, face_order, faces);
+}
+
+static bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bound) {
+    for (int64_t i = 0; i < count; i++)
+        if (numbers[i] < least || numbers[i] >= bound) return false;
+    return true;
+}
+
+/* Whether each number below `bound` is there. */
+static bool are_all_there(Arena *scratch, const int32_t *numbers, int64_t count, int64_t bound) {
+    Bytes there;
+    int64_t missing = bound;
+    if (!zero_bytes(scratch, bound, &there)) return false;
+    for (int64_t i = 0; i < count; i++)
+        if (numbers[i] >= 0 && !there.data[numbers[i]]) there.data[numbers[i]] = 1, missing--;
+    return missing == 0;
+}
+
+bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
+    const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count) {
+    Writer *writer = &encoding->writer;
+    int64_t m = given.faces_count, n = given.rows, unused = 0;
+    Arrangement arrangement = {{given.faces, m, 3}, {given.values, m, 3}, {vertices, n}, {face_places, m},
+        {source, sources}, {corners, m, 3}, 0, 0};
+    for (int64_t v = 0; v < sources; v++) unused += source[v] < 0;
+    bool fits = are_below(given.faces, 3 * m, 0, n) && are_below(given.values, 3 * m, 0, n)
+        && are_below(vertices, n, 0, n) && are_below(face_places, m, 0, m) && are_below(source, sources, -1, n)
+        && unused == loose_count && (sources == 0 || are_below(corners, 3 * m, 0, sources))
+        && are_all_there(&writer->scratch, vertices, n, n) && are_all_there(&writer->scratch, face_places, m, m)
+        && (sources == 0 || are_all_there(&writer->scratch, source, sources, n));
+    for (int64_t i = 0; fits && sources > 0 && i < 3 * m; i++) fits = source[corners[i]] >= 0;
+    if (!fits) return FAIL(&writer->context, MISUSED, "orders of vertices and faces do not fit together");
+    Buffer section = {.context = &writer->context};
+    put_order(&section, &arrangement, (ConstDoubles2){loose, loose_count, 3}, &writer->scratch);
+    encoding->payloads = (Writing){section.data, section.room, section.size, {section.size}, 1};
+    return !failed(&writer->context);
+}
+
+bool encode_corners(Encoding *encoding, const int32_t *faces, int64_t faces_count, int64_t vertices) {
+    Writer *writer = &encoding->writer;
+    if (!are_below(faces, 3 * faces_count, 0, vertices))
+        return FAIL(&writer->context, MISUSED, "a face has a vertex beyond the last");
+    return link_mesh(&writer->context, (ConstInts2){faces, faces_count, 3}, vertices, &writer->arena, &writer->scratch,
+        &encoding->corners);
+}
+
+int64_t encode_joins(const Encoding *encoding, const int32_t *numbers, uint8_t *seams, int32_t *joined,
+    int32_t *first) {
+    int64_t size = encoding->corners.corners.size;
+    return join_values(encoding->corners, numbers, (Bytes){seams, size}, (Ints){joined, size}, (Ints){first, size});
+}
+
+bool encode_seams(Encoding *encoding, const uint8_t *own, const uint8_t *last, const uint8_t *before_last) {
+    ConstBytes seams = {own, encoding->corners.corners.size};
+    return begin_again(encoding, seams.size + 64)
+        && write_seams(&encoding->writer, encoding->corners, seams, last, before_last, &encoding->payloads);
+}
+
+bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
+    double step, const double *exact, const int32_t *transforms, int64_t transforms_count) {
+    return begin_positions(&encoding->field, &encoding->writer.context, given, largest, light, origin, step, exact,
+        transforms, transforms_count);
+}
+
+bool encode_levels(Encoding *encoding, Written given) {
+    return begin_refinement(&encoding->field, &encoding->writer.context, given);
+}
+
+bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
+    const int32_t *at, const int32_t *places) {
+    Writer *writer = &encoding->writer;
+    Declaration declared;
+    return parse_declaration(&writer->context, (Span){declaration, size}, &writer->scratch, &declared)
+        && begin_attribute(&encoding->field, &writer->context, given, &declared, vertices, at, places);
+}
+
+bool encode_chunk(Encoding *encoding, int64_t first, int64_t count) {
+    return begin_again(encoding, room_of_chunk(&encoding->field, count))
+        && code_chunk(&encoding->field, first, count, (Span){0}, &encoding->payloads);
+}
+
+bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size) {
+    return code_chunk(&encoding->field, first, count, (Span){payload, size}, NULL);
+}
+
+bool encode_quantized(Encoding *encoding, const void *values, int64_t rows, int semantic, int kind, int components,
+    int quality, double amount, Whole *whole) {
+    Writer *writer = &encoding->writer;
+    Quantized found = {.declaration = {.semantic = semantic, .kind = kind, .components = components}};
+    const Declaration *d = &found.declaration;
+    if (!quantize(&writer->context, values, rows, (bsmenc_quality)quality, amount, &writer->arena, &found))
+        return false;
+    *whole = (Whole){d->coding, d->words, found.outcome.bits, d->step[0], found.outcome.error, found.outcome.step,
+        (double)found.outcome.zeros, found.outcome.scaled, {0}, {0}, found.levels.data};
+    for (int i = 0; i < d->words; i++) {
+        whole->largest[i] = d->largest[i];
+        whole->offset[i] = d->offset[i];
+    }
+    return true;
+}
+
+bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,
+    const double *origin, double *grid, int32_t *places) {
+    Context *context = &encoding->writer.context;
+    ConstDoubles2 given = {positions, rows, 3};
+    Rounded rounded = {.places = {places, rows, 3}};
+    bool done = bits > 0 ? round_to_bits(context, given, bits, &rounded)
+        : cell > 0.0 ? round_to_cells(context, given, cell, origin, &rounded) : round_exactly(context, given, &rounded);
+    memcpy(grid, rounded.origin, sizeof rounded.origin);
+    grid[3] = rounded.step;
+    for (int j = 0; j < 3; j++) grid[4 + j] = rounded.largest[j];
+    return done;
+}
+
+const int32_t *encoding_order(const Encoding *encoding) { return order_of_field(&encoding->field); }
+const int32_t *encoding_values(const Encoding *encoding) { return values_of_field(&encoding->field); }

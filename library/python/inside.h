@@ -1,0 +1,66 @@
+/* What the binding for Python asks of a decoder beside bsmdec.h. */
+#ifndef BSMDEC_PYTHON_H
+#define BSMDEC_PYTHON_H
+
+#include <stdbool.h>
+
+#include "library/bsmdec.h"
+#include "bitstream/payloads/payloads.h"
+
+/* Bytes read, work charged and vertices of all faces so far; then what limits on work and memory count: vertices that
+ * are present and of frames shown, vertices in memory, bytes received, and bytes of memory that are kept. */
+enum { STATE_NUMBERS = 7 };
+void decoder_state(const bsmdec *decoder, double *state);
+/* The header of the present run, as bitstream/container/header.h has it. */
+enum { MOST_HEADER_NUMBERS = 48 };
+void decoder_header(const bsmdec *decoder, double *numbers);
+/* Read the next packet without decoding it, after all checks that come before decoding, and list it: type, offset and
+ * length of its frame, bytes of its payload and of the data in it, index, count (also of coefficients or frames),
+ * entries of metadata so far, version, whether a GOP begins anew, the checksum of positions or -1; of an attribute,
+ * whose name is returned, domain, semantic, kind, components, rows, coding, whether it moves. Type -1: none. */
+enum { SKIMMED_NUMBERS = 18 };
+const char *decoder_skim(bsmdec *decoder, int64_t *numbers);
+
+/* What an encoder writes payloads with (library/writing.h): faces, or the chunks of one field. */
+typedef struct Encoding Encoding;
+Encoding *open_encoding(void);
+void close_encoding(Encoding *encoding);
+const bsmdec_error *encoding_error(const Encoding *encoding);
+/* The payloads of the last call that wrote some. */
+const Writing *encoding_payloads(const Encoding *encoding);
+bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
+    int32_t *faces);
+/* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
+/* ORDER of joined faces, which `values` has as they are coded, and of given vertices and faces, or NULL. */
+bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
+    const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count);
+/* Link the corners of faces; see library/encode/carrying.h for what they are joined and written with. */
+bool encode_corners(Encoding *encoding, const int32_t *faces, int64_t faces_count, int64_t vertices);
+int64_t encode_joins(const Encoding *encoding, const int32_t *numbers, uint8_t *seams, int32_t *joined, int32_t *first);
+bool encode_seams(Encoding *encoding, const uint8_t *own, const uint8_t *last, const uint8_t *before_last);
+bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
+    double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
+bool encode_levels(Encoding *encoding, Written given);
+bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
+    const int32_t *at, const int32_t *places);
+/* Write the payloads of rows, or read that of one kind of values. */
+bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
+bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
+/* Values of an attribute as whole numbers (library/encode/quantizing.h): the numbers of the declaration and of the
+ * outcome; `levels` are the encoding's, `words` for each of the rows. */
+typedef struct {
+    int coding, words, bits;
+    double step, error, whole_step, zeros, scaled;
+    double largest[8], offset[8];
+    const int64_t *levels;
+} Whole;
+bool encode_quantized(Encoding *encoding, const void *values, int64_t rows, int semantic, int kind, int components,
+    int quality, double amount, Whole *whole);
+/* Positions on a grid (library/encode/rounding.h): of so many bits, of cells if there are no bits, of exact floats if
+ * there are no cells. `grid`: origin, step, and the largest place of each axis. */
+bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,
+    const double *origin, double *grid, int32_t *places);
+const int32_t *encoding_order(const Encoding *encoding);
+const int32_t *encoding_values(const Encoding *encoding);
+
+#endif

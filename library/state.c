@@ -1,0 +1,87 @@
+/* Events and losses, the state that a new mesh resets, and the blocks of a mesh. */
+#include "library/state.h"
+
+void forget_changes(Changes *changes) {
+    release_all(&changes->answer);
+    release_all(&changes->memory);
+    *changes = (Changes){.memory = arena_of(changes->memory.context), .answer = arena_of(changes->memory.context)};
+}
+
+void begin_mesh(bsmdec *decoder, const Header *header) {
+    forget_split(decoder);
+    forget_changes(&decoder->changes);
+    decoder->mesh = (Mesh){.header = *header, .arena = arena_of(&decoder->context)};
+    decoder->has_mesh = true;
+}
+
+bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
+    const Mesh *mesh = &decoder->mesh;
+    return (bsmdec_event){type, index, count, mesh->announced ? mesh->numbering.size : mesh->header.vertices,
+        mesh->header.faces, decoder->has_mesh ? mesh->header.frames : decoder->sequence.announced};
+}
+
+bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
+    Context *context = &decoder->context;
+    if (decoder->waiting == decoder->room) {
+        int64_t room = 2 * decoder->room + 16;
+        Report *queue;
+        if (!TAKE_OF_HOST(context, room, queue)) return false;
+        for (int64_t i = 0; i < decoder->waiting; i++) queue[i] = decoder->queue[(decoder->first + i) % decoder->room];
+        host_give(context, decoder->queue, (size_t)decoder->room * sizeof *queue);
+        decoder->queue = queue;
+        decoder->room = room;
+        decoder->first = 0;
+    }
+    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room].event =
+        event_of(decoder, type, index, count);
+    return true;
+}
+
+bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
+    if (!emit_event(decoder, BSMDEC_LOSS, index, count)) return false;
+    decoder->queue[(decoder->first + decoder->waiting - 1) % decoder->room].loss = error;
+    return true;
+}
+
+bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere) {
+    Context *context = &decoder->context;
+    if (!decoder->tolerant || !anywhere || context->starved || !failed(context)) return false;
+    locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, block);
+    if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
+    return emit_loss(decoder, take_error(context), block, 0);
+}
+
+bool graph_of(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (!mesh->has_graph)
+        mesh->has_graph = make_graph(mesh->faces, mesh->header.vertices, &mesh->arena, &decoder->scratch, &mesh->graph);
+    return mesh->has_graph;
+}
+
+bool announce(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->announced) return true;
+    mesh->announced = true;
+    return emit_event(decoder, BSMDEC_CONNECTIVITY, 0, 0);
+}
+
+bool build(bsmdec *decoder) {
+    Context *context = &decoder->context;
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->has_chains) return true;
+    if (!graph_of(decoder)
+        || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch,
+            &mesh->blocks)
+        || !begin_assembly(&mesh->assembly, mesh->graph.size, mesh->blocks.count, &mesh->arena))
+        return false;
+    mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);
+    return mesh->has_chains && announce(decoder);
+}
+
+bool blend(bsmdec *decoder, Refined *refined) {
+    Mesh *mesh = &decoder->mesh;
+    const Assembly *assembly = &mesh->assembly;
+    return blend_all(assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &refined->base)
+        && mark_whole(assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, 1, &refined->whole)
+        && find_frames(&decoder->context, const_ints2(mesh->faces), &mesh->arena, refined);
+}

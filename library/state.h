@@ -1,0 +1,164 @@
+/* What a decoder has come to know: of the present mesh, of a sequence, and of what its caller has asked. */
+#ifndef BSMDEC_STATE_H
+#define BSMDEC_STATE_H
+
+#include "codec/signal/assembly.h"
+#include "library/attribute_set.h"
+#include "codec/signal/chain.h"
+#include "codec/sequence/frames.h"
+#include "bitstream/payloads/grid.h"
+#include "codec/signal/layer.h"
+#include "bitstream/pool.h"
+#include "bitstream/container/reader.h"
+
+typedef struct Ahead Ahead;
+
+/* What is known of the present mesh. */
+typedef struct {
+    Header header;
+    Arena arena;
+    bool has_faces, has_graph, announced, over;
+    Ints2 faces;
+    Graph graph;
+    Ints labels;         /* of PARTITION, empty without */
+    Numbering numbering;
+    Blocks blocks;
+    bool has_chains, has_grid, has_layer, values_begun;
+    Chains chains;
+    Assembly assembly;
+    Ahead *ahead;         /* what other threads decoded, or NULL */
+    int64_t next_block, chunks;
+    GridField grid;
+    Layer layer;
+    bool has_attributes;
+    Attributes attributes;
+    /* Of a sequence: */
+    bool in_gops;
+    Doubles2 first_frame; /* in BSM units */
+    MovingAttribute *moving;
+    int moving_count;
+    Gops gops;
+} Mesh;
+
+/* A mesh that runs have had, the memory that is counted for it, and its vertices. */
+enum { MOST_CACHED = 8 };
+typedef struct {
+    int64_t run;
+    double memory;
+    int64_t vertices;
+    Mesh mesh;
+} CachedMesh;
+
+/* A GOP before the wanted frames, which later ones may need. */
+typedef struct Skipped {
+    struct Skipped *next;
+    Span data;
+} Skipped;
+
+/* How far a sequence has come, over all of its runs (specification, S 1.3, S 9). */
+typedef struct {
+    bool active, lost, lossy, damaged;
+    int64_t start, next, announced, missing; /* frames: the first wanted, the next, of all runs, lost so far */
+    int64_t mesh, gop; /* the run that brought the present mesh; first frame of the GOP that is shown */
+    bsmdec_error damage, why;                /* the first since frames were lost; why the run is */
+    CachedMesh *cache[MOST_CACHED];                   /* the one used last at the end */
+    int cached;
+    double kept;
+    int64_t vertices;                        /* when the run began */
+    Arena waiting;
+    Skipped *first, *last;
+} Sequence;
+
+/* Who decodes which chains of a static mesh or a first frame: chain c is that of number c % `among`, the decoder's is
+ * 0; all are its own where `among` is 0. One that helps decodes nothing else, and hands its blocks over. */
+typedef struct {
+    int64_t number, among;
+    bool helps;
+    DecodedBlock handed;
+} Share;
+
+INLINE bool is_own(const Share *share, const Header *header, int64_t index) {
+    return share->among == 0 || index / chain_length(header) % share->among == share->number;
+}
+
+/* Vertices for graphics: those of the mesh, then copies of some, whose vertices are `sources`. `corners` has a corner
+ * of each, -1 if no face has it; `indices` has the vertex of each corner. The arrays are empty if nothing is split. */
+typedef struct {
+    Arena arena;
+    bool is_made, is_needed, by[MOST_ATTRIBUTES];
+    int64_t vertices;
+    Ints sources, corners;
+    Words indices;
+} Split;
+
+/* Reported for a block that a helper decodes: it has to be added before anything else is asked for. */
+enum { BLOCK_OF_HELPER = BSMDEC_VALUES + 1 };
+
+/* The state of the present mesh at the last call for changes, and the last answer. */
+typedef struct {
+    Arena memory, answer;
+    bool begun, late;        /* `late`: vertices that may be final wait for the last block */
+    double work;             /* of all answers */
+    Ints missing;            /* copies of each vertex that have not come */
+    Bytes final, marks;
+    Doubles2 blended;
+    Ints number, ringed;     /* of vertices around others */
+    Ints starts, members;    /* the user's numbers of each coded vertex; empty: the same */
+    int64_t blocks, reached; /* those of which changes were read: blocks; vertices of a grid or of refinement */
+} Changes;
+
+/* An event that waits, and what a LOSS event is about. */
+typedef struct {
+    bsmdec_event event;
+    bsmdec_error loss;
+} Report;
+
+struct bsmdec {
+    Context context;
+    Share share;
+    bsmdec_parallel parallel;
+    Reader reader;
+    Arena scratch;
+    bool tolerant, base_alone, has_mesh, ended, over; /* `over`: nothing more is read */
+    Mesh mesh;
+    Sequence sequence;
+    Changes changes;
+    /* The queue of events, a ring. */
+    Report *queue;
+    int64_t first, waiting, room;
+    /* What positions are asked of: those of the mesh, or of a frame; in the unit of the mesh, as coded. */
+    bool has_positions;
+    ConstDoubles2 positions;
+    Arena shown;
+    bool has_checksum;    /* whether the stream has a checksum of all positions: */
+    uint32_t expected_sum, shown_sum; /* the stream's, and that of all frames so far */
+    Split split;
+    char misuse[128];     /* why the last call was refused */
+    bsmdec_error loss;    /* of the last LOSS event */
+    Pool pool; /* of memory, where the caller brings none */
+};
+
+void forget_changes(Changes *changes);
+INLINE void forget_split(bsmdec *decoder) {
+    release_all(&decoder->split.arena);
+    decoder->split = (Split){.arena = decoder->split.arena};
+}
+
+void begin_mesh(bsmdec *decoder, const Header *header);
+/* An event of the present mesh: what its header claims, and what it is once the faces are known. */
+bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
+/* Queue an event. */
+bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
+/* Report an error as a loss: of `count` frames of a sequence from `index` on, or of a block. */
+bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
+/* Build the graph of the faces, or the blocks with their chains and assembly, unless that was done. */
+bool graph_of(bsmdec *decoder);
+bool build(bsmdec *decoder);
+/* What levels refine, of all blocks. */
+bool blend(bsmdec *decoder, Refined *refined);
+/* Report once that faces are known. Without tolerance, attributes must have as many rows as the faces ask for. */
+bool announce(bsmdec *decoder);
+/* Record the error as a loss of `block`, or with -1 of something else, and continue; false if it is fatal. */
+bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere);
+
+#endif

@@ -1,0 +1,61 @@
+/* A decoder of light grids for a page that reads the sections of a stream itself: the smallest. */
+#include "library/wasm/page.h"
+
+#include "bitstream/costs.h"
+#include "bitstream/payloads/grid.h"
+#include "bitstream/payloads/topology.h"
+
+static Context context;
+static Arena arena, scratch;
+static Header header;
+static Ints2 faces;
+static GridField field;
+
+/* `limits`: those of bsmdec.h in their order. */
+bool light_open(const double *limits) {
+    make_mixer_tables();
+    context = (Context){.host = page_host()};
+    memcpy(&context.limits.vertices, limits, sizeof context.limits - offsetof(bsmdec_limits, vertices));
+    arena = scratch = arena_of(&context);
+    field.context = NULL;
+    return true;
+}
+
+void light_close(void) {
+    release_all(&arena);
+    release_all(&scratch);
+}
+
+bool light_charge(double work, double received) { return charge(&context, work, received); }
+
+bsmdec_status light_error(void) { return context.error.status; }
+
+/* `numbers`: vertices, faces, scale, and those of grid, center, corner and lattice. */
+void light_begin(const double *numbers) {
+    header = (Header){.vertices = (int64_t)numbers[0], .faces = (int64_t)numbers[1], .scale = numbers[2],
+        .light = LIGHT, .cells = (int64_t)numbers[12], .points = (int64_t)numbers[13]};
+    for (int j = 0; j < 3; j++) {
+        header.grid[j] = (int32_t)numbers[3 + j];
+        header.center[j] = numbers[6 + j];
+        header.corner[j] = (int64_t)numbers[9 + j];
+    }
+}
+
+/* Corners of faces; NULL if something is wrong. */
+const int32_t *light_faces(const uint8_t *payload, size_t size) {
+    double n = (double)header.vertices, m = (double)header.faces, bytes = (double)size;
+    if (!code_connectivity(&context, (Span){payload, (int64_t)size}, &header, &(Surface){0}, &arena, &scratch, &faces))
+        return NULL;
+    context.spent.vertices = header.vertices;
+    return reserve(&context, mesh_memory(n, m), bytes) && charge(&context, mesh_work(n, m, bytes), bytes) ? faces.data
+                                                                                                          : NULL;
+}
+
+/* Positions of all vertices up to `count` from `first` on; NULL if something is wrong. */
+const double *light_positions(const uint8_t *payload, size_t size, int first, int count) {
+    bool begun = field.context != NULL
+        || begin_grid(&field, &context, &header, const_ints2(faces), &arena, &scratch);
+    bool done = begun && decode_grid(&field, first, count, (Span){payload, (int64_t)size}, &scratch);
+    release_all(&scratch);
+    return done ? field.positions.data : NULL;
+}

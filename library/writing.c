@@ -1,0 +1,226 @@
+/* Payloads written by the functions that read them: faces, and fields of integers on them. */
+#include "library/writing.h"
+
+#include "library/arithmetic.h"
+#include "bitstream/payloads/topology.h"
+
+#ifdef BSMDEC_WRITES
+
+void open_writer(Writer *writer, bsmdec_allocator host) {
+    Context *context = &writer->context;
+    make_tables();
+    memset(writer, 0, sizeof *writer);
+    context->host = with_pool(host, &writer->pool);
+    context->error.offset = context->error.frame = context->error.block = -1;
+    context->limits.size = sizeof context->limits;
+    for (double *each = &context->limits.vertices; each <= &context->limits.heap; each++) *each = 1e300;
+    writer->arena = writer->scratch = arena_of(context);
+    if (!is_exact())
+        FAIL(context, UNSUPPORTED,
+            "this build does not round as IEEE 754: compile it without fast or fused arithmetic");
+}
+
+void close_writer(Writer *writer) {
+    release_all(&writer->arena);
+    release_all(&writer->scratch);
+    without_pool(writer->context.host);
+}
+
+bool begin_payloads(Context *context, int64_t room, Writing *writing) {
+    *writing = (Writing){.room = room};
+    return TAKE_OF_HOST(context, room, writing->data);
+}
+
+void end_payloads(Context *context, Writing *writing) { host_give(context, writing->data, (size_t)writing->room); }
+
+static void begin(CodedField *field, Context *context, Written given) {
+    memset(field, 0, sizeof *field);
+    field->context = context;
+    field->arena = field->scratch = field->attributes.coding = field->attributes.recent = arena_of(context);
+    field->header = (Header){.vertices = given.rows, .faces = given.faces_count};
+    field->faces = (Ints2){(int32_t *)given.faces, given.faces_count, 3}; /* only read */
+}
+
+/* Copy values, which are from `low` to those of `largest`. */
+static bool fill(Context *context, Ints2 to, Written given, int64_t first, const int32_t *largest, bool both) {
+    for (int64_t i = 0; i < to.rows; i++)
+        for (int64_t j = 0; j < to.columns; j++) {
+            int32_t value = to.data[to.columns * i + j] = given.values[given.columns * i + first + j];
+            if (value > largest[j] || value < (both ? -largest[j] : 0))
+                return FAIL(context, NUMERIC, "value # of row # is out of its range", value, i);
+        }
+    return true;
+}
+
+bool begin_positions(CodedField *field, Context *context, Written given, const int32_t *largest, int light,
+    const double *origin, double step, const double *exact, const int32_t *transforms, int64_t transforms_count) {
+    begin(field, context, given);
+    Header *header = &field->header;
+    field->kind = ON_GRID;
+    header->on_grid = true;
+    header->light = light;
+    header->congruence = (int)least(transforms_count, MOST_TRANSFORMS) + 1;
+    header->scale = step;
+    memcpy(header->center, origin, sizeof header->center);
+    memcpy(header->grid, largest, sizeof header->grid);
+    if (!begin_grid(&field->grid, context, header, const_ints2(field->faces), &field->arena, &field->scratch))
+        return false;
+    if (exact != NULL) memcpy(field->grid.positions.data, exact, (size_t)(3 * given.rows) * sizeof(double));
+    for (int64_t i = 0; i < TRANSFORM_ROW * transforms_count && i < TRANSFORM_ROW * MOST_TRANSFORMS; i++)
+        field->grid.transforms.data[i] = transforms[i];
+    return fill(context, field->grid.values, given, 0, largest, false);
+}
+
+bool begin_refinement(CodedField *field, Context *context, Written given) {
+    static const int32_t MOST[] = {1 << 20, 1 << 20, 1 << 20};
+    begin(field, context, given);
+    field->kind = OF_LEVELS;
+    return begin_levels(&field->layer, context, &field->header, const_ints2(field->faces), &field->scratch)
+        && fill(context, field->layer.levels.levels, given, 0, MOST, true);
+}
+
+bool begin_attribute(CodedField *field, Context *context, Written given, const Declaration *declaration,
+    int64_t vertices, const int32_t *at, const int32_t *places) {
+    Attribute *attribute = &field->attribute;
+    begin(field, context, given);
+    field->kind = OF_VALUES;
+    field->header.vertices = vertices;
+    begin_attributes(&field->attributes, context, &field->header, const_ints2(field->faces), &field->arena);
+    attribute->declaration = *declaration;
+    attribute->rows = given.rows;
+    attribute->faces = const_ints2(field->faces);
+    attribute->vertices = (Ints){(int32_t *)at, given.rows}; /* only read */
+    for (int64_t r = 0; r < given.rows && at != NULL; r++)
+        if (at[r] >= vertices) return FAIL(context, NUMERIC, "row # is at vertex # of #", r, at[r], vertices);
+    ConstInts2 known = {places, places != NULL ? vertices : 0, 3};
+    if (!start_attribute(&field->attributes, attribute, known, &field->scratch)) return false;
+    for (int g = 0; g < attribute->groups; g++) {
+        Group *group = &attribute->group[g];
+        bool of_faces = declaration->domain == BSMDEC_FACE;
+        const int32_t *largest = (of_faces ? group->face_values.largest : group->values.largest).data;
+        if (!fill(context, group->pieces, given, MOST_COMPONENTS * g, largest, false)) return false;
+    }
+    return true;
+}
+
+void end_field(CodedField *field) {
+    end_layer(&field->layer);
+    end_attributes(&field->attributes);
+    release_all(&field->arena);
+    release_all(&field->scratch);
+}
+
+/* The surface of faces that do not repeat a corner, closed by dummies (C 4), and room for its conquest. */
+static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Surface *surface) {
+    ConstInts origin = {faces.data, 3 * faces.rows};
+    int64_t size = origin.size, closed = size, all;
+    Guide *guide = &surface->guide;
+    Longs starts;
+    Ints by_high, order, twin, corner, vertex, leaving, full_twin, full_corner, valence;
+    if (!take_longs(arena, vertices + 1, &starts) || !take_ints(arena, size, &by_high)
+        || !take_ints(arena, size, &order) || !take_ints(arena, size, &twin) || !take_ints(arena, size, &corner)
+        || !take_ints(arena, size, &vertex))
+        return false;
+    match_halfedges(origin, starts, by_high, order, twin);
+    guide->real = find_fans(origin, const_ints(twin), corner, vertex);
+    for (int64_t h = 0; h < size; h++) closed += 3 * (twin.data[h] < 0);
+    if (closed > INT32_MAX) return FAIL(context, LIMIT, "# faces are too many", faces.rows);
+    if (!take_ints(arena, guide->real, &leaving) || !take_ints(arena, closed, &full_twin)
+        || !take_ints(arena, closed, &full_corner))
+        return false;
+    surface->dummies = fill_loops(const_ints(twin), const_ints(corner), leaving, full_twin, full_corner);
+    all = guide->real + surface->dummies;
+    if (!zero_ints(arena, all, &valence) || !TAKE(arena, all, guide->number) || !TAKE(arena, closed, guide->node)
+        || !TAKE_ZEROS(arena, closed / 3, guide->conquered) || !TAKE(arena, guide->real, guide->fans)
+        || !TAKE(arena, faces.rows, guide->faces))
+        return false;
+    for (int64_t h = 0; h < closed; h++) valence.data[full_corner.data[h]]++;
+    for (int64_t i = 0; i < all; i++) guide->number[i] = -1;
+    guide->twin = full_twin.data;
+    guide->corner = full_corner.data;
+    guide->valence = valence.data;
+    surface->vertex = vertex.data;
+    return true;
+}
+
+static bool write_connectivity(Context *context, Written given, int64_t vertices, Arena *arena, Arena *scratch,
+    int32_t *order, int32_t *face_order, int32_t *faces) {
+    int64_t m = given.faces_count, proper = 0, next = 0;
+    Surface surface = {.order = {order, vertices}};
+    Ints2 own, coded;
+    Ints places;
+    if (!take_ints2(arena, m, 3, &own) || !take_ints(arena, m, &places)
+        || !take_ints(arena, vertices, &surface.number))
+        return false;
+    for (int repeated = 0; repeated < 2; repeated++) {
+        proper = next;
+        for (int64_t f = 0; f < m; f++) {
+            const int32_t *face = given.faces + 3 * f;
+            if ((face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) != repeated) continue;
+            for (int k = 0; k < 3; k++) own.data[3 * next + k] = face[k];
+            places.data[next++] = (int32_t)f;
+        }
+    }
+    if (!close_surface(context, (ConstInts2){own.data, proper, 3}, given.rows, arena, &surface)) return false;
+    int64_t fans = surface.guide.real, corners = 3 * (m - proper);
+    if (!take_ints(arena, fans + corners, &surface.used)) return false;
+    memcpy(surface.used.data + fans, own.data + 3 * proper, (size_t)corners * sizeof *own.data);
+    for (int64_t i = 0; i < fans && given.values != NULL; i++) surface.vertex[i] = given.values[surface.vertex[i]];
+    int64_t regular = number_by_appearance((ConstInts){surface.vertex, fans}, surface.order, surface.number);
+    surface.repeated = m - proper;
+    surface.lonely = vertices - regular;
+    surface.surplus = fans - regular;
+    if (!code_connectivity(context, (Span){0}, &(Header){.vertices = vertices, .faces = m}, &surface, arena, scratch,
+            &coded))
+        return false;
+    memcpy(faces, coded.data, (size_t)(3 * m) * sizeof *faces);
+    for (int64_t i = 0; i < m; i++) face_order[i] = places.data[i < proper ? surface.guide.faces[i] : i];
+    return true;
+}
+
+bool write_faces(Writer *writer, Written given, int64_t vertices, Writing *writing, int32_t *order,
+    int32_t *face_order, int32_t *faces) {
+    Arena arena = arena_of(&writer->context);
+    writer->context.writing = writing;
+    bool done = write_connectivity(&writer->context, given, vertices, &arena, &writer->scratch, order, face_order,
+        faces);
+    writer->context.writing = NULL;
+    release_all(&arena);
+    return done;
+}
+
+int64_t room_of_chunk(const CodedField *field, int64_t count) {
+    int64_t columns = 3;
+    for (int g = 0; g < field->attribute.groups; g++) columns = MOST_COMPONENTS * (g + 1);
+    return 1024 + 160 * count * (columns + 4);
+}
+
+bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Writing *writing) {
+    GridField *grid = &field->grid;
+    Attribute *attribute = &field->attribute;
+    bool done = true;
+    field->context->writing = writing;
+    if (field->kind == ON_GRID) {
+        done = code_grid_values(grid, first, count, payload);
+        if (done && grid->header->light == EXACT_FLOATS)
+            done = place_floats(grid, (ConstInts){grid->order.data + first, count}, payload, &field->scratch);
+    } else if (field->kind == OF_LEVELS) {
+        done = code_layer(&field->layer, first, count, payload);
+    }
+    for (int g = 0; done && field->kind == OF_VALUES && g < attribute->groups; g++)
+        done = code_group(field->context, attribute, &attribute->group[g], payload, first, count);
+    field->context->writing = NULL;
+    release_all(&field->scratch);
+    return done;
+}
+
+const int32_t *order_of_field(const CodedField *field) {
+    return field->kind == OF_VALUES ? field->attribute.group[0].order.data : field->grid.order.data;
+}
+
+const int32_t *values_of_field(const CodedField *field) {
+    return field->kind == ON_GRID ? field->grid.values.data
+        : field->kind == OF_LEVELS ? field->layer.levels.levels.data : field->attribute.group[0].pieces.data;
+}
+
+#endif

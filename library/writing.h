@@ -1,0 +1,58 @@
+/* Payloads written by the functions that read them: faces, and fields of integers on them. */
+#ifndef BSMDEC_WRITING_H
+#define BSMDEC_WRITING_H
+
+#include "library/attribute_set.h"
+#include "bitstream/payloads/grid.h"
+#include "codec/signal/layer.h"
+#include "bitstream/payloads/payloads.h"
+#include "bitstream/pool.h"
+
+/* What a writer works with: its memory, and the first thing wrong. It must not be moved. */
+typedef struct {
+    Context context;
+    Pool pool;
+    Arena arena, scratch;
+} Writer;
+void open_writer(Writer *writer, bsmdec_allocator host);
+void close_writer(Writer *writer);
+/* Room for payloads, which grows with them. */
+MUST_CHECK bool begin_payloads(Context *context, int64_t room, Writing *writing);
+void end_payloads(Context *context, Writing *writing);
+
+/* Write CONNECTIVITY of faces whose numbers are below `rows`, and say in which order vertices and faces are coded, and
+ * which faces a decoder makes. `values` has the vertex of each number; NULL: the number itself. */
+bool write_faces(Writer *writer, Written given, int64_t vertices, Writing *writing, int32_t *order,
+    int32_t *face_order, int32_t *faces);
+
+/* A field whose chunks are written, or read, one after the other. It must not be moved. */
+typedef struct {
+    Context *context;
+    Arena arena, scratch;
+    Header header;
+    Ints2 faces;
+    enum { ON_GRID, OF_LEVELS, OF_VALUES } kind;
+    GridField grid;
+    Layer layer;
+    Attributes attributes;
+    Attribute attribute;
+} CodedField;
+
+/* Begin a field: positions on a grid, of floats in its cells also `exact` ones; levels; values of an attribute on rows
+ * at vertices, with their places on a grid or NULL. A grid has rows of `transforms` of congruent parts (specification,
+ * V 17.2), or is coded without if their count is -1. */
+bool begin_positions(CodedField *field, Context *context, Written given, const int32_t *largest, int light,
+    const double *origin, double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
+bool begin_refinement(CodedField *field, Context *context, Written given);
+bool begin_attribute(CodedField *field, Context *context, Written given, const Declaration *declaration,
+    int64_t vertices, const int32_t *at, const int32_t *places);
+void end_field(CodedField *field);
+/* Room that the payloads of so many rows can take. */
+int64_t room_of_chunk(const CodedField *field, int64_t count);
+/* Write the payloads of rows, or, without `writing`, read that of one kind of values. */
+bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Writing *writing);
+/* The rows in the order of coding, all of them (NULL: as they are numbered), and the first kind of values. */
+const int32_t *order_of_field(const CodedField *field);
+const int32_t *values_of_field(const CodedField *field);
+
+#endif
