@@ -157,7 +157,7 @@ def has(attributes: Iterable[Attribute], attribute: Attribute) -> bool:
 
 @dataclass(frozen=True)
 class AttributeComparison:
-    """An attribute, before and after."""
+    """An attribute, before and after; the mean angle of normals counts each corner by the area of its face."""
 
     max_error: float
     mean_error: float
@@ -174,17 +174,21 @@ def at_corners(attribute: Attribute, faces: Faces) -> npt.NDArray[Any]:
     return found
 
 
-def compare_values(original: npt.NDArray[Any], decoded: npt.NDArray[Any], *, normals: bool) -> AttributeComparison:
-    """Compare values of corresponding corners, shapes (..., c); `normals`: by their angles as well."""
+def compare_values(
+    original: npt.NDArray[Any], decoded: npt.NDArray[Any], areas: npt.NDArray[np.float64] | None
+) -> AttributeComparison:
+    """Compare values of corresponding corners, shapes (..., c); normals (with `areas`) by their angles as well."""
     before, after = (values.reshape(-1, values.shape[-1]).astype(np.float64) for values in (original, decoded))
     error = np.abs(after - before)
     spread = float(np.ptp(before))
-    if not normals:
+    if areas is None:
         return AttributeComparison(float(error.max()), float(error.mean()), spread)
     # Between vectors, in degrees; by half angles, which keeps small ones exact.
     lengths = [np.linalg.norm(vectors, axis=1, keepdims=True) for vectors in (before, after)]
     known = ((lengths[0] > 0) & (lengths[1] > 0))[:, 0]
     a, b = before[known] / lengths[0][known], after[known] / lengths[1][known]
     angles: Matrix = np.degrees(2 * np.arctan2(np.linalg.norm(a - b, axis=1), np.linalg.norm(a + b, axis=1)))
-    turned = float(angles.max(initial=0.0)), float(angles.mean()) if len(angles) else 0.0
+    weights = areas.reshape(-1)[known]
+    mean = float(np.average(angles, weights=weights)) if weights.sum() > 0.0 else 0.0
+    turned = float(angles.max(initial=0.0)), mean
     return AttributeComparison(float(error.max()), float(error.mean()), spread, *turned)

@@ -15,7 +15,7 @@ from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Comparison, compare, flat_faces
+from bsm.codec.geometry.metrics import Comparison, areas_and_normals, compare, flat_faces
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import join, joined
 from bsm.files.formats.npz import write_npy
@@ -225,6 +225,7 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
     flattened = int((flat_faces(second, faces) & ~flat_faces(first, faces)).sum())
     places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
     found: dict[str, AttributeComparison | None] = {}
+    areas_of = areas_and_normals(original.positions, original.faces)[0]
     after = {attribute.name: attribute for attribute in decoded.attributes}
     for attribute in original.attributes:
         other = after.get(attribute.name)
@@ -232,6 +233,7 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
         if other is not None and other.components == attribute.components:
             values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[paired.corners]
             others = at_corners(other, decoded.faces).reshape(-1, attribute.components)[paired.others]
-            found[attribute.name] = compare_values(values, others, normals=attribute.semantic == "normal")
+            areas = np.repeat(areas_of, 3)[paired.corners] if attribute.semantic == "normal" else None
+            found[attribute.name] = compare_values(values, others, areas)
     merged = max(0, places[0] - places[1])
     return MeshComparison(**asdict(positions), attributes=found, flattened=flattened, merged=merged)

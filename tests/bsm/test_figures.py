@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bsm
+from bsm.jobs.report import largest_error
 from tests.bsm.program import bsm as program
 from tests.bsm.program import run_json
 from tests.motion import bending
@@ -83,6 +84,19 @@ def test_lengths_do_not_count_vertices_in_no_face(tmp_path):
     bsm.save(far, tmp_path / "far.npz")
     done = program("encode", tmp_path / "far.npz", "--meta", "unit=mm", "--max-error", "2mm", text=True)
     assert "of this mesh's size" in done.stderr
+
+
+def test_batches_tell_vertices_from_surfaces():
+    """With fewer triangles, the error is a distance of surfaces."""
+    found = [
+        {"input": "a", "max_error_relative": 0.002, "error_of": "vertices"},
+        {"input": "b", "max_error_relative": 0.004, "error_of": "surfaces"},
+        {"input": "c", "max_error_relative": 0.001, "error_of": "vertices"},
+        {"input": "d", "max_error_relative": 0.003, "error_of": "vertices", "max_error": 0.5, "unit": "mm"},
+    ]
+    assert largest_error(found) == (
+        "0.2 % of the diagonal (a) and 0.4 % of the diagonal (b, surfaces apart) and 0.5 mm (d)"
+    )
 
 
 def test_of_batches(tmp_path):

@@ -72,7 +72,7 @@ def check(mesh: TriangleMesh, attribute: Attribute, options: EncodeOptions) -> N
     found = next(other for other in decoded.attributes if other.name == attribute.name)
     normals = attribute.semantic == "normal"
     original, values = at_corners(attribute, mesh.faces), at_corners(found, decoded.faces)
-    error = compare_values(original, values, normals=normals)
+    error = compare_values(original, values, np.ones(original.shape[:-1]) if normals else None)
     quality = quality_of(attribute)
     extent = float(np.ptp(attribute.values.astype(np.float64), axis=0).max())
     if normals:

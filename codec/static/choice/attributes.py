@@ -78,7 +78,11 @@ class Input:
     @cached_property
     def normals(self) -> Normals | None:
         """Normals that the mesh is sent with, of its corners in the order of coding, shape (m, 9)."""
-        own = None if self.shown_normals is None else own_normals(self.given)
+        return None if self.shown_normals is None else self._own_normals
+
+    @cached_property
+    def _own_normals(self) -> Normals | None:
+        own = own_normals(self.given)
         if own is None:
             return None
         corners = self._place.of_corners(np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3))
@@ -128,6 +132,9 @@ class Input:
             shaded = metric.shaded(decoded, self.carried[sent].normals(decoded))
             bound = bound if self.free_normals is None else max(*shown, *shaded)
             shown.append(shaded[0])
+        elif self._own_normals is not None:  # which viewers compute
+            given = Measures(self.prepared, self.options.threads, self._own_normals).look
+            shown.append(given.compare(replace(self.prepared.mesh, positions=decoded)).distance if given else 0.0)
         binding = bounds.binding(positions, bound)
         return "" if bounds.keeps(positions, bound) else bounds.had, max(shown), binding
 

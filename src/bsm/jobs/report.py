@@ -155,16 +155,18 @@ def totals(files: Sequence[Facts]) -> Facts:
 
 
 def largest_error(files: Sequence[Facts]) -> str:
-    """The largest vertex error of files, in words: in each unit, and of those without one relative."""
-    worst: dict[str, Facts] = {}
+    """The largest vertex error of files, in words: in each unit, and of those without one relative; and the largest
+    distance of surfaces of those with fewer triangles."""
+    worst: dict[tuple[str, str], Facts] = {}
     for facts in files:
         if facts.get("max_error_relative") is not None:
             unit, name = facts.get("unit", ""), "max_error" if facts.get("unit") else "max_error_relative"
-            worst[unit] = max(worst.get(unit, facts), facts, key=lambda one: float(one[name]))
+            key = "surfaces apart" if facts.get("error_of") == "surfaces" else "", unit
+            worst[key] = max(worst.get(key, facts), facts, key=lambda one: float(one[name]))
     sizes = [
         (f"{facts['max_error']:.3g} {unit}" if unit else f"{100 * facts['max_error_relative']:.3g} % of the diagonal")
-        + f" ({facts['input']})"
-        for unit, facts in worst.items()
+        + f" ({', '.join(filter(None, (facts['input'], kind)))})"
+        for (kind, unit), facts in worst.items()
     ]
     return " and ".join(sizes)
 

@@ -67,7 +67,7 @@ def run_jobs(
     good = [facts for facts in done if "error" not in facts]
     taken, given = (sum(facts.get(key) or 0 for facts in good) for key in ("input_bytes", "output_bytes"))
     sizes = f", {came_to(taken, given)}" if taken and given else ""
-    sizes += f", largest vertex error {worst}" if (worst := largest_error(good)) else ""
+    sizes += f", largest error {worst}" if (worst := largest_error(good)) else ""
     if asked_once > 1:
         console.note(f"{asked_once} files in all have no unit")
     for line in table(done) if run.report is not None else ():

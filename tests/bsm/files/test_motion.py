@@ -21,9 +21,11 @@ from bsm import (
     OptionError,
     TriangleMesh,
     TruncatedError,
+    encode_frames,
 )
 from bsm.api import decode_frames
 from bsm.files import conventions
+from bsm.files.formats.metadata import named, names_in
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted, painted_like
@@ -267,6 +269,9 @@ def test_what_a_stage_loses_is_noted(tmp_path):
     subset = UsdGeom.Subset.Define(stage, "/above/mesh/ears")
     subset.CreateElementTypeAttr(UsdGeom.Tokens.face)
     subset.CreateIndicesAttr([0])
+    nose = UsdGeom.Subset.Define(stage, "/above/mesh/nose")  # of the same face
+    nose.CreateElementTypeAttr(UsdGeom.Tokens.face)
+    nose.CreateIndicesAttr([0])
     for name in ("hidden", "guide"):
         other = UsdGeom.Mesh.Define(stage, f"/above/{name}")
         other.CreatePointsAttr(SQUARE.tolist())
@@ -279,10 +284,47 @@ def test_what_a_stage_loses_is_noted(tmp_path):
     assert len(found.mesh.positions) == 4
     assert {
         "left out: normals, owner",
-        "left out, face sets without a material: ears",
+        "left out, face sets without a material: ears, nose",
         "left out, hidden: /above/hidden",
         "left out, guides: /above/guide",
     } <= set(found.notes)
+
+
+@pytest.mark.parametrize("names", [["left ear", "left ear", "/a/nose"], [f"part {n}" for n in range(40)]])
+@pytest.mark.parametrize("kind", ["usda", "usdc", "usdz"])
+def test_names_of_parts_come_back(tmp_path, capsys, kind, names):
+    needs("usdc")
+    faces = np.arange(6 * len(names)).reshape(-1, 3)
+    positions = np.random.default_rng(1).random((6 * len(names), 3)).astype(np.float32)
+    parts = Attribute("part", np.repeat(np.arange(len(names), dtype=np.int32), 2)[::-1, None].copy(), "face")
+    frames = [TriangleMesh(each, faces, (parts,)) for each in (positions, 2 * positions)]
+    data = encode_frames(frames, metadata=named(names, "part"), keep_order=True)
+    (tmp_path / "a.bsm").write_bytes(data)
+    assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / f"a.{kind}") == 0
+    assert "not written" not in capsys.readouterr().err
+    found = read_mesh(tmp_path / f"a.{kind}").mesh
+    (back,) = found.attributes
+    assert (back.name, back.domain) == ("part", "face") and np.array_equal(back.values, parts.values)
+    assert names_in(found.metadata, "part") == dict(enumerate(names))
+
+
+def test_face_sets_of_one_mesh_are_its_parts(tmp_path):
+    needs("usdc")
+    (tmp_path / "a.usda").write_text(
+        """#usda 1.0
+def Mesh "m" {
+    int[] faceVertexCounts = [4, 3, 3]
+    int[] faceVertexIndices = [0, 1, 2, 3, 0, 1, 2, 1, 2, 3]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1)]
+    def GeomSubset "ears" {
+        uniform token elementType = "face"
+        int[] indices = [2, 9, -1]
+    }
+}"""
+    )
+    found = read_mesh(tmp_path / "a.usda")
+    assert [a.values.ravel().tolist() for a in found.mesh.attributes if a.name == "part"] == [[1, 1, 1, 0]]
+    assert names_in(found.mesh.metadata, "part") == {0: "ears", 1: "rest"}
 
 
 def test_instances_of_stages(tmp_path):

@@ -43,6 +43,7 @@ _INPUTS = {
 _USUAL = {"diffuseColor": [1.0] * 4, "emissiveColor": [0.0] * 3}
 _NO_TIME = float("nan")  # as usd-core has it
 _COORDINATES = "st"  # what texture coordinates are called
+_MOST_SETS = 1 << 12  # of the faces of parts: each is a prim
 
 
 # ----------------------------------------------------------------------------------------------------------------- in
@@ -55,23 +56,22 @@ class Materials:
         self._shade, self._geom, self._path = pxr.UsdShade, pxr.UsdGeom, path
         self._known: dict[tuple[tuple[str, str | int | float], ...], int] = {}
         self._images: dict[str, int] = {}
-        self.sets: list[str] = []  # of faces, without a material
 
-    def of_faces(self, prim: Any, faces: int, time: Any) -> Ints:
-        """Return the number of each face's material; all faces without a material have one number."""
-        numbers = np.full(faces, -1, np.int64)
+    def of_faces(self, prim: Any, faces: int, time: Any) -> tuple[Ints, list[tuple[str, Ints]]]:
+        """Return the number of each face's material, one for all without; and the sets of faces without a material."""
+        numbers, sets = np.full(faces, -1, np.int64), list[tuple[str, Ints]]()
         for subset in self._geom.Subset.GetAllGeomSubsets(self._geom.Imageable(prim)):
             if subset.GetElementTypeAttr().Get() != self._geom.Tokens.face:
                 continue
-            if not self._bound(subset.GetPrim()):
-                name = str(subset.GetPrim().GetName())
-                self.sets += [name] if name not in self.sets else []
+            places = np.array(subset.GetIndicesAttr().Get(time) or [], np.int64)
+            places = places[(places >= 0) & (places < faces)]
+            if self._bound(subset.GetPrim()):
+                numbers[places] = self._number(subset.GetPrim())
             else:
-                places = np.array(subset.GetIndicesAttr().Get(time) or [], np.int64)
-                numbers[places[(places >= 0) & (places < faces)]] = self._number(subset.GetPrim())
+                sets.append((str(subset.GetPrim().GetDisplayName() or subset.GetPrim().GetName()), places))
         if (numbers < 0).any():
             numbers[numbers < 0] = self._number(prim)
-        return numbers
+        return numbers, sets
 
     def metadata(self, limits: Limits) -> tuple[dict[str, formats.Value], list[str]]:
         """Return the metadata of all materials found, with images of limited size, and notes on missing images."""
@@ -187,14 +187,30 @@ def bind_materials(pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int,
         if 0 in bound:
             api.Apply(mesh.GetPrim()).Bind(bound[0])
         return
-    geom, family = pxr.UsdGeom, pxr.UsdShade.Tokens.materialBind
-    geom.Subset.SetFamilyType(mesh, family, geom.Tokens.nonOverlapping)
     for number, material in bound.items():
-        subset = geom.Subset.Define(mesh.GetPrim().GetStage(), mesh.GetPath().AppendChild(f"faces_{number}"))
-        subset.CreateElementTypeAttr(geom.Tokens.face)
-        subset.CreateFamilyNameAttr(family)
-        subset.CreateIndicesAttr().Set(np.flatnonzero(numbers.values[:, 0] == number), time)
+        subset = _subset(pxr, mesh, f"faces_{number}", pxr.UsdShade.Tokens.materialBind, numbers, number, time)
         api.Apply(subset.GetPrim()).Bind(material)
+
+
+def name_parts(pxr: Any, mesh: Any, shown: TriangleMesh, time: float = _NO_TIME) -> Attribute | None:
+    """Write a set of faces for each part, under its name; return the attribute that says which face has which."""
+    numbers, names = formats.face_numbers(shown, "part"), formats.names_in(shown.metadata, "part")
+    if numbers is None or len(names) > _MOST_SETS or not {*np.unique(numbers.values).tolist()} <= {*names}:
+        return None
+    for number, name in names.items():
+        _subset(pxr, mesh, f"part_{number}", "part", numbers, number, time).GetPrim().SetDisplayName(name)
+    return numbers
+
+
+def _subset(pxr: Any, mesh: Any, name: str, family: str, numbers: Attribute, number: int, time: float) -> Any:
+    """Write the faces that have a number, from a time on if one is given."""
+    geom = pxr.UsdGeom
+    geom.Subset.SetFamilyType(mesh, family, geom.Tokens.nonOverlapping)
+    subset = geom.Subset.Define(mesh.GetPrim().GetStage(), mesh.GetPath().AppendChild(name))
+    subset.CreateElementTypeAttr(geom.Tokens.face)
+    subset.CreateFamilyNameAttr(family)
+    subset.CreateIndicesAttr().Set(np.flatnonzero(numbers.values[:, 0] == number), time)
+    return subset
 
 
 def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Mapping[int, str]) -> set[str]:
@@ -591,12 +607,23 @@ class _Stage:
             if not parts:
                 raise NoFacesError(f"nothing is visible at time {time:g}")
 
+        named, unnamed = dict[str, str](), dict[str, Ints]()
+
         def made(part: Any) -> shapes.Part:
             shape = part.shape
             mirrored = np.linalg.det(part.matrix(code, cache)[:3, :3]) < 0.0
             order = shapes.turned_corners(shape.counts, np.full(len(shape.counts), shape.left_handed != mirrored))
             columns = [c if c.indices is None else replace(c, indices=c.indices[order]) for c in shape.columns]
-            numbers = materials.of_faces(part.prim, len(shape.counts), shape.time)
+            numbers, sets = materials.of_faces(part.prim, len(shape.counts), shape.time)
+            inside = np.concatenate([np.empty(0, np.int64), *(places for _, places in sets)])
+            if len(self.parts) > 1 or len(np.unique(inside)) < len(inside):
+                unnamed.update(dict(sets))
+            elif sets:
+                owner = np.full(len(numbers), len(sets), np.int32)
+                owner[inside] = np.repeat(np.arange(len(sets)), [len(places) for _, places in sets])
+                columns.append(shapes.Column("part", owner[:, None], "face"))
+                rest = ["rest"] * (len(inside) < len(numbers))
+                named.update(formats.named([*(name for name, _ in sets), *rest], "part"))
             corners, name = shape.corners[order], part.name if len(self.parts) > 1 else part.prim.GetName()
             whole = shapes.Part(part.at(code, cache), shape.counts, corners, columns, numbers, name)
             return whole.without(shape.holes) if len(shape.holes) else whole
@@ -606,12 +633,12 @@ class _Stage:
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits)
-        metadata = {"up": up, "unit": conventions.unit_named(unit), **found.metadata, **of_materials}
+        metadata = {"up": up, "unit": conventions.unit_named(unit), **named, **found.metadata, **of_materials}
         left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out)
         notes = [*found.notes, *absent, *self.notes]
         if frozen := dict.fromkeys(name for part in self.parts for name in part.shape.frozen):
             notes.append(f"{', '.join(frozen)}: as the first frame has them, for they are not values of vertices")
-        notes += [f"left out, face sets without a material: {', '.join(materials.sets)}"] if materials.sets else []
+        notes += [f"left out, face sets without a material: {', '.join(unnamed)}"] if unnamed else []
         return replace(found, notes=tuple(notes), dropped=tuple(left), metadata=metadata).checked(self._limits)
 
 
@@ -750,15 +777,17 @@ def _begun(
     if str(metadata.get("up")).lower() == "x":  # which stages cannot have
         mesh.AddRotateZOp().Set(90.0)
     materials, written = write_materials(pxr, mesh, first, images)
-    shared.loses(attribute.name for attribute in _others(first, materials) if not _written(pxr, mesh, attribute))
+    others = _others(first, materials, parts := name_parts(pxr, mesh, first))
+    shared.loses(attribute.name for attribute in others if not _written(pxr, mesh, attribute))
     written |= {"up", "name"} | ({"unit"} if size else set())
+    written |= {"part.names", *(f"part.{n}.name" for n in formats.names_in(metadata, "part"))} if parts else set()
     shared.loses(formats.in_words((name for name in first.metadata if name not in written), first.metadata))
     return mesh, materials
 
 
-def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
+def _others(frame: TriangleMesh, materials: dict[int, Any], parts: Attribute | None) -> list[Attribute]:
     shown = formats.face_numbers(frame, "material") if materials else None
-    return [attribute for attribute in frame.attributes if attribute is not shown and attribute.name != EMPTY]
+    return [one for one in frame.attributes if one is not shown and one is not parts and one.name != EMPTY]
 
 
 def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMesh, time: float) -> None:
@@ -767,7 +796,7 @@ def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMes
     mesh.GetFaceVertexCountsAttr().Set(np.full(len(faces), 3), time)
     mesh.GetFaceVertexIndicesAttr().Set(faces.reshape(-1), time)
     bind_materials(pxr, mesh, frame, materials, time)
-    for attribute in _others(frame, materials):
+    for attribute in _others(frame, materials, name_parts(pxr, mesh, frame, time)):
         _written(pxr, mesh, attribute, time)
 
 
