@@ -31,22 +31,17 @@ class Convention:
 
     unit: str = ""
     up: str = ""
-    colors: str = "sRGB"
-    origin: str = "bottom"  # of texture coordinates
-    opacity: str = ""
     times: frozenset[str] = _NUMBERED  # metadata that frames say by their times, or by the numbers in their names
 
 
 FORMATS: Mapping[str, Convention] = {
-    "glb": Convention("meters", "y", "linear", "top", "alphaMode", _TIMED),
-    "usd": Convention("named", "named", "linear", "bottom", "opacity", _TIMED),
+    "glb": Convention("meters", "y", _TIMED),
+    "usd": Convention("named", "named", _TIMED),
     "3mf": Convention("named", "z"),
-    "dae": Convention("named", "named", opacity="transparent"),
-    "obj": Convention(opacity="d"),
     **dict.fromkeys(("vtp", "mdd"), Convention(times=_TIMED)),
     **dict.fromkeys(("npz", "npy"), Convention(times=frozenset())),
-    **dict.fromkeys(("ply", "off", "stl", "om", "pc2"), Convention()),
-    "tileset": Convention("meters", "z", "linear", "top", "alphaMode"),
+    **dict.fromkeys(("obj", "ply", "off", "stl", "om", "pc2"), Convention()),
+    "tileset": Convention("meters", "z"),
 }
 _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
 _TO_Y = {

@@ -23,9 +23,9 @@ import struct
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -253,12 +253,9 @@ def _read(memory: int) -> None:
     """Read the file that shared memory names, and leave the mesh or the error there."""
     try:
         asked = _message(memory, 1 << 62)
-        found: dict[str, Any]
-        arrays: list[npt.NDArray[Any]] = []
         try:
             _confine(asked)
-            found = _described(_called(asked), arrays)
-            _leave(memory, found, arrays)
+            _leave(memory, _called(asked))
         except MemoryError:
             taken = f"{asked['memory']:,} bytes of memory (Limits.memory, most_memory)"
             _leave(memory, {"error": ["LimitError", f"reading this file takes more than {taken}"]})
@@ -355,46 +352,32 @@ def _libraries() -> tuple[str, ...]:
     return tuple(filter(os.path.exists, installed | python | loaded | system))
 
 
-def _described(found: MeshFile | Frames | None, arrays: list[npt.NDArray[Any]]) -> dict[str, Any]:
-    """A mesh or frames as data, but for arrays, which are appended, each once."""
-    known: dict[int, int] = {}
-
-    def number(array: npt.NDArray[Any] | None) -> int | None:
-        if array is None:
-            return None
-        if id(array) not in known:
-            known[id(array)] = len(arrays)
-            arrays.append(array)
-        return known[id(array)]
-
-    def of(attributes: tuple[Attribute, ...]) -> list[Any]:
-        return [[a.name, number(a.values), a.domain, a.semantic, number(a.indices)] for a in attributes]
-
-    def mesh_of(mesh: TriangleMesh) -> list[Any]:
-        return [number(mesh.positions), number(mesh.faces), of(mesh.attributes), dict(mesh.metadata)]
-
-    if found is None:
-        return {"nothing": True}
-    if isinstance(found, MeshFile):
-        return {"mesh": mesh_of(found.mesh), "notes": found.notes, "dropped": found.dropped}
-    meshes = None if found.meshes is None else list(map(mesh_of, found.meshes))
-    return {
-        "frames": [number(frame) for frame in found.frames] if meshes is None else [],
-        "meshes": meshes,
-        "faces": number(found.faces),
-        "attributes": of(found.attributes),
-        "more": [found.count, found.frame_rate, dict(found.metadata), found.rigged],
-        "notes": found.notes,
-    }
+_MADE: tuple[type, ...] = (np.ndarray, Attribute, TriangleMesh, MeshFile, Frames)
+"""What comes back beside plain data; messages call them by their places here."""
 
 
-def _leave(memory: int, found: dict[str, Any], arrays: list[npt.NDArray[Any]] | tuple[()] = ()) -> None:
-    message = msgpack.packb({**found, "arrays": [[str(array.dtype), array.shape] for array in arrays]})
-    total = _HEAD + len(message) + sum(array.nbytes for array in arrays)
-    with closing(mmap.mmap(memory, total)) as view:
-        view[:_HEAD] = len(message).to_bytes(_HEAD, "little")
-        view[_HEAD : _HEAD + len(message)] = message
-        place = _HEAD + len(message)
+def _leave(memory: int, found: Any) -> None:
+    """Leave a mesh, frames or plain data as a message, which says where arrays lie after it, each once."""
+    arrays, known, total = list[npt.NDArray[Any]](), dict[int, bytes](), 0
+
+    def plain(one: Any) -> Any:
+        nonlocal total
+        if isinstance(one, Iterator | Mapping):
+            return dict(one) if isinstance(one, Mapping) else list(one)
+        if not isinstance(one, np.ndarray):
+            given = {field.name: getattr(one, field.name) for field in fields(one)}
+            given |= {"frames": ()} if given.get("meshes") else {}  # which have them
+            return msgpack.ExtType(_MADE.index(type(one)), msgpack.packb([*given.values()], default=plain))
+        if id(one) not in known:
+            known[id(one)] = msgpack.packb([str(one.dtype), one.shape, total])
+            arrays.append(one)
+            total += one.nbytes
+        return msgpack.ExtType(0, known[id(one)])
+
+    message = msgpack.packb(found, default=plain)
+    place = _HEAD + len(message)
+    with closing(mmap.mmap(memory, place + total)) as view:
+        view[:place] = len(message).to_bytes(_HEAD, "little") + message
         for array in arrays:
             view[place : place + array.nbytes] = np.ascontiguousarray(array).tobytes()
             place += array.nbytes
@@ -404,10 +387,49 @@ def _leave(memory: int, found: dict[str, Any], arrays: list[npt.NDArray[Any]] | 
 
 
 def _message(memory: int, most: int) -> Any:
-    size = int.from_bytes(os.pread(memory, _HEAD, 0), "little")
-    if size > min(most, os.fstat(memory).st_size - _HEAD):
+    size, left = int.from_bytes(os.pread(memory, _HEAD, 0), "little"), os.fstat(memory).st_size
+    if size > min(most, left - _HEAD):
         raise FormatError("the process that read this file left no mesh")
-    return msgpack.unpackb(os.pread(memory, size, _HEAD), strict_map_key=False)
+    known: dict[bytes, npt.NDArray[Any]] = {}
+
+    def made(code: int, data: bytes) -> Any:
+        nonlocal left
+        if code or data not in known:
+            given = msgpack.unpackb(data, ext_hook=made, use_list=False)
+        if code:
+            return _made(_MADE[code], given)
+        if data not in known:
+            kind, shape, begin = given
+            taken = math.prod(shape) * np.dtype(kind).itemsize
+            if kind not in KINDS or min(shape, default=0) < 0 or taken > left:
+                raise ValueError("an array that is not there")
+            left -= taken
+            known[data] = np.frombuffer(os.pread(memory, taken, _HEAD + size + begin), kind).reshape(shape)
+        return known[data]
+
+    message = os.pread(memory, size, _HEAD)
+    return msgpack.unpackb(message, ext_hook=made, use_list=False, strict_map_key=False)
+
+
+def _made(kind: type, given: tuple[Any, ...]) -> Any:
+    """Make a mesh, frames or a part of them of data that a hostile file may have written."""
+    if kind is MeshFile:
+        mesh, *more = given
+        if not isinstance(mesh, TriangleMesh):
+            raise TypeError("a mesh of another kind")
+        return MeshFile(mesh, *(tuple(map(str, words)) for words in more))
+    if kind is not Frames:
+        return kind(*given)
+    faces, count, frames, attributes, notes, rate, metadata, meshes, rigged = given
+    faces = TriangleMesh(np.zeros((int(faces.max(initial=-1)) + 1, 3)), faces).faces
+    frames = frames if meshes is None else [mesh.positions for mesh in meshes]
+    if len(frames) != count or any(frame.shape[1:] != (3,) for frame in frames):
+        raise ValueError("frames of another kind")
+    if not all(isinstance(attribute, Attribute) for attribute in attributes):
+        raise TypeError("attributes of another kind")
+    every = None if meshes is None else iter(meshes)
+    words = tuple(map(str, notes))
+    return Frames(faces, int(count), iter(frames), attributes, words, float(rate), metadata, every, int(rigged))
 
 
 @cache
@@ -425,60 +447,13 @@ def _found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
     """The mesh, frames or error that a child has left, which a hostile file may have taken over."""
     try:
         found = _message(memory, 2 * limits.metadata_bytes + 5 * limits.frame_bytes + _ROOM)
+        if isinstance(found, MeshFile | Frames | None):
+            return found
         if "system" in found:
             raise OSError(*found["system"])
-        if "error" in found:
-            kind, message, *places = found["error"]
-            raise _kinds()[kind](message, **dict(zip(("offset", "frame", "block"), places)))
-        return None if "nothing" in found else _rebuilt(found, _arrays_in(memory, found["arrays"]))
+        kind, message, *places = found["error"]
+        raise _kinds()[kind](message, **dict(zip(("offset", "frame", "block"), places)))
     except (BsmError, OSError):
         raise
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
-
-
-def _arrays_in(memory: int, described: list[Any]) -> list[Any]:
-    place = _HEAD + int.from_bytes(os.pread(memory, _HEAD, 0), "little")
-    arrays: list[Any] = []
-    for kind, shape in described:
-        if kind not in KINDS or min(shape, default=0) < 0:
-            raise ValueError("an array of another kind")
-        size = math.prod(shape) * np.dtype(kind).itemsize
-        if place + size > os.fstat(memory).st_size:
-            raise ValueError("an array that is not there")
-        arrays.append(np.frombuffer(os.pread(memory, size, place), kind).reshape(shape))
-        place += size
-    return arrays
-
-
-def _rebuilt(found: dict[str, Any], arrays: list[Any]) -> MeshFile | Frames:
-    def attributes_of(described: list[Any]) -> tuple[Attribute, ...]:
-        return tuple(
-            Attribute(name, arrays[values], domain, semantic, None if indices is None else arrays[indices])
-            for name, values, domain, semantic, indices in described
-        )
-
-    def mesh_of(positions: int, faces: int, attributes: list[Any], metadata: dict[str, Any]) -> TriangleMesh:
-        return TriangleMesh(arrays[positions], arrays[faces], attributes_of(attributes), metadata)
-
-    notes = tuple(map(str, found["notes"]))
-    if "mesh" in found:
-        return MeshFile(mesh_of(*found["mesh"]), notes, tuple(map(str, found["dropped"])))
-    frames = [arrays[number] for number in found["frames"]]
-    meshes = None if found["meshes"] is None else [mesh_of(*mesh) for mesh in found["meshes"]]
-    shapes = {frame.shape[1:] for frame in frames}
-    count, rate, metadata, rigged = found["more"]
-    faces = TriangleMesh(np.zeros((int(arrays[found["faces"]].max(initial=-1)) + 1, 3)), arrays[found["faces"]]).faces
-    if shapes - {(3,)} or len(frames or meshes or ()) != count > 0:
-        raise ValueError("frames of another kind")
-    return Frames(
-        faces,
-        int(count),
-        iter(frames if meshes is None else [mesh.positions for mesh in meshes]),
-        attributes_of(found["attributes"]),
-        notes,
-        float(rate),
-        metadata,
-        None if meshes is None else iter(meshes),
-        int(rigged),
-    )

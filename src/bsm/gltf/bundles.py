@@ -21,8 +21,9 @@ from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.codec.static.encoder import Encoder
+from bsm.files.conventions import shares_of
 from bsm.gltf import document as gltf
-from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn, shares
+from bsm.gltf.coding import COMPONENTS, DRACO, FLOAT, PIECE, TRIANGLES, TRIANGULAR, Array, Drawn, Tree, drawn
 from bsm.options import encode_options
 
 _TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
@@ -166,7 +167,7 @@ def _levels(weights: Mapping[str, Array]) -> dict[str, Array]:
     """Weights of all sets as bytes whose sum is 255, as that of the weights is 1."""
     if not weights:
         return {}
-    table = np.hstack([shares(array) for array in weights.values()])
+    table = np.hstack([shares_of(array) for array in weights.values()])
     total = table.sum(axis=1, keepdims=True)
     exact = np.where(total > 0, table / np.maximum(total, 1e-30) * 255, 0)
     levels = np.floor(exact)

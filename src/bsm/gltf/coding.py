@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.conventions import shares_of
 
 Array = npt.NDArray[Any]
 Tree = dict[str, Any]
@@ -58,15 +59,10 @@ def drawn(mesh: TriangleMesh) -> Drawn:
     return Drawn(rows.ravel().astype(np.uint32), arrays, np.repeat(labels[order], 3))
 
 
-def shares(values: Array) -> Array:
-    """Floats as they are, and what part of their largest number unsigned integers are; float64."""
-    return values / np.float64(1 if values.dtype.kind == "f" else np.iinfo(values.dtype).max)
-
-
 def stored(name: str, values: Array, component: int) -> Array:
     """The numbers of an array of a stream in a component type of accessors; integers of colors are shares."""
     of_color = name == "COLOR_0" and component == FLOAT and values.dtype.kind == "u"
-    return (shares(values) if of_color else values).astype(KINDS[component])
+    return (shares_of(values) if of_color else values).astype(KINDS[component])
 
 
 def array_of(found: tuple[TriangleMesh, Drawn], name: str, component: int | None) -> Array:

@@ -22,7 +22,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.files.conventions import converted
+from bsm.files.conventions import converted, shares_of
 from bsm.files.pipes import file_beside
 from bsm.files.room import continued, plain_text
 
@@ -196,7 +196,11 @@ def as_numbers(value: object) -> list[float]:
 
 def as_mtl(material: Material) -> Material:
     """A material in the words of MTL, as far as they go, with colors in sRGB."""
-    renamed: Material = {_to_mtl(name): value for name, value in material.items()}
+    words = {name: name.partition(".") for name in material}
+    renamed: Material = {
+        f"{_TO_MTL.get(keyword, keyword)}{dot}{options}": material[name]
+        for name, (keyword, dot, options) in words.items()
+    }
     color, glow = (as_numbers(material.get(name, "")) for name in ("baseColorFactor", "emissiveFactor"))
     renamed.pop("baseColorFactor", None)
     mode = material.get("alphaMode")
@@ -209,11 +213,6 @@ def as_mtl(material: Material) -> Material:
     if mode in ("BLEND", "MASK") and "map_Kd" in renamed:
         renamed.setdefault("map_d", renamed["map_Kd"])
     return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
-
-
-def _to_mtl(name: str) -> str:
-    keyword, dot, options = name.partition(".")
-    return f"{_TO_MTL.get(keyword, keyword)}{dot}{options}"
 
 
 def _is_mtl(name: str) -> bool:
@@ -289,7 +288,8 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
             if isinstance(library := read(name), bytes):
                 libraries.append(library)
                 within = name.replace("\\", "/").rpartition("/")[0]
-                folders |= dict.fromkeys(_images_of(library), within) if within else {}
+                parse_mtl(library, images := dict[str, int]())
+                folders |= dict.fromkeys(images, within) if within else {}
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
     _add_libraries(found, libraries)
@@ -306,12 +306,6 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
         else:
             notes.append(f"the image {name} was left out, its name was kept: {image}")
     return found, notes
-
-
-def _images_of(library: bytes) -> dict[str, int]:
-    images: dict[str, int] = {}
-    parse_mtl(library, images)
-    return images
 
 
 def _add_libraries(found: dict[str, Value], libraries: Iterable[bytes]) -> None:
@@ -516,11 +510,7 @@ def shown_at_vertices(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute |
 
 def rgba(color: Attribute) -> npt.NDArray[np.uint8]:
     """Colors as bytes, with an opaque alpha where there is none."""
-    values = color.values
-    if values.dtype == np.uint16:
-        values = values / 65535
-    if values.dtype != np.uint8:
-        values = np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8)
+    values = np.rint(shares_of(color.values).clip(0, 1) * 255).astype(np.uint8)
     return np.hstack([values, np.full((len(values), 4 - values.shape[1]), 255, np.uint8)])
 
 

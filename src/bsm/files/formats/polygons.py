@@ -15,6 +15,7 @@ from bsm.bitstream.errors import MeshError, imported, public
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
+from bsm.files.conventions import shares_of
 from bsm.files.formats.metadata import fitting, named
 from bsm.files.room import Doubles, Ints, require_count, single_suffices
 
@@ -137,7 +138,9 @@ def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) 
     """Return the columns of parts as one; parts that have none get zeros, or white."""
     there = [column for column in given if column is not None]
     shares = there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1  # bytes here, floats there
-    model = replace(there[0], name=name, values=_shares(there[0].values) if shares else there[0].values)
+    model = replace(
+        there[0], name=name, values=shares_of(there[0].values).astype(np.float32) if shares else there[0].values
+    )
     blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
     tables, places, begin = [], [], 0
     for part, column in zip(parts, given, strict=True):
@@ -146,7 +149,7 @@ def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) 
             size = min(count, 1) if model.domain == "corner" else count
             values = np.full((size, model.values.shape[1]), blank, model.values.dtype)
             column = replace(model, values=values, indices=np.zeros(count, np.int64))
-        tables.append(_shares(column.values) if shares else column.values)
+        tables.append(shares_of(column.values).astype(np.float32) if shares else column.values)
         places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
         begin += len(column.values)
     at_corners = np.concatenate(places) if model.domain == "corner" else None
@@ -154,10 +157,6 @@ def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) 
 
 
 _FULL = {"uint8": 255, "uint16": 65535}  # of a color
-
-
-def _shares(colors: Array) -> Array:
-    return (colors / _FULL.get(colors.dtype.name, 1)).astype(np.float32)
 
 
 def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
