@@ -353,7 +353,7 @@ def _libraries() -> tuple[str, ...]:
 
 
 _MADE: tuple[type, ...] = (np.ndarray, Attribute, TriangleMesh, MeshFile, Frames)
-"""What comes back beside plain data; messages call them by their places here."""
+"""The kinds of results besides plain data; messages call them by their places here."""
 
 
 def _leave(memory: int, found: Any) -> None:
