@@ -13,10 +13,6 @@ extern "C" {
 }
 
 template <>
-struct nb::detail::type_caster<Fronts> : nb::detail::TupleCaster<Fronts, ConstWords, ConstWords, ConstWords, ConstWords,
-    ConstWords, ConstWords, ConstWords, ConstDoubles> {};
-
-template <>
 struct nb::detail::type_caster<PredictionRules>
     : nb::detail::TupleCaster<PredictionRules, double, double, double, double, int64_t, int64_t> {};
 
@@ -45,10 +41,6 @@ void bind_codec(nb::module_ &m) {
     m.def("averaged", checked<&averaged>, "samples"_a, "small"_a, Unlocked());
     m.def("contrast", checked<&contrast>, "first"_a, "second"_a, "half"_a, "steady"_a, "scratch"_a, "sums"_a,
           Unlocked());
-    m.def("hash_columns", [](Doubles2 columns) {
-        for (int64_t r = 0; r < columns.rows; r++)
-            for (int64_t j = 0; j < columns.columns; j++) columns.data[r * columns.columns + j] = hash_at(r, j);
-    }, "columns"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
     m.def("refine_partition", &refine_partition, "offsets"_a, "neighbors"_a, "labels"_a, "passes"_a, "sizes"_a,
@@ -79,31 +71,13 @@ void bind_codec(nb::module_ &m) {
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "planes"_a, "sums"_a, Unlocked());
-    m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbors"_a, "most_work"_a, "scratch"_a, "rows"_a,
-        "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a, Unlocked());
-    m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbors"_a, "weights"_a, "diagonal"_a, "fronts"_a,
-          "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
-    m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "scratch"_a, "solution"_a,
-        Unlocked());
     m.def("cosines", &cosines, "table"_a, "columns"_a, Unlocked());
-    m.def("resize_columns", &resize_columns, "previous"_a, "table"_a, "columns"_a, Unlocked());
-    m.def("iteration_space", &iteration_space, "n"_a, "c"_a, "apart"_a);
-    m.def("iterate", checked<&iterate>, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "power"_a, "iterations"_a,
-          "apart"_a, "care"_a, "scratch"_a, "subspace"_a, Unlocked());
-    m.def("completion_space", &completion_space, "h"_a);
-    m.def("complete_columns", checked<&complete_columns>, "first"_a, "scratch"_a, "whole"_a, Unlocked());
     m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
     m.def("show_frames", checked<&show_frames>, "field"_a, "first"_a, "weights"_a, "frames"_a, Unlocked());
     m.def("multiply_matrices", checked<&multiply_matrices>, "left"_a, "right"_a, "result"_a, Unlocked());
     m.def("turn_columns", checked<&turn_columns>, "free"_a, "vector"_a, "shares"_a, Unlocked());
     m.def("back_into_unit", checked<&back_into_unit>, "positions"_a, "scale"_a, "center"_a, "moved"_a, Unlocked());
-    m.def("look_around", &look_around, "offsets"_a, "neighbors"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
-          "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
-    m.def("continue_known", checked<&continue_known>, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "pulls"_a,
-          "scratch"_a, "continued"_a, Unlocked());
-    m.def("suspend", checked<&suspend>, "offsets"_a, "neighbors"_a, "weights"_a, "diagonal"_a, "fronts"_a, "springs"_a,
-          "pulls"_a, "shift"_a, "sums"_a, "column"_a, "scratch"_a, "values"_a, "inverse"_a, "continued"_a, Unlocked());
     m.def("place_block", checked<&place_block>, "prediction"_a, "subspace"_a, "levels"_a, "half_step"_a, "scratch"_a,
           "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbors"_a, "terms"_a, "degree"_a, Unlocked());
@@ -112,9 +86,6 @@ void bind_codec(nb::module_ &m) {
           "smoothed"_a, Unlocked());
     m.def("weigh_by_cotangents", &weigh_by_cotangents, "offsets"_a, "neighbors"_a, "faces"_a, "positions"_a,
           "weights"_a, Unlocked());
-    m.def("hold", &hold, "offsets"_a, "neighbors"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
-          "own_neighbors"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
-    m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());
     m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "rules"_a, "mean"_a, "row"_a,
         Unlocked());
     m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,
@@ -122,7 +93,6 @@ void bind_codec(nb::module_ &m) {
         Unlocked());
     m.def("label_components", checked<&label_components>, "offsets"_a, "neighbors"_a, "waiting"_a, "labels"_a,
           Unlocked());
-    m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbors"_a, "scratch"_a, Unlocked());
     m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, "lost"_a, Unlocked());
     m.def("farthest_apart", &farthest_apart, "original"_a, "decoded"_a, Unlocked());
     m.def("local_frames", checked<&local_frames>, "positions"_a, "faces"_a, "frames"_a, Unlocked());

@@ -25,8 +25,8 @@ from tools.vectors.good_fields import LAYER, refined
 from tools.vectors.meshes import tangled
 
 STAGES = (
-    *("find_fronts", "chain_blocks", "reaches_all", "suspend", "smooth_all", "place_block", "back_into_unit"),
-    *("show_frames", "draw_shaded", "averaged", "contrast", "shown_normals", "collect_creases", "hang_creases"),
+    *("chain_blocks", "smooth_all", "place_block", "back_into_unit", "show_frames", "draw_shaded", "averaged"),
+    *("contrast", "shown_normals", "collect_creases", "hang_creases"),
     *("settle_levels", "paint_checker", "paint_colors"),
 )
 """Of the codec's kernels those that do whole stages; others are called by what has looked at its arrays."""

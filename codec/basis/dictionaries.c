@@ -7,12 +7,6 @@ static const double EXACT_SHIFT = 0x1p-5;
 static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
 enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
 
-/* How a dictionary is iterated: z, t, at most how many columns that gives, and solutions before each Onorm in doubles
- * (M 8.4, M 8.7, M 8.9). */
-typedef struct {
-    int64_t power, iterations, most, apart;
-} Schedule;
-
 /* Columns that follow from L, by the rows of a block (M 8.7). */
 static int64_t iterated_columns(const Header *header, int64_t rows) {
     return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
@@ -59,23 +53,34 @@ static void add_noise(Singles2 columns, double share) {
             columns.data[r * columns.columns + j] += (float)(share * hash_at(r, j));
 }
 
-/* U(t) = Onorm(R^z U(t - 1)) of the first `columns` of a start (M 8.4). */
-static bool iterate_columns(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan,
+static double iteration_work(const Patch *patch, Schedule plan, int64_t columns, double care) {
+    double solutions = (double)(plan.power * plan.iterations), onorms = plan.apart > 0
+        ? IN_DOUBLES * (double)plan.iterations * (double)((plan.power + plan.apart - 1) / plan.apart) : solutions + 1;
+    return dictionary_work(&patch->fronts, columns, solutions, onorms, care);
+}
+
+bool iterate_columns(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan,
     Arena *scratch, Singles2 subspace) {
-    int64_t rows = subspace.rows, columns = subspace.columns, solutions = plan.power * plan.iterations,
-            found = NEEDS_CARE;
+    int64_t found = NEEDS_CARE;
     Singles room;
-    if (!take_singles(scratch, iteration_space(rows, columns, plan.apart), &room)) return false;
+    if (!take_singles(scratch, iteration_space(subspace.rows, subspace.columns, plan.apart), &room)) return false;
     for (int64_t care = 0; found == NEEDS_CARE; care = care > 0 ? 4 * care : FIRST_CARE) {
-        double onorms = plan.apart > 0
-            ? IN_DOUBLES * (double)plan.iterations * (double)((plan.power + plan.apart - 1) / plan.apart)
-            : (double)solutions + 1;
-        if (!charge(context, dictionary_work(&patch->fronts, columns, (double)solutions, onorms, (double)care), 0))
-            return false;
+        if (!charge(context, iteration_work(patch, plan, subspace.columns, (double)care), 0)) return false;
         found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start),
             plan.power, plan.iterations, plan.apart, care, room, subspace);
     }
     return found != LOST || FAIL(context, NUMERIC, "the columns of a dictionary cannot be made orthonormal");
+}
+
+static Schedule schedule_of(const Header *header, int64_t rows, bool follows) {
+    const Paper *paper = &header->paper;
+    int64_t most = iterated_columns(header, rows);
+    if (!follows && paper->exact) return (Schedule){EXACT_POWER, EXACT_ITERATIONS, most, 0};
+    return (Schedule){paper->power, follows ? paper->iterations : paper->key_iterations, most, header->onorm};
+}
+
+double work_of_dictionary(const Header *header, const Patch *patch, bool follows, int64_t width) {
+    return iteration_work(patch, schedule_of(header, patch->size, follows), width, 0);
 }
 
 /* `width` columns of U: those of the iterations, then any that are orthogonal to them (M 8.7). */
@@ -97,15 +102,10 @@ static bool iterate_and_complete(Context *context, const Patch *patch, const Fac
 bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs,
     const Factor *held, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     const Paper *paper = &header->paper;
-    Schedule plan = {paper->power, paper->key_iterations, iterated_columns(header, patch->size), header->onorm};
+    Schedule plan = schedule_of(header, patch->size, false);
     Factor own;
     Singles2 start;
     bool noisy = true;
-    if (paper->exact) {
-        plan.power = EXACT_POWER;
-        plan.iterations = EXACT_ITERATIONS;
-        plan.apart = 0;
-    }
     if (paper->exact || held == NULL) {
         if (!factorize_patch(patch, springs, paper->exact ? EXACT_SHIFT : paper->shift, scratch, &own)) return false;
         held = &own;
@@ -118,8 +118,7 @@ bool key_dictionary(Context *context, const Header *header, const Patch *patch, 
 
 bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor,
     Singles2 previous, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
-    Schedule plan = {header->paper.power, header->paper.iterations, iterated_columns(header, patch->size),
-        header->onorm};
+    Schedule plan = schedule_of(header, patch->size, true);
     int64_t first = least(width, plan.most);
     Singles2 start = previous;
     bool noisy;

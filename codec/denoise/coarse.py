@@ -4,24 +4,23 @@
 block as weight.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Indices
-from bsm.codec.blocks.overlap import Blend, Block, Blocks, block_size, degree_weights, grow_blocks, metis_partition
+from bsm.codec.blocks.overlap import Blend, Blocks, block_size, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.threads import ordered_map
 
 Floats = npt.NDArray[np.float64]
-Weights = Callable[[Indices], Floats]
 
 BLOCK_SIZE = 500  # about the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle
 OVERLAP = 1.15
 KEEP = 0.10
-RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, stiffness=0.0)
+RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, springs=False)
 
 
 class CoarseFilter:
@@ -36,16 +35,12 @@ class CoarseFilter:
         rules: ChainRules = RULES,
         *,
         overlap: float = OVERLAP,
-        weights: Weights = degree_weights,
     ) -> None:
         graph = graph_of_faces(np.ascontiguousarray(faces, dtype=np.int32), n)
         partition = metis_partition(graph, max(1, round(n / block)))
         self._size = block_size(partition, overlap)
         blocks = grow_blocks(graph, partition, self._size)
-        self._blocks = [
-            (block.vertices, weights(block.degrees), dictionary)
-            for block, dictionary in _dictionaries(blocks, self._width(keep), rules)
-        ]
+        self._blocks = list(_dictionaries(blocks, self._width(keep), rules))
 
     def __call__(self, values: Floats, keep: float = KEEP) -> Floats:
         """Filter `values`, shape (n, 3); `keep` is at most the filter's."""
@@ -62,18 +57,18 @@ class CoarseFilter:
         return max(1, round(keep * self._size))
 
 
-def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tuple[Block, Floats]]:
-    """Every block and its dictionary; chains run in parallel."""
+def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tuple[Indices, Floats, Floats]]:
+    """Vertices of every block, their weights, and its dictionary; chains run in parallel."""
 
-    def chain_from(first: int) -> list[tuple[Block, Floats]]:
-        chain = Chain(rules, blocks.graph)
+    def dictionaries_of(indices: range) -> list[tuple[Indices, Floats, Floats]]:
+        chain = Chain(rules, blocks)
         found = []
-        for index in range(first, min(first + rules.chain_length(blocks.count), blocks.count)):
-            block = blocks.block(index)
-            dictionary = chain.dictionary(chain.around(block), width)
-            chain.commit(block, dictionary, np.zeros((block.size, 3)))
-            found.append((block, dictionary.astype(np.float64)))
+        for index in indices:
+            vertices, _, weights = chain.begin(index)
+            dictionary = chain.dictionary(width)
+            chain.commit(dictionary.shape[1], np.zeros((len(vertices), 3)))
+            found.append((vertices, weights, dictionary.astype(np.float64)))
         return found
 
-    for found in ordered_map(chain_from, rules.chain_starts(blocks.count), None):
+    for found in ordered_map(dictionaries_of, rules.chains(blocks.count), None):
         yield from found

@@ -40,10 +40,6 @@ def components(graph: Graph) -> Indices:
     return labels
 
 
-def is_connected(graph: Graph) -> bool:
-    return bool(_kernels.reaches_all(graph.offsets, graph.neighbors, np.empty(2 * graph.size + 1, np.int32)))
-
-
 class Rows(NamedTuple):
     """Compressed rows: those of i are ``members[starts[i]:starts[i + 1]]``, ascending and without repetition."""
 

@@ -100,7 +100,8 @@ static bool find_part(Parts *parts, int64_t index, ConstDoubles weights, ConstIn
         return false;
     const Fronts *fronts = &part->patch.fronts;
     double factor = fronts->places.data[fronts->places.size - 1];
-    if (!reserve(context, SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor, 0)
+    part->memory = SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor;
+    if (!reserve(context, part->memory, 0)
         || !charge(context, 2 * factor_work(fronts), 0) || !keep_part(parts->arena, part))
         return false;
     part->width = least(parts->header->coefficients, size);

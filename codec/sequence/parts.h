@@ -13,7 +13,8 @@ typedef struct {
     Factor factor;
     /* columns of the dictionary; row of the first vertex around it, where rows of all parts are stacked */
     int64_t width, first;
-    double making, work;  /* bytes that making the dictionary takes; nanoseconds that it took, -1 before */
+    /* bytes that stay, and that making the dictionary takes; nanoseconds that it took, -1 before */
+    double memory, making, work;
     Singles2 dictionary;  /* no rows unless it is kept */
     Mark before;
 } Site;

@@ -101,7 +101,7 @@ def encode_first_frame(
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-    setting = make_setting(scheme, prepared.mesh.faces, positions, width=width, threads=options.threads, moving=moving)
+    setting = make_setting(scheme, prepared.mesh.faces, positions, threads=options.threads, moving=moving)
     memory = mesh_memory(header.vertices, header.faces) + setting.memory
     received = len(prepared.connectivity.data) + sum(len(block.packet.data) + FRAME for block in blocks)
     kept = Kept(before.vertices + header.vertices, before.memory + memory, before.received + received)

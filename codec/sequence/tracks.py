@@ -109,10 +109,10 @@ class Setting:
 
 
 def make_setting(
-    scheme: Scheme, faces: Faces, first_frame: Matrix, *, width: int, threads: int | None, moving: Sequence[Matrix] = ()
+    scheme: Scheme, faces: Faces, first_frame: Matrix, *, threads: int | None, moving: Sequence[Matrix] = ()
 ) -> Setting:
     """Make the dictionaries from the decoded first frame, shape (n, 3); see `make_parts` and `Setting`."""
-    parts = make_parts(scheme, faces, first_frame, width=width, threads=threads)
+    parts = make_parts(scheme, faces, first_frame, threads)
     widths = [values.shape[1] for values in moving]
     ends = np.cumsum([BENDING_COLUMNS, *widths])[:-1]
 

@@ -31,6 +31,14 @@ typedef struct {
     Ints2 expectations;
 } Chains;
 
+/* A block before its levels are known: its patch on springs to what is known around it, and what continues that. */
+typedef struct {
+    Patch patch;
+    Doubles springs;
+    Doubles2 pulls, continued;
+    Factor factor;
+} Suspended;
+
 /* A block's own reconstruction, in BSM units; its arrays live until `scratch` is released. */
 typedef struct {
     int64_t index;
@@ -55,6 +63,13 @@ bool begin_chains(Chains *chains, Context *context, const Header *header, const 
 void end_chains(Chains *chains);
 bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch,
     DecodedBlock *decoded);
+/* The steps of decoding a block, which encoders take, too: its patch, what it hangs on, U in memory of the chain, its
+ * weights in a blend, and what the next block knows of it. */
+bool begin_chain(Chains *chains, int64_t number);
+bool suspend_block(Chains *chains, Arena *scratch, Suspended *block);
+bool make_dictionary(Chains *chains, const Suspended *block, int64_t width, Arena *scratch, Singles2 *dictionary);
+void weigh_rows(const Patch *patch, Doubles weights);
+void commit_block(Chains *chains, Singles2 dictionary, const DecodedBlock *decoded);
 /* Forget the chain under way: the next block begins one. */
 void leave_chain(Chains *chains);
 /* Count a block as decoded that other chains decoded, and make its charges. */

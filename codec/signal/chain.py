@@ -1,7 +1,7 @@
 """A chain: a key block and the blocks that follow it, each of which may look back as far as the key block.
 
-The encoder steps through a chain with the calls `around`, `dictionary`, `commit`; the decoder is chain.c.
-Chains are independent, which bounds the loss by a damaged block and lets chains run in parallel.
+Encoders step through chains by `begin`, `dictionary` and `commit`, which chain.c does for decoders, too. Chains
+are independent, which bounds the loss by a damaged block and lets chains run in parallel.
 
 Not in the paper: a block is predicted from the known vertices around it, and its dictionary uses these. Every edge that
 leaves the block to a known vertex is a spring of stiffness 1 to where that vertex is, as every edge is in the quadratic
@@ -14,111 +14,29 @@ does.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from bsm._core import codec as _kernels
-from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Basis, Matrix
-from bsm.codec.basis.laplacian import (
-    Factor,
-    Laplacian,
-    check_rows,
-    dictionary_cost,
-    factor_room,
-    factorize,
-    laplacian_of,
-    solving_room,
-)
-from bsm.codec.basis.orthogonal_iteration import (
-    EXACT_ITERATIONS,
-    EXACT_POWER,
-    completed,
-    exact_basis,
-    first_columns,
-    follow_columns,
-    orthogonal_iteration,
-)
-from bsm.codec.blocks.overlap import Blend, Block, degree_weights
-from bsm.codec.geometry.graph import Graph, is_connected
+from bsm import _core
+from bsm.codec.arrays import Basis, Indices, Matrix
+from bsm.codec.blocks.overlap import Blocks
 
 
-@dataclass(frozen=True, eq=False)
-class Suspended:
-    """A block on springs."""
+class Site(NamedTuple):
+    """A block that is not coded yet: its graph, springs, shape (n,), their pulls and what continues these, (n, 3)."""
 
-    laplacian: Laplacian
+    vertices: Indices
+    offsets: Indices
+    neighbors: Indices
     springs: Matrix
-    shift: float
-
-    @cached_property
-    def factor(self) -> Factor:
-        """Factorisation of L + S + delta I: for the block's dictionary, and for what continues its surroundings."""
-        return factorize(self.laplacian, self.springs + self.shift)
-
-
-@dataclass(frozen=True, eq=False)
-class Surroundings(Suspended):
-    """The known values around a block, as springs and their pulls."""
-
     pulls: Matrix
-
-    @cached_property
-    def factor(self) -> Factor:
-        return self._ground[0]
-
-    @property
-    def continuation(self) -> Matrix:
-        """Positions that continue the known ones, shape (n, 3); zero without any known position."""
-        return self._ground[1]
-
-    @cached_property
-    def _ground(self) -> tuple[Factor, Matrix]:
-        block, fronts, rows = self.laplacian.block, self.laplacian.fronts, len(self.springs)
-        values, inverse, continued = factor_room(fronts), np.empty(rows, np.float32), np.empty((rows, 3))
-        given = block.offsets, block.neighbors, self.laplacian.weights, self.laplacian.diagonal, fronts
-        scratch = np.empty(rows), np.empty(rows + 1, np.uint32), solving_room(rows, 3)
-        _kernels.suspend(*given, self.springs, self.pulls, self.shift, *scratch, values, inverse, continued)
-        return Factor(fronts, values, inverse), continued
-
-
-class Known:
-    """The decoded part of a chain."""
-
-    def __init__(self, graph: Graph, stiffness: float) -> None:
-        self._graph = graph
-        self._stiffness = stiffness
-        self._blend = Blend(graph.size)
-        self._inside = np.zeros(graph.size, np.uint8)
-
-    def add(self, block: Block, positions: Matrix) -> None:
-        """Remember one copy of a block's vertices, shape (n_i, 3)."""
-        self._blend.add(block.vertices, positions, degree_weights(block.degrees))
-
-    def around(self, laplacian: Laplacian, shift: float) -> Surroundings:
-        """Return the known values around a block."""
-        graph, blend, block = self._graph, self._blend, laplacian.block
-        found = Surroundings(laplacian, np.empty(block.size), shift, np.empty((block.size, 3)))
-        given = graph.offsets, graph.neighbors, block.vertices, self._inside, blend.sums, blend.weights
-        _kernels.look_around(*given, self._stiffness, found.springs, found.pulls)
-        return found
-
-
-def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
-    """Values that continue the known ones into the rows of a block: mean + (L + S + delta)^-1 (y - S mean)."""
-    rows, columns = pulls.shape
-    check_rows(factor, rows)
-    values = np.empty((rows, columns))
-    given = factor.fronts, factor.values, factor.inverse, springs, np.ascontiguousarray(pulls)
-    _kernels.continue_known(*given, solving_room(rows, columns), values)
-    return values
+    continuation: Matrix
 
 
 Columns: TypeAlias = Callable[[int], Basis]
-Dictionary: TypeAlias = Callable[[Surroundings, int, Columns], Matrix]
-Predictor: TypeAlias = Callable[[Surroundings], Matrix]
+Dictionary: TypeAlias = Callable[[Site, int, Columns], Matrix]
+Predictor: TypeAlias = Callable[[Site], Matrix]
 
 
 @dataclass(frozen=True)
@@ -142,20 +60,11 @@ class ChainRules:
     iterations: int
     key_iterations: int
     shift: float
-    stiffness: float
+    springs: bool
     apart: int = 0
     """Onorm follows each of so many solutions, in doubles; 0: each solution."""
     whole: int = 0
     overrides: Overrides = AS_SPECIFIED
-
-    @property
-    def alone(self) -> bool:
-        """Whether every block is a chain of its own, so that none knows of another."""
-        return self.key_interval == 1
-
-    def iterated(self, rows: int) -> int:
-        """Return the largest number of columns of a dictionary that follow from its Laplacian."""
-        return -(-rows // 2) if rows <= self.whole else rows
 
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
@@ -176,78 +85,42 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
-def key_dictionary(rules: ChainRules, around: Suspended, width: int) -> Basis:
-    """U of a block that follows no other, with `width` columns."""
-    block = around.laplacian.block
-    start = first_columns(block.size, min(width, rules.iterated(block.size)), rules.exact or in_pieces(block))
-    if rules.exact:
-        return completed(exact_basis(around.laplacian, start, around.springs), width)
-    first = orthogonal_iteration(
-        around.factor, start, power=rules.power, iterations=rules.key_iterations, apart=rules.apart
-    )
-    return completed(first, width)
+class Chain(_core.Chain):
+    """The blocks of one chain after the other; a dictionary and predictions may be a user's."""
 
-
-def in_pieces(block: Block) -> bool:
-    return not is_connected(Graph(block.offsets, block.neighbors))
-
-
-class Chain:
-    """State of one chain: the latest subspace, and the positions known so far."""
-
-    def __init__(self, rules: ChainRules, graph: Graph) -> None:
-        self._rules = rules
-        self._known = None if rules.stiffness == 0.0 or rules.alone else Known(graph, rules.stiffness)
-        self._subspace: Basis | None = None
-
-    def around(self, block: Block) -> Surroundings:
-        """Return the known values around a block."""
-        laplacian = laplacian_of(block)
-        shift = self._rules.shift
-        if self._known is None:
-            return Surroundings(laplacian, np.zeros(block.size), shift, np.zeros((block.size, 3)))
-        return self._known.around(laplacian, shift)
-
-    def dictionary(self, around: Surroundings, width: int) -> Basis:
-        """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only."""
-        width, own = min(width, around.laplacian.block.size), self._rules.overrides.dictionary
-        if own is None:
-            return self._specified(around, width)
-        return np.ascontiguousarray(own(around, width, partial(self._specified, around)), np.float32)
-
-    def work(self, around: Surroundings, width: int) -> float:
-        """Work of `dictionary`, nanoseconds; the work of a user's own dictionary is not counted."""
-        rules = self._rules
-        if rules.overrides.dictionary is not None:
-            return 0.0
-        fronts = around.laplacian.fronts
-        if self._follows(around.laplacian.block):
-            return dictionary_cost(fronts, width, rules.power, rules.iterations, rules.apart)
-        if rules.exact:
-            return dictionary_cost(fronts, width, EXACT_POWER, EXACT_ITERATIONS)
-        return dictionary_cost(fronts, width, rules.power, rules.key_iterations, rules.apart)
-
-    def continuation(self, around: Surroundings) -> Matrix:
-        """Return the prediction of a block, shape (n_i, 3)."""
-        own = self._rules.overrides.predictor
-        return around.continuation if own is None else np.ascontiguousarray(own(around), np.float64)
-
-    def _follows(self, block: Block) -> bool:
-        return self._subspace is not None and len(self._subspace) == block.size
-
-    def _specified(self, around: Surroundings, width: int) -> Basis:
-        rules, block, previous = self._rules, around.laplacian.block, self._subspace
-        if previous is None or not self._follows(block):
-            return key_dictionary(rules, around, width)
-        first = min(width, rules.iterated(block.size))
-        start = follow_columns(previous, first, in_pieces(block))
-        subspace = orthogonal_iteration(
-            around.factor, start, power=rules.power, iterations=rules.iterations, width=first, apart=rules.apart
+    def __init__(self, rules: ChainRules, blocks: Blocks) -> None:
+        graph, self._own = blocks.graph, rules.overrides
+        super().__init__(
+            *(graph.offsets, graph.neighbors, blocks.cores, blocks.starts, blocks.edges, blocks.members),
+            exact=rules.exact,
+            springs=rules.springs,
+            power=rules.power,
+            iterations=rules.iterations,
+            key_iterations=rules.key_iterations,
+            apart=rules.apart,
+            key_interval=rules.key_interval,
+            whole=rules.whole,
+            shift=rules.shift,
         )
-        return completed(subspace, width)
 
-    def commit(self, block: Block, subspace: Basis, positions: Matrix) -> None:
-        """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""
-        self._subspace = subspace
-        if self._known is not None:
-            self._known.add(block, positions)
+    def begin(self, index: int) -> tuple[Indices, Matrix, Matrix]:
+        """Return the vertices of the next block, its prediction, shape (n_i, 3), and its weights in a blend."""
+        vertices, prediction, weights = super().begin(index)
+        if self._own is not AS_SPECIFIED:
+            self._site = Site(vertices, *self.site(), prediction)
+            if self._own.predictor is not None:
+                prediction = np.ascontiguousarray(self._own.predictor(self._site), np.float64)
+        return vertices, prediction, weights
+
+    def dictionary(self, width: int) -> Basis:
+        """U of the block, shape (n_i, width), a function of connectivity and earlier widths only."""
+        if self._own.dictionary is None:
+            return super().dictionary(width)
+        own = np.ascontiguousarray(self._own.dictionary(self._site, width, super().dictionary), np.float32)
+        self.give(own)
+        return own
+
+    def costs(self, width: int) -> tuple[float, float, float]:
+        """Work of the dictionary and of the rest of the block, nanoseconds, and memory, by decoders' estimate."""
+        dictionary, rest, memory = super().costs(width)
+        return dictionary if self._own.dictionary is None else 0.0, rest, memory

@@ -12,8 +12,8 @@ import numpy.typing as npt
 
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Basis, Integers, Levels, Matrix
-from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
+from bsm.codec.basis.laplacian import solver_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks
 
 
@@ -121,9 +121,8 @@ class MeasuredSpectrum:
         """The lowest `width` frequencies, not rising; the first columns of a dictionary do not depend on later ones."""
         energy, count = np.zeros(width), np.zeros(width)
         for block in self._samples:
-            start = first_columns(block.size, min(width, block.size), False)
-            factor = factorize(laplacian_of(block), self._shift)
-            subspace = orthogonal_iteration(factor, start, power=1, iterations=1)
+            start = cosine_columns(block.size, min(width, block.size)).astype(np.float32)
+            subspace = solver_of(block, self._shift).iterate(start, 1, 1)
             coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])
             energy[: block.size] += np.square(coefficients).mean(axis=1)
             count[: block.size] += 1

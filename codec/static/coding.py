@@ -85,8 +85,6 @@ class Adaptive:
 
 KEY_SEEDS = ("cosines", "svd")  # where a block without predecessor begins
 
-STIFFNESS = 8.0  # of the springs on which a block hangs, a constant of the law; half of it costs 1.0 %, twice 1.6 %
-
 
 @dataclass(frozen=True, eq=False)
 class Scheme:
@@ -111,7 +109,7 @@ class Scheme:
             iterations=rules.iterations,
             key_iterations=rules.key_iterations,
             shift=rules.shift,
-            springs=int(rules.stiffness > 0.0),
+            springs=int(rules.springs),
         )
         return {
             "blocks": self.blocks.count,
@@ -131,6 +129,6 @@ def rules_of(paper: Paper, key_interval: int = 0, whole: int = 0) -> ChainRules:
         iterations=paper.iterations,
         key_iterations=paper.key_iterations,
         shift=paper.shift,
-        stiffness=STIFFNESS if paper.springs else 0.0,
+        springs=bool(paper.springs),
         whole=whole,
     )

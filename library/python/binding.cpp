@@ -12,7 +12,10 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
+#include "bitstream/kernel.hpp"
+
 extern "C" {
+#include "library/python/chaining.h"
 #include "library/python/inside.h"
 }
 
@@ -89,6 +92,12 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
 nb::object error_of(const bsmdec_error &error, const nb::object &limits, const nb::object &state) {
     return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
         (int)error.status, text_of(error.message), error.offset, error.frame, error.block, limits, state);
+}
+
+// What an encoder cannot do.
+[[noreturn]] void raise_of_encoder(const bsmdec_error &error) {
+    nb::object limits = nb::module_::import_("bsm.bitstream.limits").attr("DEFAULT_LIMITS");
+    raise(error_of(error, limits, nb::make_tuple(0, 0, 0, 0, 0, 0, 0)));
 }
 
 // Python threads that share an object take turns: results are copied before the next call begins.
@@ -287,9 +296,7 @@ class Output {
     Output(const Output &) = delete;
 
     template <typename Work> void run(Work work) {
-        if (unlocked(work)) return;
-        nb::object limits = nb::module_::import_("bsm.bitstream.limits").attr("DEFAULT_LIMITS");
-        raise(error_of(*encoding_error(encoding), limits, nb::make_tuple(0, 0, 0, 0, 0, 0, 0)));
+        if (!unlocked(work)) raise_of_encoder(*encoding_error(encoding));
     }
 
     nb::list payloads() const {
@@ -486,6 +493,105 @@ class Field : public Shared, Output {
     }
 };
 
+// What steps through blocks (see chaining.h).
+class Steps : public Shared {
+  public:
+    Steps() : chain(open_chain()) {
+        if (chain == nullptr) throw std::bad_alloc();
+    }
+    ~Steps() { close_chain(chain); }
+    Steps(const Steps &) = delete;
+
+  protected:
+    CodedChain *chain;
+    template <typename Work> void run(Work work) {
+        if (!unlocked(work)) raise_of_encoder(*chain_error(chain));
+    }
+};
+
+class Chain : public Steps {
+  public:
+    Chain(ConstInts offsets, ConstInts neighbors, ConstInts cores, ConstLongs starts, ConstLongs edges,
+        ConstInts members, bool exact, bool springs, int power, int iterations, int key_iterations, int apart,
+        int64_t key_interval, int64_t whole, double shift) {
+        ChainRules rules = {exact, springs, power, iterations, key_iterations, apart, key_interval, whole, shift};
+        run([&] { return begin_coded_chain(chain, rules, offsets, neighbors, cores, starts, edges, members); });
+    }
+    // Hang the parts that blocks grew from on each other, by a first frame.
+    void hang(ConstInts2 faces, ConstDoubles2 first_frame) {
+        run([&] { return hang_parts(chain, faces, first_frame); });
+    }
+    // Vertices of the next block, what continues the known ones, and weights in a blend.
+    nb::tuple begin(int64_t index) {
+        run([&] { return begin_coded_block(chain, index); });
+        const CodedBlock &block = *present_block(chain);
+        return nb::make_tuple(copy(block.vertices), copy(block.continued), copy(block.weights));
+    }
+    // Its graph, springs and pulls.
+    nb::tuple site() {
+        const CodedBlock &block = *present_block(chain);
+        return nb::make_tuple(copy(block.offsets), copy(block.neighbors), copy(block.springs), copy(block.pulls));
+    }
+    nb::tuple costs(int64_t width) {
+        return nb::make_tuple(dictionary_work_of(chain, width), block_work_of(chain, width),
+            block_memory_of(chain, width));
+    }
+    nb::object dictionary(int64_t width) {
+        run([&] { return make_coded_dictionary(chain, width); });
+        ConstSingles2 made = present_dictionary(chain);
+        return copy_of(made.data, "float32", (size_t)made.rows, (size_t)made.columns);
+    }
+    void give(ConstSingles2 own) {
+        run([&] { return give_dictionary(chain, own); });
+    }
+    void commit(int64_t width, ConstDoubles2 positions) {
+        run([&] { return commit_coded_block(chain, width, positions); });
+    }
+
+  private:
+    friend class Part;
+    static nb::object copy(ConstInts from) { return copy_of(from.data, "int32", (size_t)from.size); }
+    static nb::object copy(ConstDoubles from) { return copy_of(from.data, "float64", (size_t)from.size); }
+    static nb::object copy(ConstDoubles2 from) { return copy_of(from.data, "float64", (size_t)from.rows, 3); }
+};
+
+// A part of a mesh whose frames move, of a chain that stays, and its dictionary.
+class Part : public Steps {
+  public:
+    Part(const Chain &whole, int64_t index) {
+        run([&] { return begin_coded_part(chain, whole.chain, index); });
+        part = present_part(chain);
+    }
+    // Vertices, those around it, columns, and bytes that decoders keep of it and take for making its dictionary.
+    nb::tuple facts() {
+        return nb::make_tuple(Chain::copy(part->vertices), Chain::copy(part->around), part->width, part->memory,
+            part->making);
+    }
+    void coefficients(ConstDoubles2 values, ConstDoubles2 ends, Doubles2 found) {
+        run([&] { return part_coefficients(chain, values, ends, found); });
+    }
+    void values(ConstDoubles2 coefficients, ConstDoubles2 ends, Doubles2 found) {
+        run([&] { return part_values(chain, coefficients, ends, found); });
+    }
+
+  private:
+    const CodedPart *part;
+};
+
+// The graph of a block, and iterations with it.
+class Solver : public Steps {
+  public:
+    Solver(ConstInts offsets, ConstInts neighbors, ConstDoubles shift) {
+        run([&] { return begin_solver(chain, offsets, neighbors, shift); });
+    }
+    nb::object iterate(ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart) {
+        Array made = array_of("float32", (size_t)start.rows, (size_t)start.columns);
+        Singles2 subspace = {(float *)made.data, start.rows, start.columns};
+        run([&] { return solve_iterations(chain, start, power, iterations, apart, subspace); });
+        return made.numpy;
+    }
+};
+
 }  // namespace
 
 // Types of Python in signatures.
@@ -494,6 +600,7 @@ class Field : public Shared, Output {
 #define BYTES ARRAY(uint8)
 #define INTS ARRAY(int32)
 #define LONGS ARRAY(int64)
+#define SINGLES ARRAY(float32)
 #define DOUBLES ARRAY(float64)
 #define CHANGES "tuple[" INTS ", " DOUBLES ", " ARRAY(bool_) "]"
 
@@ -541,6 +648,33 @@ NB_MODULE(_core, m) {
         .def("read", in_turn(&Field::read), "payload"_a, "count"_a,
             SIG("read(self, payload: bytes, count: int) -> " INTS))
         .def_prop_ro("order", in_turn(&Field::order), SIG("order(self) -> typing.Any"));
+    nb::class_<Chain>(m, "Chain")
+        .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,
+                 int, int64_t, int64_t, double>(),
+            "offsets"_a, "neighbors"_a, "cores"_a, "starts"_a, "edges"_a, "members"_a, nb::kw_only(), "exact"_a, "springs"_a,
+            "power"_a, "iterations"_a, "key_iterations"_a, "apart"_a, "key_interval"_a, "whole"_a, "shift"_a,
+            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
+        .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a)
+        .def("begin", in_turn(&Chain::begin), "index"_a,
+            SIG("begin(self, index: int) -> tuple[" INTS ", " DOUBLES ", " DOUBLES "]"))
+        .def("site", in_turn(&Chain::site), SIG("site(self) -> tuple[" INTS ", " INTS ", " DOUBLES ", " DOUBLES "]"))
+        .def("costs", in_turn(&Chain::costs), "width"_a, SIG("costs(self, width: int) -> tuple[float, float, float]"))
+        .def("dictionary", in_turn(&Chain::dictionary), "width"_a, SIG("dictionary(self, width: int) -> " SINGLES))
+        .def("give", in_turn(&Chain::give), "own"_a, SIG("give(self, own: " SINGLES ") -> None"))
+        .def("commit", in_turn(&Chain::commit), "width"_a, "positions"_a,
+            SIG("commit(self, width: int, positions: " DOUBLES ") -> None"));
+    nb::class_<Part>(m, "Part")
+        .def(nb::init<const Chain &, int64_t>(), "whole"_a, "index"_a, nb::keep_alive<1, 2>())
+        .def("facts", in_turn(&Part::facts),
+            SIG("facts(self) -> tuple[" INTS ", " INTS ", int, float, float]"))
+        .def("coefficients", in_turn(&Part::coefficients), "values"_a, "ends"_a, "found"_a)
+        .def("values", in_turn(&Part::values), "coefficients"_a, "ends"_a, "found"_a);
+    nb::class_<Solver>(m, "Solver")
+        .def(nb::init<ConstInts, ConstInts, ConstDoubles>(), "offsets"_a, "neighbors"_a, "shift"_a,
+            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+        .def("iterate", in_turn(&Solver::iterate), "start"_a, "power"_a, "iterations"_a, "apart"_a = 0,
+            SIG("iterate(self, start: " SINGLES ", power: int, iterations: int, apart: int = 0) -> " SINGLES));
     nb::class_<Decoder>(m, "Decoder")
         .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1,
             "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)

@@ -24,13 +24,14 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from bsm._core import Solver
 from bsm.bitstream.errors import ArgumentError, OptionError
-from bsm.codec.basis.laplacian import Factor, dense_laplacian, factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import orthogonal_iteration
+from bsm.codec.basis.laplacian import dense_laplacian, solver_of
 from bsm.codec.blocks.overlap import Partition, partition_of_labels
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.chain import Columns, Overrides, Surroundings
+from bsm.codec.signal import chain
+from bsm.codec.signal.chain import Columns, Overrides
 from bsm.codec.static.choice.blocks import MOST_APART, Spectral
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
@@ -251,19 +252,19 @@ def dynamic(
     prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, Idea(), options)
     how, found, basis = options.paper, list[Sized](), np.empty((0, 0))
     for block in (prepared.blocks.block(index) for index in range(prepared.blocks.count)):
-        factor = factorize(laplacian_of(block), how.shift)
+        solver = solver_of(block, how.shift)
         if len(basis) != block.size:
             basis = np.linalg.eigh(dense_laplacian(block))[1][:, :first]
-        iterate = partial(_iterated, factor, how.power)
+        iterate = partial(_iterated, solver, how.power)
         found.append(algorithm_2(basis, prepared.positions[block.vertices], iterate, eps, norm=norm, most=most))
         basis = found[-1].basis
     return found
 
 
-def _iterated(factor: Factor, power: int, start: Floats) -> Floats:
+def _iterated(solver: Solver, power: int, start: Floats) -> Floats:
     apart = min(power, MOST_APART) if power > 1 else 0
     columns = np.ascontiguousarray(start, np.float32)
-    return orthogonal_iteration(factor, columns, power=power, iterations=1, apart=apart).astype(np.float64)
+    return solver.iterate(columns, power, 1, apart).astype(np.float64)
 
 
 def _tried(idea: Idea, options: EncodeOptions) -> Any:
@@ -307,17 +308,12 @@ def _decoded(prepared: Prepared, draft: Draft, options: EncodeOptions) -> Triang
 def _overrides(idea: Idea) -> Overrides:
     """Return an idea as overrides of the codec, which check the results of its functions."""
 
-    def site_of(around: Surroundings, columns: Columns | None = None) -> Site:
-        block = around.laplacian.block
-        known = around.springs, around.pulls, around.continuation
-        return Site(block.vertices, block.offsets, block.neighbors, *known, columns)
-
-    def dictionary(around: Surroundings, width: int, columns: Columns) -> Floats:
-        site = site_of(around, columns)
+    def dictionary(known: chain.Site, width: int, columns: Columns) -> Floats:
+        site = Site(*known, columns)
         return _checked("dictionary", (idea.dictionary or Site.ours)(site, width), (site.size, width))
 
-    def predictor(around: Surroundings) -> Floats:
-        site = site_of(around)
+    def predictor(known: chain.Site) -> Floats:
+        site = Site(*known)
         return _checked("predictor", idea.predictor(site) if idea.predictor else site.prediction, (site.size, 3))
 
     return Overrides(

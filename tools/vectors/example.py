@@ -73,15 +73,16 @@ def _numbers(stream: bytes) -> list[str]:
     assert isinstance(header, Header)
     mesh = decode(stream)
     graph = graph_of_faces(mesh.faces, header.vertices)
-    block = grow_blocks(graph, derive_partition(graph, header.blocks), header.block_size).block(0)
+    blocks = grow_blocks(graph, derive_partition(graph, header.blocks), header.block_size)
     payload = frames_of(stream)[2][1]
     levels = decode_coefficients(CoefficientModel(header.coefficients), payload[2:], payload[1])
-    chain = Chain(rules_of(header.constants, header.key_interval), graph)
-    subspace = chain.dictionary(chain.around(block), payload[1])
+    chain = Chain(rules_of(header.constants, header.key_interval), blocks)
+    vertices = chain.begin(0)[0]
+    subspace = chain.dictionary(payload[1])
     coefficients = points_of_levels(levels) * (header.step / 2)
     return [
         "The faces are " + ", ".join(f"({a} {b} {c})" for a, b, c in mesh.faces.tolist()) + ".",
-        "The rows of the only block are the vertices " + " ".join(map(str, block.vertices.tolist())) + ".",
+        "The rows of the only block are the vertices " + " ".join(map(str, vertices.tolist())) + ".",
         "Its levels, and their coefficients:",
         "",
         *(f"    {_row(a, '4d')}    {_row(b, '9.6f')}" for a, b in zip(levels, coefficients)),

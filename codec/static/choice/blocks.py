@@ -19,7 +19,7 @@ from bsm.codec.signal.transform import packed_range, smallest_step
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.choice.shaping import Aim
-from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
+from bsm.codec.static.coding import Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
@@ -172,7 +172,7 @@ class Spectral:
             iterations=paper.iterations,
             key_iterations=paper.key_iterations,
             shift=single(paper.shift),
-            stiffness=STIFFNESS if paper.predict and paper.bits is None else 0.0,
+            springs=paper.predict and paper.bits is None,
             apart=min(paper.power, MOST_APART) if paper.bits is not None and paper.power > 1 else 0,
             overrides=self._overrides,
         )
@@ -200,12 +200,11 @@ class Spectral:
 
         def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
-            chain, sizes, found = Chain(rules, blocks.graph), sizing.begin(), np.zeros(2)
+            chain, sizes, found = Chain(rules, blocks), sizing.begin(), np.zeros(2)
             for index in indices:
-                block = blocks.block(index)
-                around, own = chain.around(block), positions[block.vertices]
-                dictionary, coefficients = offer(chain, around, own, width, sizes, charge)
-                chain.commit(block, dictionary, own)
+                own = positions[chain.begin(index)[0]]
+                dictionary, coefficients = offer(chain, own, width, sizes, charge)
+                chain.commit(dictionary.shape[1], own)
                 magnitudes = np.abs(coefficients)
                 found = np.maximum(found, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)])
             return found

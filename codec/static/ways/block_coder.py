@@ -11,19 +11,16 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.arrays import Basis, Indices, Matrix
-from bsm.codec.basis.laplacian import factor_cost, iteration_memory, solve_cost
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
-from bsm.codec.blocks.overlap import Blend, degree_weights
+from bsm.codec.blocks.overlap import Blend
 from bsm.codec.progress import Progress
-from bsm.codec.signal.chain import Chain, Surroundings
+from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.transform import project, reconstruct
 from bsm.codec.static.coding import Ground, Scheme
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.threads import ordered_map
 
 FRAME = 5  # bytes of a block's frame besides its levels, at least
-# Nanoseconds of a processor core by which decoders estimate: a block, each of its rows, each edge of these, each level.
-BLOCK, ROW, LOOK, LEVEL = 1.45e5, 600.0, 25.0, 90.0
 Charge = Callable[[float], None]
 """Takes the work in nanoseconds before it is done, and may refuse it by raising `LimitError`."""
 
@@ -69,15 +66,15 @@ class Sizing:
 
 
 def offer(
-    chain: Chain, around: Surroundings, residual: Matrix, most: int, sizes: DynamicSize | None, charge: Charge | None
+    chain: Chain, residual: Matrix, most: int, sizes: DynamicSize | None, charge: Charge | None
 ) -> tuple[Basis, Matrix]:
     """U of a block with c_i columns, and its coefficients of a residual; no column depends on how many are tried."""
     most = min(most, len(residual))
     tried = most if sizes is None else min(most, sizes.reach)
     while True:
         if charge is not None:
-            charge(chain.work(around, tried))
-        dictionary = chain.dictionary(around, tried)
+            charge(chain.costs(tried)[0])
+        dictionary = chain.dictionary(tried)
         coefficients = project(dictionary, residual, dictionary.shape[1])
         if sizes is None:
             return dictionary, coefficients
@@ -97,31 +94,24 @@ class ChainEncoder:
     """Encodes the blocks of one chain, in their order."""
 
     def __init__(self, scheme: Scheme, sizing: Sizing, charge: Charge | None = None) -> None:
-        self._scheme = scheme
         self._charge = charge
         self._most, self._sizes = sizing.most, sizing.begin()
-        self._chain = Chain(scheme.rules, scheme.blocks.graph)
+        self._chain = Chain(scheme.rules, scheme.blocks)
         self._coding = scheme.coding.begin()
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
         """Encode the block of an index; `positions`, shape (n, 3), are those of all vertices, in BSM units."""
-        scheme, chain, coding = self._scheme, self._chain, self._coding
-        block = scheme.blocks.block(index)
-        around = chain.around(block)
-        prediction = chain.continuation(around)
-        residual = positions[block.vertices] - prediction
-        dictionary, coefficients = offer(chain, around, residual, self._most, self._sizes, self._charge)
-        ground = Ground(prediction, dictionary)
+        chain, coding = self._chain, self._coding
+        vertices, prediction, weights = chain.begin(index)
+        residual = positions[vertices] - prediction
+        dictionary, coefficients = offer(chain, residual, self._most, self._sizes, self._charge)
         levels = coding.choose(coefficients, self._sizes is not None)
-        decoded = coding.positions(ground, levels)
+        decoded = coding.positions(Ground(prediction, dictionary), levels)
         coded = len(levels)
-        work = BLOCK + ROW * block.size + LOOK * int(scheme.blocks.edges[index]) + LEVEL * 3 * coded
-        fronts = around.laplacian.fronts  # known vertices are extended into the block, and its coefficients added
-        work += chain.work(around, coded) + factor_cost(fronts) + solve_cost(fronts, 3) + 1.5 * block.size * coded
-        chain.commit(block, np.ascontiguousarray(dictionary[:, :coded]), decoded)
+        *work, memory = chain.costs(coded)
+        chain.commit(coded, decoded)
         packet = packets.Block(index, coded, coding.write(levels))
-        result = DecodedBlock(index, block.vertices, decoded, degree_weights(block.degrees))
-        return CodedBlock(packet, result, work, iteration_memory(fronts, coded))
+        return CodedBlock(packet, DecodedBlock(index, vertices, decoded, weights), sum(work), memory)
 
 
 def encode_blocks(

@@ -17,8 +17,8 @@ from scipy.sparse.linalg import eigsh
 from threadpoolctl import threadpool_limits
 
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import first_columns, hash_columns, orthogonal_iteration
+from bsm.codec.basis.laplacian import dense_laplacian, solver_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, derive_partition, grow_blocks
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
@@ -52,7 +52,9 @@ EXACT = (
     Solver("scipy eigh, evr, subset", lambda a, c: scipy.linalg.eigh(a, subset_by_index=[0, c - 1])[1]),
     Solver(
         "ARPACK, shift-invert",
-        lambda a, c: eigsh(csc_matrix(a), c, sigma=-SHIFT, which="LM", v0=hash_columns(len(a), 1)[:, 0])[1],
+        lambda a, c: eigsh(
+            csc_matrix(a), c, sigma=-SHIFT, which="LM", v0=np.random.default_rng(0).uniform(-1.0, 1.0, len(a))
+        )[1],
     ),
 )
 
@@ -135,9 +137,8 @@ def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
 
 
 def iterated(block: Block, width: int, power: int) -> Matrix:
-    start = first_columns(block.size, min(width, block.size), False)
-    basis = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
-    return basis.astype(np.float64)
+    start = cosine_columns(block.size, min(width, block.size)).astype(np.float32)
+    return solver_of(block, SHIFT).iterate(start, power, 1).astype(np.float64)
 
 
 def bench_tables(result: Result) -> str:

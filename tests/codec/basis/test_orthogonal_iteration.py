@@ -1,24 +1,41 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.linalg
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import Encoder, NumericError, decode
-from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import (
-    DynamicSize,
-    completed,
-    cosine_columns,
-    exact_basis,
-    first_columns,
-    hash_columns,
-    orthogonal_iteration,
-)
-from bsm.codec.blocks.overlap import Block
+from bsm import Encoder, TriangleMesh, decode
+from bsm._core import Solver
+from bsm.codec.basis.laplacian import dense_laplacian, solver_of
+from bsm.codec.basis.orthogonal_iteration import DynamicSize, cosine_columns
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.options import encode_options
 from tests.codec.basis.test_laplacian import unordered as whole
 from tests.shapes import patch, torus
+
+
+RULES = ChainRules(exact=False, key_interval=1, power=2, iterations=1, key_iterations=1, shift=0.125, springs=False)
+
+
+def hash_columns(rows, columns):
+    return np.random.default_rng(0).uniform(-1.0, 1.0, (rows, columns))
+
+
+def cosines(rows, width):
+    return cosine_columns(rows, width).astype(np.float32)
+
+
+def chain_of(mesh, rules):
+    """A chain of one block, begun; and its Laplacian."""
+    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    blocks = grow_blocks(graph, derive_partition(graph, 1), graph.size)
+    chain = Chain(rules, blocks)
+    chain.begin(0)
+    return chain, dense_laplacian(blocks.block(0))
 
 
 def test_iterations_converge_to_the_lowest_eigenvectors():
@@ -26,9 +43,7 @@ def test_iterations_converge_to_the_lowest_eigenvectors():
     block = whole(mesh.faces, len(mesh.positions))
     values, vectors = scipy.linalg.eigh(dense_laplacian(block))
     width = 10 + int(np.argmax(np.diff(values)[9:30]))
-    subspace = orthogonal_iteration(
-        factorize(laplacian_of(block), 0.01), first_columns(block.size, width, noisy=False), power=4, iterations=60
-    )
+    subspace = solver_of(block, 0.01).iterate(cosines(block.size, width), 4, 60)
     exact = vectors[:, :width]
     assert np.linalg.norm(subspace - exact @ (exact.T @ subspace)) < 1e-4
 
@@ -36,9 +51,8 @@ def test_iterations_converge_to_the_lowest_eigenvectors():
 @pytest.mark.parametrize("mesh", [patch(17, 23), torus(20, 20)])
 def test_the_exact_basis_is_exact_to_the_tolerance_that_it_states(mesh):
     """Its Rayleigh quotients against LAPACK's eigenvalues, of a torus with many equal ones too."""
-    block = whole(mesh.faces, len(mesh.positions))
-    matrix = dense_laplacian(block)
-    basis = exact_basis(laplacian_of(block), first_columns(block.size, 57, noisy=True), 0.01)
+    chain, matrix = chain_of(mesh, replace(RULES, exact=True))
+    basis = chain.dictionary(57)
     assert np.allclose(basis.T @ basis, np.eye(57), atol=1e-5)
     quotients = np.cumsum(np.einsum("ij,ij->j", basis, matrix @ basis) + 0.01)
     least = np.cumsum(np.linalg.eigvalsh(matrix)[:57] + 0.01)
@@ -48,30 +62,23 @@ def test_the_exact_basis_is_exact_to_the_tolerance_that_it_states(mesh):
 
 def test_a_truncated_start_gives_the_truncated_subspace():
     block = whole(patch(15, 15).faces, 225)
-    factor = factorize(laplacian_of(block), 0.125)
-    wide = orthogonal_iteration(factor, first_columns(225, 30, noisy=False), power=2, iterations=1)
-    narrow = orthogonal_iteration(factor, first_columns(225, 12, noisy=False), power=2, iterations=1)
+    solver = solver_of(block, 0.125)
+    wide, narrow = solver.iterate(cosines(225, 30), 2, 1), solver.iterate(cosines(225, 12), 2, 1)
     assert np.array_equal(wide[:, :12], narrow)
 
 
-@pytest.mark.parametrize(
-    ("rows", "first", "width"), [(2, 1, 2), (5, 2, 5), (33, 11, 30), (321, 107, 321), (322, 108, 200)]
-)
-def test_columns_are_completed_by_orthogonal_ones(rows, first, width):
-    columns = np.linalg.qr(cosine_columns(rows, first) + 0.3 * hash_columns(rows, first))[0].astype(np.float32)
-    columns *= np.sign(columns[:1])
-    found = completed(columns, width)
-    assert np.array_equal(found[:, :first], columns)
+@pytest.mark.parametrize(("rows", "width"), [(3, 3), (20, 20), (48, 37), (225, 225), (224, 150)])
+def test_columns_are_completed_by_orthogonal_ones(rows, width):
+    first = -(-rows // 2)
+    fan = TriangleMesh(np.zeros((rows, 3)), np.array([[0, i, i + 1] for i in range(1, rows - 1)], np.int32))
+    chain, _ = chain_of(fan, replace(RULES, whole=rows))
+    found = chain.dictionary(width).astype(float)
+    columns = found[:, :first]
     assert np.allclose(found.T @ found, np.eye(width), rtol=0, atol=1e-5)
     both = columns + np.eye(rows, first)
     reflected = np.eye(rows) - both @ np.linalg.solve(both[:first].T, both.T)
     assert np.allclose(found[:, first:], reflected[:, first:width], rtol=0, atol=1e-5)
-    assert np.allclose(completed(columns, first + 1), found[:, : first + 1], rtol=0, atol=0)
-
-
-def test_what_cannot_be_completed_is_an_error():
-    with pytest.raises(NumericError, match="completed"):
-        completed(-np.eye(6, 2, dtype=np.float32), 5)
+    assert np.allclose(chain.dictionary(first + 1), found[:, : first + 1], rtol=0, atol=0)
 
 
 def test_the_size_grows_over_the_upper_and_shrinks_under_the_lower_threshold():
@@ -103,9 +110,8 @@ SHAPES = [(1, 1), (5, 3), (9, 8), (40, 31), (64, 32), (65, 33), (90, 90), (200, 
 def onorm(columns):
     """Q of columns, which are rounded to single precision: an iteration without any solution."""
     size = len(columns)
-    alone = Block(np.arange(size, dtype=np.int32), np.zeros(size + 1, np.int32), np.empty(0, np.int32))
-    factor = factorize(laplacian_of(alone), 1.0)
-    return orthogonal_iteration(factor, columns.astype(np.float32), power=0, iterations=1).astype(float)
+    alone = Solver(np.zeros(size + 1, np.int32), np.empty(0, np.int32), np.ones(size))
+    return alone.iterate(columns.astype(np.float32), 0, 1).astype(float)
 
 
 def off(q):

@@ -1,28 +1,32 @@
 import numpy as np
 import pytest
 
-from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import first_columns, hash_columns, orthogonal_iteration
+from bsm.codec.basis.laplacian import solver_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.transform import MeasuredSpectrum, placed, project, reconstruct
 from tests.shapes import patch
 
 
+def noise(rows, columns):
+    return np.random.default_rng(0).uniform(-1.0, 1.0, (rows, columns))
+
+
 def basis(rows, columns):
-    return hash_columns(rows, columns).astype(np.float32)
+    return noise(rows, columns).astype(np.float32)
 
 
 @pytest.mark.parametrize("d", [1, 7, 8, 9, 31, 33, 71])
 @pytest.mark.parametrize("n", [1, 3, 8, 21])
 def test_a_column_is_the_same_to_the_last_bit_beside_any_others(n, d):
-    subspace, coefficients = basis(n, 9), hash_columns(d, 6).T.copy()
+    subspace, coefficients = basis(n, 9), noise(d, 6).T.copy()
     alone = [reconstruct(subspace, coefficients[:, column]) for column in range(d)]
     assert np.array_equal(reconstruct(subspace, coefficients), np.array(alone).T)
 
 
 def test_later_columns_change_no_bit():
-    subspace, values = basis(21, 9), hash_columns(21, 3)
+    subspace, values = basis(21, 9), noise(21, 3)
     narrow = np.ascontiguousarray(subspace[:, :4])
     coefficients = project(narrow, values, 4)
     assert np.array_equal(project(subspace, values, 4), coefficients)
@@ -47,8 +51,7 @@ def blocks_of(side: int, parts: int) -> Blocks:
 def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
     """Positions of a single block whose first `count` coefficients in x, y and z are all `amplitude`, and no others."""
     block = blocks.block(0)
-    start = first_columns(block.size, count, noisy=False)
-    subspace = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=1, iterations=1)
+    subspace = solver_of(block, SHIFT).iterate(cosine_columns(block.size, count).astype(np.float32), 1, 1)
     positions = np.zeros((block.size, 3))
     positions[block.vertices] = amplitude * subspace.sum(axis=1)[:, None]
     return positions

@@ -67,8 +67,8 @@ def test_each_block_has_the_least_size_for_its_error():
     blocks, found = encoder._input.prepared.blocks, []
     original = block_coder.offer
 
-    def recorded(chain, around, residual, *rest):
-        dictionary, coefficients = original(chain, around, residual, *rest)
+    def recorded(chain, residual, *rest):
+        dictionary, coefficients = original(chain, residual, *rest)
         found.append(np.linalg.norm(residual - dictionary.astype(float) @ coefficients))
         return dictionary, coefficients
 

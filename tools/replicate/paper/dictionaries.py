@@ -12,10 +12,9 @@ import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
 from bsm.codec.arrays import Basis, Positions
-from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
+from bsm.codec.basis.laplacian import dense_laplacian, solver_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blend, Block, degree_weights
-from bsm.codec.denoise.coarse import Weights
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.static.choice.blocks import MOST_APART
 from bsm.codec.static.options import Paper
@@ -44,10 +43,9 @@ def eigenvectors(block: Block, width: int) -> Floats:
 
 def iterated(block: Block, start: Floats | Basis, power: int, iterations: int = 1, shift: float = SHIFT) -> Floats:
     """U after orthogonal iterations from `start`, by the kernel of the codec."""
-    factor = factorize(laplacian_of(block), shift)
     begin = np.ascontiguousarray(start, np.float32)
     apart = min(power, MOST_APART) if power > 1 else 0
-    return orthogonal_iteration(factor, begin, power=power, iterations=iterations, apart=apart).astype(np.float64)
+    return solver_of(block, shift).iterate(begin, power, iterations, apart).astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +92,9 @@ class Cut:
 
     def cold(self, width: int, power: int) -> list[Floats]:
         """Dictionaries each from cosines."""
-        return [iterated(b, first_columns(b.size, min(width, b.size), False), power) for b in self.blocks]
+        return [iterated(b, cosine_columns(b.size, min(width, b.size)), power) for b in self.blocks]
 
-    def blended(
-        self, bases: Sequence[Floats], values: Positions, bits: int = 0, weights: Weights = degree_weights
-    ) -> Positions:
+    def blended(self, bases: Sequence[Floats], values: Positions, bits: int = 0) -> Positions:
         """What the blocks keep of values, shape (n, 3); coefficients are rounded if there are `bits`."""
         found = [center_and_coefficients(b, u, values) for b, u in zip(self.blocks, bases, strict=True)]
         if bits:
@@ -110,7 +106,7 @@ class Cut:
                     kept[rows] = np.rint(kept[rows] / step) * step
         blend = Blend(len(values))
         for block, basis, (center, kept) in zip(self.blocks, bases, found, strict=True):
-            blend.add(block.vertices, basis @ kept + center, weights(block.degrees))
+            blend.add(block.vertices, basis @ kept + center, degree_weights(block.degrees))
         return blend.all_positions()
 
     def decibels(self, bases: Sequence[Floats], values: Positions | None = None, bits: int = 0) -> float:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bsm import research
-from bsm.codec.basis.orthogonal_iteration import DynamicSize, follow_columns
+from bsm.codec.basis.orthogonal_iteration import DynamicSize, cosine_columns
 from tools.replicate.paper.dictionaries import Cut, Floats, iterated
 from tools.replicate.paper.figures import save_segments
 from tools.replicate.paper.models import Study
@@ -78,7 +78,8 @@ def codec_rule(cut: Cut, values: Floats, band: float, high: float) -> Track:
         size = None
         width = min(rule.reach, block.size)
         while size is None:
-            basis = iterated(block, follow_columns(previous, width, False), POWER)
+            start = np.hstack((previous, cosine_columns(block.size, width)[:, previous.shape[1] :]))
+            basis = iterated(block, start, POWER)
             kept = basis.T @ positions
             left = max(float(np.square(positions).sum() - np.square(kept).sum()), 0.0)
             size = rule.follow(left, kept)

@@ -1,0 +1,64 @@
+/* Blocks as encoders step through them: what the decoder does with each (codec/signal/chain.h), and levels in between. */
+#ifndef BSMDEC_CHAINING_H
+#define BSMDEC_CHAINING_H
+
+#include "codec/basis/basis.h"
+#include "library/bsmdec.h"
+
+/* One chain after the other, or a graph alone; and the first thing wrong. */
+typedef struct CodedChain CodedChain;
+CodedChain *open_chain(void);
+void close_chain(CodedChain *chain);
+const bsmdec_error *chain_error(const CodedChain *chain);
+
+/* The header's rules of dictionaries and chains; columns beyond half of `whole` rows are completed (M 8.7). */
+typedef struct {
+    bool exact, springs;
+    int power, iterations, key_iterations, apart;
+    int64_t key_interval, whole;
+    double shift;
+} ChainRules;
+/* All arrays stay with the caller, as long as the chain is used. */
+bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, ConstInts neighbors, ConstInts cores,
+    ConstLongs starts, ConstLongs edges, ConstInts members);
+
+/* A block that is not coded yet: its graph, the springs at its rows and their pulls, what continues those, and how much
+ * its rows count in a blend. */
+typedef struct {
+    ConstInts vertices, offsets, neighbors;
+    ConstDoubles springs, weights;
+    ConstDoubles2 pulls, continued;
+} CodedBlock;
+bool begin_coded_block(CodedChain *chain, int64_t index);
+const CodedBlock *present_block(const CodedChain *chain);
+/* Decoders' work for this block's dictionary of so many columns, for all of it with as many coefficients, and memory. */
+double dictionary_work_of(const CodedChain *chain, int64_t width);
+double block_work_of(const CodedChain *chain, int64_t width);
+double block_memory_of(const CodedChain *chain, int64_t width);
+/* U of this block, or one of the caller's: what the next functions take, until it is made again. */
+bool make_coded_dictionary(CodedChain *chain, int64_t width);
+bool give_dictionary(CodedChain *chain, ConstSingles2 own);
+ConstSingles2 present_dictionary(const CodedChain *chain);
+/* Positions become what the next block knows, and the first `width` columns its predecessor's U. */
+bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 positions);
+
+/* The parts that the blocks of a chain grew from, as decoders of sequences have them; then one of them with its
+ * dictionary, in memory of its own: several can be made at a time. */
+bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame);
+typedef struct {
+    ConstInts vertices, around;
+    int64_t width;
+    double memory, making; /* bytes that decoders keep of it besides its dictionary, and bytes for making that */
+} CodedPart;
+bool begin_coded_part(CodedChain *part, const CodedChain *whole, int64_t index);
+const CodedPart *present_part(const CodedChain *part);
+/* Coefficients of values less their extension from the `ends` around the part, and values of coefficients. */
+bool part_coefficients(CodedChain *part, ConstDoubles2 values, ConstDoubles2 ends, Doubles2 coefficients);
+bool part_values(CodedChain *part, ConstDoubles2 coefficients, ConstDoubles2 ends, Doubles2 values);
+
+/* A graph whose L + shift is factorized, row by row; U after iterations of Algorithm 1 from a start. */
+bool begin_solver(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstDoubles shift);
+bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart,
+    Singles2 subspace);
+
+#endif
