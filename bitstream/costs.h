@@ -1,5 +1,5 @@
-/* What decoding costs, in nanoseconds of a processor core and in bytes (specification, M 14.2, M 14.3):
- * codec/basis/laplacian.py and codec/static/ways/block_coder.py, term for term. */
+/* What decoding costs, in nanoseconds of a processor core and in bytes (specification, M 14.2, M 14.3),
+ * and what encoders hold against the limits of decoders. */
 #ifndef BSMDEC_COSTS_H
 #define BSMDEC_COSTS_H
 

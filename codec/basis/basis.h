@@ -4,7 +4,7 @@
 
 #include "bitstream/kernel.h"
 
-/* See laplacian.py. */
+/* The fronts of a block of n rows, in the order of elimination: see laplacian.py. */
 typedef struct {
     ConstWords rows, steps, owners, firsts, starts, borders, places;
     ConstDoubles sums;

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm import _core
+from bsm._core import Part as Coder
 from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.signal.chain import Chain
 from bsm.codec.static.coding import Scheme
@@ -17,7 +17,7 @@ from bsm.codec.threads import ordered_map
 class Part:
     """A part of the mesh: its vertices, shape (n_i,), those around it, (k_i,), and columns of its dictionary."""
 
-    coder: _core.Part
+    coder: Coder
     vertices: Indices
     around: Indices
     width: int
@@ -49,7 +49,7 @@ def make_parts(scheme: Scheme, faces: Faces, first_frame: Positions, threads: in
     whole.hang(faces, np.ascontiguousarray(first_frame))
 
     def make(index: int) -> Part:
-        coder = _core.Part(whole, index)
+        coder = Coder(whole, index)
         return Part(coder, *coder.facts())
 
     return tuple(ordered_map(make, range(scheme.blocks.count), threads))

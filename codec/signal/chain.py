@@ -18,7 +18,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from bsm import _core
+from bsm._core import Chain as Steps
 from bsm.codec.arrays import Basis, Indices, Matrix
 from bsm.codec.blocks.overlap import Blocks
 
@@ -85,7 +85,7 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
-class Chain(_core.Chain):
+class Chain(Steps):
     """The blocks of one chain after the other; a dictionary and predictions may be a user's."""
 
     def __init__(self, rules: ChainRules, blocks: Blocks) -> None:

@@ -17,7 +17,6 @@ from bsm.options import encode_options
 from tests.codec.basis.test_laplacian import unordered as whole
 from tests.shapes import patch, torus
 
-
 RULES = ChainRules(exact=False, key_interval=1, power=2, iterations=1, key_iterations=1, shift=0.125, springs=False)
 
 

@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.geometry.graph import components, graph_of_faces, mesh_edges, vertex_faces, vertex_neighbors
+from bsm.codec.geometry.graph import graph_of_faces, mesh_edges, vertex_faces, vertex_neighbors
 from bsm.codec.geometry.welding import weld
 
 

@@ -79,7 +79,7 @@ def codec_rule(cut: Cut, values: Floats, band: float, high: float) -> Track:
         width = min(rule.reach, block.size)
         while size is None:
             start = np.hstack((previous, cosine_columns(block.size, width)[:, previous.shape[1] :]))
-            basis = iterated(block, start, POWER)
+            basis = iterated(block, start.astype(np.float64), POWER)
             kept = basis.T @ positions
             left = max(float(np.square(positions).sum() - np.square(kept).sum()), 0.0)
             size = rule.follow(left, kept)
