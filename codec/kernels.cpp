@@ -12,10 +12,6 @@ extern "C" {
 #include "codec/static/choice/choice.h"
 }
 
-template <>
-struct nb::detail::type_caster<PredictionRules>
-    : nb::detail::TupleCaster<PredictionRules, double, double, double, double, int64_t, int64_t> {};
-
 BSM_STRUCT(Wanted, ConstDoubles2, ConstInts2, ConstLongs, ConstInts, ConstInts, ConstInts, ConstDoubles2, ConstDoubles)
 BSM_STRUCT(Aim, double, double, int64_t)
 BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts, ConstInts, double)
@@ -81,15 +77,16 @@ void bind_codec(nb::module_ &m) {
     m.def("place_block", checked<&place_block>, "prediction"_a, "subspace"_a, "levels"_a, "half_step"_a, "scratch"_a,
           "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbors"_a, "terms"_a, "degree"_a, Unlocked());
-    m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
-    m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbors"_a, "positions"_a, "weights"_a, "scratch"_a,
+    m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "amount"_a, "smoothed"_a, Unlocked());
+    m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbors"_a, "positions"_a, "amount"_a, "scratch"_a,
           "smoothed"_a, Unlocked());
     m.def("weigh_by_cotangents", &weigh_by_cotangents, "offsets"_a, "neighbors"_a, "faces"_a, "positions"_a,
           "weights"_a, Unlocked());
-    m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "rules"_a, "mean"_a, "row"_a,
+    m.def("bend_columns", &bend_columns, "part"_a, "positions"_a, "columns"_a, Unlocked());
+    m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "mean"_a, "row"_a,
         Unlocked());
     m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,
-        "moments"_a, "step"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, "values"_a, "ways"_a, "origins"_a,
+        "moments"_a, "step"_a, "factor"_a, "row"_a, "expected"_a, "values"_a, "ways"_a, "origins"_a,
         Unlocked());
     m.def("label_components", checked<&label_components>, "offsets"_a, "neighbors"_a, "waiting"_a, "labels"_a,
           Unlocked());

@@ -9,7 +9,7 @@
 #include "bitstream/pool.h"
 
 /* What a writer works with: its memory, and the first thing wrong. It must not be moved. */
-typedef struct {
+typedef struct Writer {
     Context context;
     Pool pool;
     Arena arena, scratch;

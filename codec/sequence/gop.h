@@ -6,7 +6,7 @@
 #include "codec/sequence/parts.h"
 
 enum { LEARNED, KEY_FRAMES, NEXT_FRAMES, LEARNED_NEXT };
-enum { BENDING = 19, INHERITED = 24, MOST_KEPT = 64, BATCH = 8 };
+enum { INHERITED = 24, MOST_KEPT = 64, BATCH = 8 };
 
 /* A field of a GOP: positions, or an attribute that moves; it is not coded if `step` is 0. */
 typedef struct {

@@ -6,6 +6,13 @@
 #include "bitstream/coefficients/coefficients.h"
 #include "codec/sequence/temporal.h"
 
+/* How much the past counts, per row, in the weights of the prediction; their regularization; energy in squared steps
+ * that is added to that of a row before the row is weighed by the inverse of it (half costs 0.3 %, twice saves 0.1 %);
+ * and as many rows the vertices around a block count for, together, before its first row. */
+static const double FORGETTING = 0.985, RIDGE = 0.004, NOISE = 30, AROUND = 30;
+/* First rows of a block, each with its own weights; after them the weights are made anew every `RENEWAL` rows. */
+enum { DENSE_ROWS = 16, RENEWAL = 8 };
+
 /* Rows of the Cholesky factor of moments + ridge I, extended over all columns. */
 INLINE void factorize_moments(Doubles2 moments, double ridge, double *factor) {
     int64_t size = moments.rows, width = moments.columns;
@@ -24,7 +31,7 @@ INLINE void factorize_moments(Doubles2 moments, double ridge, double *factor) {
 }
 
 /* Whether the weights of the prediction are made anew before row j. */
-INLINE bool is_renewed(PredictionRules rules, int64_t j) { return j < rules.dense_rows || j % rules.renewal == 0; }
+INLINE bool is_renewed(int64_t j) { return j < DENSE_ROWS || j % RENEWAL == 0; }
 
 /* What is expected of the columns behind b, which is `surprise` off, given what was: `before`, or `after` itself. */
 INLINE void expect_apart(
@@ -40,26 +47,26 @@ INLINE void expect_behind(const double *factor, int64_t width, int64_t b, double
 }
 
 /* Learn from row j, whose columns are all known. */
-INLINE void learn_row(Doubles2 moments, PredictionRules rules, double step, int64_t j, const double *now) {
+INLINE void learn_row(Doubles2 moments, double step, int64_t j, const double *now) {
     if (j == 0) return;
-    double energy = rules.noise * step * step;
+    double energy = NOISE * step * step;
     for (int64_t b = 0; b < moments.columns; b++) energy += now[b] * now[b];
     double weight = 1.0 / energy;
     for (int64_t a = 0; a < moments.rows; a++) {
         double share = weight * now[a], *line = moments.data + a * moments.columns;
-        for (int64_t b = a; b < moments.columns; b++) line[b] = rules.forgetting * line[b] + share * now[b];
+        for (int64_t b = a; b < moments.columns; b++) line[b] = FORGETTING * line[b] + share * now[b];
     }
 }
 
 /* Go through all rows: fills `decoded`. `factor`, `row` and `expected`, of the shape of `moments` and as long as its
  * rows, are scratch. */
 KERNEL void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded, Doubles2 moments, double step,
-    PredictionRules rules, Doubles2 factor, Doubles row, Doubles expected) {
+    Doubles2 factor, Doubles row, Doubles expected) {
     int64_t count = known.columns, size = moments.rows, width = moments.columns, coded = width - count;
     double *expect = expected.data, *now = row.data, half_step = 0.5 * step;
     int state = 0;
     for (int64_t j = 0; j < levels.rows; j++) {
-        if (is_renewed(rules, j)) factorize_moments(moments, rules.ridge, factor.data);
+        if (is_renewed(j)) factorize_moments(moments, RIDGE, factor.data);
         for (int64_t b = 0; b < width; b++) expect[b] = 0.0;
         for (int64_t b = 0; b < width; b++) {
             if (b < count) {
@@ -72,15 +79,15 @@ KERNEL void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded
             }
             if (b < size) expect_behind(factor.data, width, b, now[b] - expect[b], expect);
         }
-        learn_row(moments, rules, step, j, now);
+        learn_row(moments, step, j, now);
     }
 }
 
 /* Fills `moments` with what a loop begins with: how a field follows from `known` at vertices around, a row for each,
- * all of which together count as `rules.around` rows of the block. `mean` and `row`, as long as rows of `moments`, are
+ * all of which together count as `AROUND` rows of the block. `mean` and `row`, as long as rows of `moments`, are
  * scratch. */
-KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 moments, double step, PredictionRules rules,
-    Doubles mean, Doubles row) {
+KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 moments, double step, Doubles mean,
+    Doubles row) {
     int64_t count = known.columns, width = moments.columns, coded = width - count;
     double energy = 0.0, *now = row.data;
     for (int64_t i = 0; i < moments.rows * width; i++) moments.data[i] = 0.0;
@@ -100,7 +107,7 @@ KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 mome
             for (int64_t b = a; b < width; b++) line[b] += now[a] * now[b];
         }
     }
-    double weight = rules.around / ((double)known.rows * rules.noise * step * step + energy);
+    double weight = AROUND / ((double)known.rows * NOISE * step * step + energy);
     for (int64_t i = 0; i < moments.rows * width; i++) moments.data[i] *= weight;
 }
 
@@ -157,13 +164,13 @@ INLINE void weigh_levels(double before, double scaled, int grid, const int16_t *
  * price_matrix, `weight` the squared steps that a bit is worth. Scratch: `factor` and `row` as of follow_rows,
  * `expected` of 2 STATES + 1 rows, and of a row of STATES for each coded column `values`, `ways` and `origins`. */
 KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts prices, double weight, Ints2 levels,
-    Doubles2 decoded, Doubles2 moments, double step, PredictionRules rules, Doubles2 factor, Doubles row,
-    Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins) {
+    Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row, Doubles2 expected, Doubles2 values,
+    Ints2 ways, Bytes2 origins) {
     int64_t count = known.columns, size = moments.rows, width = moments.columns, coded = width - count;
     double *now = row.data, half_step = 0.5 * step, bit = 4.0 * weight / BIT_UNIT;
     int state = 0;
     for (int64_t j = 0; j < levels.rows; j++) {
-        if (is_renewed(rules, j)) factorize_moments(moments, rules.ridge, factor.data);
+        if (is_renewed(j)) factorize_moments(moments, RIDGE, factor.data);
         Survivors both[2], *new = &both[0];
         for (int s = 0; s < STATES; s++) {
             new->cost[s] = s == state ? 0.0 : NEVER;
@@ -218,6 +225,6 @@ KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts 
             decoded.data[j * coded + i] = now[count + i] = values.data[at];
             best = origins.data[at];
         }
-        learn_row(moments, rules, step, j, now);
+        learn_row(moments, step, j, now);
     }
 }

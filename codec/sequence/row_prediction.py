@@ -13,18 +13,6 @@ from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.signal.transform import LARGEST_LEVEL
 
 LEADING = 24  # columns of a row that help to predict the following ones
-FORGETTING = 0.985  # how much the past counts, per row, in the weights of the prediction
-RIDGE = 0.004  # regularization of the weights
-NOISE = 30.0
-"""Energy in squared steps that is added to that of a row before the row is weighed by the inverse of it;
-half costs 0.3 %, twice saves 0.1 %."""
-AROUND = 30.0  # as many rows the vertices around a block count for, together, before its first row
-DENSE_ROWS = 16
-"""First rows of a block, each with its own weights; after them the weights are renewed every `RENEWAL` rows."""
-RENEWAL = 8
-RULES = (FORGETTING, RIDGE, NOISE, AROUND, DENSE_ROWS, RENEWAL)
-
-
 WEIGHT = 0.1  # squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones
 
 
@@ -39,7 +27,7 @@ class Loop:
         """Learn, before the first row, from vertices around: known values there, shape (m, k), and a field, (m, r)."""
         self._check(known, field)
         given, width = (np.ascontiguousarray(known), np.ascontiguousarray(field)), self._moments.shape[1]
-        _kernels.learn_around(*given, self._moments, step, RULES, np.empty(width), np.empty(width))
+        _kernels.learn_around(*given, self._moments, step, np.empty(width), np.empty(width))
         return self
 
     def search(
@@ -52,7 +40,7 @@ class Loop:
         given = np.ascontiguousarray(known), np.ascontiguousarray(targets), prices.reshape(-1), weight
         scratch = np.zeros(self._moments.shape), np.empty(width), np.empty((2 * STATES + 1, width))
         tables = np.empty((coded, STATES)), np.empty((coded, STATES), np.int32), np.zeros((coded, STATES), np.uint8)
-        _kernels.search_rows(*given, levels, decoded, self._moments, step, RULES, *scratch, *tables)
+        _kernels.search_rows(*given, levels, decoded, self._moments, step, *scratch, *tables)
         if levels.size and max(levels.max(), -levels.min()) >= LARGEST_LEVEL:
             raise OptionError(f"a step of {step:g} is too fine for motion that far; choose a coarser one")
         return levels, decoded

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import reduce
-from itertools import combinations_with_replacement
-from operator import mul
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Matrix, sum_in_order
+from bsm.codec.arrays import Faces, Matrix
 from bsm.codec.sequence.dictionaries import Part, make_parts
 from bsm.codec.sequence.temporal import BATCH
 from bsm.codec.static.coding import Scheme
@@ -33,28 +31,14 @@ def frames_kept(vertices: int) -> int:
     return min(MOST_KEPT, max(LEAST_KEPT, KEPT // vertices))
 
 
-SQUARES, CUBES = 0.5, 0.3  # how much powers count beside positions; half and twice cost 0.2 to 0.5 %
-SMALLEST = 2.0**-24  # added to the squared radius of a part, in BSM units
-PRODUCTS = tuple(
-    (factor, axes)
-    for degree, factor in ((2, SQUARES), (3, CUBES))
-    for axes in combinations_with_replacement(range(3), degree)
-)
-BENDING_COLUMNS = 3 + len(PRODUCTS)
+BENDING_COLUMNS = 19  # positions, their squares and their cubes about a part
 
 
-def bending(part: Matrix, around: Matrix) -> tuple[Matrix, Matrix]:
-    """Positions of a part in its first frame and around it, followed by their squares and cubes about the part."""
-    center = sum_in_order(part) / len(part)
-    x, y, z = np.square(part - center).T
-    radius = float(np.sqrt(sum_in_order(x + y + z) / len(part) + SMALLEST))
-
-    def columns(positions: Matrix) -> Matrix:
-        own = (positions - center) / radius
-        powers = [reduce(mul, own.T[list(axes)], factor * radius) for factor, axes in PRODUCTS]
-        return np.column_stack([positions, *powers])
-
-    return columns(part), columns(around)
+def bending(part: Matrix, positions: Matrix) -> Matrix:
+    """Positions in the first frame, followed by their squares and cubes about those of a part."""
+    columns = np.empty((len(positions), BENDING_COLUMNS))
+    _kernels.bend_columns(part, positions, columns)
+    return columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,9 +101,11 @@ def make_setting(
     ends = np.cumsum([BENDING_COLUMNS, *widths])[:-1]
 
     def known(part: Part) -> tuple[list[Matrix], list[Matrix]]:
-        places = part.vertices, part.around
-        bent = bending(*(first_frame[vertices] for vertices in places))
-        here, around = (np.hstack([own, *(values[v] for values in moving)]) for own, v in zip(bent, places))
+        own = first_frame[part.vertices]
+        here, around = (
+            np.hstack([bending(own, first_frame[places]), *(values[places] for values in moving)])
+            for places in (part.vertices, part.around)
+        )
         return np.split(part.coefficients(here, around), ends, axis=1), np.split(around, ends, axis=1)
 
     pairs = list(ordered_map(known, parts, threads))

@@ -22,26 +22,6 @@ void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index) {
     assembly->lossy = true;
 }
 
-/* By divided differences. */
-void filter_polynomial(double amount, double *powers) {
-    static const double NODES_OF[POWERS] = {0.4, 0.9, 1.4, 1.8};
-    double table[POWERS], before[POWERS];
-    for (int i = 0; i < POWERS; i++) {
-        table[i] = -amount / (1.0 + amount * NODES_OF[i] * NODES_OF[i]);
-        powers[i] = 0.0;
-    }
-    for (int level = 1; level < POWERS; level++)
-        for (int i = POWERS - 1; i >= level; i--)
-            table[i] = (table[i] - table[i - 1]) / (NODES_OF[i] - NODES_OF[i - level]);
-    for (int i = POWERS - 1; i >= 0; i--) {
-        memcpy(before, powers, sizeof before);
-        for (int k = 0; k < POWERS; k++) {
-            double product = NODES_OF[i] * before[k];
-            powers[k] = (k > 0 ? before[k - 1] : table[i]) - product;
-        }
-    }
-}
-
 bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
     Doubles2 *positions) {
     int64_t n = graph->size;
@@ -55,11 +35,8 @@ bool blend_all(const Assembly *assembly, const Header *header, const Graph *grap
             double weight = assembly->blend.weights.data[i / 3];
             blended.data[i] = weight > 0.0 ? assembly->blend.sums.data[i] / weight : 0.0;
         }
-        double powers[POWERS];
-        filter_polynomial(header->smoothing, powers);
         if (smoothing)
-            smooth_all(graph->offsets, graph->neighbors, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room,
-                *positions);
+            smooth_all(graph->offsets, graph->neighbors, const_doubles2(blended), header->smoothing, room, *positions);
     }
     release_to(scratch, mark);
     return done;

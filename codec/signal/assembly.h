@@ -11,10 +11,6 @@ typedef struct {
     bool lossy;
 } Assembly;
 
-/* What the filter sums (M 12.3): p_2 to p_5. */
-enum { DEGREE = 5, POWERS = DEGREE - 1 };
-void filter_polynomial(double amount, double *powers);
-
 bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena);
 void add_block(Assembly *assembly, const DecodedBlock *block);
 void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index);

@@ -20,9 +20,12 @@ int64_t suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, Co
 int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
     Doubles scratch, Doubles2 positions);
 void apply_powers(ConstInts offsets, ConstInts neighbors, Doubles terms, int64_t degree);
-void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDoubles weights, Doubles2 smoothed);
-int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, ConstDoubles weights,
-                   Doubles scratch, Doubles2 smoothed);
+void combine_powers(ConstDoubles2 positions, ConstDoubles terms, double amount, Doubles2 smoothed);
+int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, double amount, Doubles scratch,
+    Doubles2 smoothed);
+/* What the filter sums (M 12.3): p_2 to p_5. */
+enum { DEGREE = 5, POWERS = DEGREE - 1 };
+void filter_polynomial(double amount, double *powers);
 int64_t find_rings(ConstInts offsets, ConstInts neighbors, Ints number, ConstInts vertices, Ints rows, Longs starts);
 void filter_rows(ConstInts offsets, ConstInts neighbors, ConstInts number, ConstDoubles2 positions,
     ConstDoubles weights, ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed);

@@ -1,6 +1,8 @@
 /* A polynomial of K = I - D^-1 A on positions (specification, M 12.2): sums over neighbors in ascending order. */
 #include "codec/signal/signal.h"
 
+#include <string.h>
+
 #include "codec/geometry/geometry.h"
 
 /* K V at one vertex. */
@@ -25,12 +27,34 @@ KERNEL void apply_powers(ConstInts offsets, ConstInts neighbors, Doubles terms, 
     }
 }
 
-/* V + the sum of weights[k] times term k, the terms one after the other. */
-KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDoubles weights, Doubles2 smoothed) {
+/* By divided differences. */
+void filter_polynomial(double amount, double *powers) {
+    static const double NODES_OF[POWERS] = {0.4, 0.9, 1.4, 1.8};
+    double table[POWERS], before[POWERS];
+    for (int i = 0; i < POWERS; i++) {
+        table[i] = -amount / (1.0 + amount * NODES_OF[i] * NODES_OF[i]);
+        powers[i] = 0.0;
+    }
+    for (int level = 1; level < POWERS; level++)
+        for (int i = POWERS - 1; i >= level; i--)
+            table[i] = (table[i] - table[i - 1]) / (NODES_OF[i] - NODES_OF[i - level]);
+    for (int i = POWERS - 1; i >= 0; i--) {
+        memcpy(before, powers, sizeof before);
+        for (int k = 0; k < POWERS; k++) {
+            double product = NODES_OF[i] * before[k];
+            powers[k] = (k > 0 ? before[k - 1] : table[i]) - product;
+        }
+    }
+}
+
+/* V + the sum of powers[k] times term k, the terms one after the other. */
+KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, double amount, Doubles2 smoothed) {
     int64_t size = 3 * positions.rows;
+    double powers[POWERS];
+    filter_polynomial(amount, powers);
     for (int64_t i = 0; i < size; i++) {
         double value = positions.data[i];
-        for (int64_t k = 0; k < weights.size; k++) value += weights.data[k] * terms.data[k * size + i];
+        for (int64_t k = 0; k < POWERS; k++) value += powers[k] * terms.data[k * size + i];
         smoothed.data[i] = value;
     }
 }
@@ -46,18 +70,19 @@ KERNEL OFTEN static void apply_once(ConstInts offsets, ConstInts neighbors, cons
     }
 }
 
-/* The same for one amount: `weights` of K^2 V and those after it. `scratch` has room for 6 n + 2 numbers. */
-KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, ConstDoubles weights,
-                          Doubles scratch, Doubles2 smoothed) {
+/* The same for one amount. `scratch` has room for 6 n + 2 numbers. */
+KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, double amount,
+    Doubles scratch, Doubles2 smoothed) {
     int64_t n = offsets.size - 1;
     if (!fits_graph(offsets, neighbors) || positions.rows != n || positions.columns != 3 || smoothed.rows != n
         || smoothed.columns != 3 || scratch.size < 6 * n + 2)
         return MISUSED;
-    double *values = scratch.data, *result = scratch.data + 3 * n + 1;
+    double *values = scratch.data, *result = scratch.data + 3 * n + 1, powers[POWERS];
+    filter_polynomial(amount, powers);
     for (int64_t i = 0; i < 3 * n; i++) values[i] = smoothed.data[i] = positions.data[i];
     values[3 * n] = result[3 * n] = 0.0;
-    for (int64_t k = 0; k <= weights.size; k++) {
-        apply_once(offsets, neighbors, values, result, k > 0, k > 0 ? weights.data[k - 1] : 0.0, smoothed.data);
+    for (int64_t k = 0; k < DEGREE; k++) {
+        apply_once(offsets, neighbors, values, result, k > 0, k > 0 ? powers[k - 1] : 0.0, smoothed.data);
         double *other = values;
         values = result;
         result = other;

@@ -20,20 +20,6 @@ from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
 
 DEGREE = 5
-NODES = (0.4, 0.9, 1.4, 1.8)
-
-
-def filter_polynomial(amount: float) -> Matrix:
-    """Coefficients p_2 .. p_5 of p(x) = 1 + p_2 x^2 + ... + p_5 x^5, shape (DEGREE - 1,)."""
-    table = [-amount / (1.0 + amount * x * x) for x in NODES]
-    for level in range(1, len(NODES)):
-        for i in range(len(NODES) - 1, level - 1, -1):
-            table[i] = (table[i] - table[i - 1]) / (NODES[i] - NODES[i - level])
-    powers = [0.0] * len(NODES)
-    for i in range(len(NODES) - 1, -1, -1):
-        # powers := powers * (x - node) + table entry
-        powers = [(powers[k - 1] if k else table[i]) - NODES[i] * powers[k] for k in range(len(NODES))]
-    return np.array(powers)
 
 
 def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
@@ -42,7 +28,7 @@ def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
         return positions
     positions = np.ascontiguousarray(positions)
     smoothed, scratch = np.empty(positions.shape), np.empty(2 * positions.size + 2)
-    _kernels.smooth_all(graph.offsets, graph.neighbors, positions, filter_polynomial(amount), scratch, smoothed)
+    _kernels.smooth_all(graph.offsets, graph.neighbors, positions, amount, scratch, smoothed)
     return smoothed
 
 
@@ -56,7 +42,7 @@ class Spectrum:
     def smoothed(self, amount: float) -> Matrix:
         """`smooth` of the positions by `amount`, shape (n, 3)."""
         smoothed = np.empty(self.positions.shape)
-        _kernels.combine_powers(self.positions, self.terms.reshape(-1), filter_polynomial(amount), smoothed)
+        _kernels.combine_powers(self.positions, self.terms.reshape(-1), amount, smoothed)
         return smoothed
 
 

@@ -15,7 +15,6 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
-#include "library/python/chaining.h"
 #include "library/python/inside.h"
 }
 
@@ -92,12 +91,6 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
 nb::object error_of(const bsmdec_error &error, const nb::object &limits, const nb::object &state) {
     return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
         (int)error.status, text_of(error.message), error.offset, error.frame, error.block, limits, state);
-}
-
-// What an encoder cannot do.
-[[noreturn]] void raise_of_encoder(const bsmdec_error &error) {
-    nb::object limits = nb::module_::import_("bsm.bitstream.limits").attr("DEFAULT_LIMITS");
-    raise(error_of(error, limits, nb::make_tuple(0, 0, 0, 0, 0, 0, 0)));
 }
 
 // Python threads that share an object take turns: results are copied before the next call begins.
@@ -296,7 +289,9 @@ class Output {
     Output(const Output &) = delete;
 
     template <typename Work> void run(Work work) {
-        if (!unlocked(work)) raise_of_encoder(*encoding_error(encoding));
+        if (unlocked(work)) return;
+        nb::object limits = nb::module_::import_("bsm.bitstream.limits").attr("DEFAULT_LIMITS");
+        raise(error_of(*encoding_error(encoding), limits, nb::make_tuple(0, 0, 0, 0, 0, 0, 0)));
     }
 
     nb::list payloads() const {
@@ -494,19 +489,12 @@ class Field : public Shared, Output {
 };
 
 // What steps through blocks (see chaining.h).
-class Steps : public Shared {
-  public:
-    Steps() : chain(open_chain()) {
+class Steps : public Shared, protected Output {
+  protected:
+    Steps() : chain(encoding_chain(encoding)) {
         if (chain == nullptr) throw std::bad_alloc();
     }
-    ~Steps() { close_chain(chain); }
-    Steps(const Steps &) = delete;
-
-  protected:
     CodedChain *chain;
-    template <typename Work> void run(Work work) {
-        if (!unlocked(work)) raise_of_encoder(*chain_error(chain));
-    }
 };
 
 class Chain : public Steps {
@@ -533,6 +521,7 @@ class Chain : public Steps {
         return nb::make_tuple(copy(block.offsets), copy(block.neighbors), copy(block.springs), copy(block.pulls));
     }
     nb::tuple costs(int64_t width) {
+        if (present_block(chain)->vertices.size < 1) throw nb::value_error("no block has begun");
         return nb::make_tuple(dictionary_work_of(chain, width), block_work_of(chain, width),
             block_memory_of(chain, width));
     }
@@ -651,9 +640,9 @@ NB_MODULE(_core, m) {
     nb::class_<Chain>(m, "Chain")
         .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,
                  int, int64_t, int64_t, double>(),
-            "offsets"_a, "neighbors"_a, "cores"_a, "starts"_a, "edges"_a, "members"_a, nb::kw_only(), "exact"_a, "springs"_a,
-            "power"_a, "iterations"_a, "key_iterations"_a, "apart"_a, "key_interval"_a, "whole"_a, "shift"_a,
-            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            "offsets"_a, "neighbors"_a, "cores"_a, "starts"_a, "edges"_a, "members"_a, nb::kw_only(), "exact"_a,
+            "springs"_a, "power"_a, "iterations"_a, "key_iterations"_a, "apart"_a, "key_interval"_a, "whole"_a,
+            "shift"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
             nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
         .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a)
         .def("begin", in_turn(&Chain::begin), "index"_a,

@@ -1,14 +1,12 @@
 #include "library/python/chaining.h"
 
-#include <stdlib.h>
-
 #include "codec/signal/signal.h"
 #include "codec/signal/chain.h"
 #include "codec/sequence/parts.h"
 #include "library/writing.h"
 
 struct CodedChain {
-    Writer writer;
+    Writer *writer;
     Header header;
     Graph graph;
     Blocks blocks;
@@ -22,19 +20,17 @@ struct CodedChain {
     CodedPart part;
 };
 
-CodedChain *open_chain(void) {
-    CodedChain *chain = calloc(1, sizeof *chain);
-    if (chain != NULL) open_writer(&chain->writer, library_allocator());
+CodedChain *open_chain(Writer *writer) {
+    CodedChain *chain;
+    if (!TAKE_ZEROS(&writer->arena, 1, chain)) return NULL;
+    chain->writer = writer;
     return chain;
 }
 
 void close_chain(CodedChain *chain) {
     if (chain->blocks.count > 0) end_chains(&chain->chains);
-    close_writer(&chain->writer);
-    free(chain);
 }
 
-const bsmdec_error *chain_error(const CodedChain *chain) { return &chain->writer.context.error; }
 const CodedBlock *present_block(const CodedChain *chain) { return &chain->shown; }
 ConstSingles2 present_dictionary(const CodedChain *chain) { return const_singles2(chain->dictionary); }
 
@@ -48,7 +44,7 @@ static bool is_graph(ConstInts offsets, ConstInts neighbors) {
 
 bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, ConstInts neighbors, ConstInts cores,
     ConstLongs starts, ConstLongs edges, ConstInts members) {
-    Context *context = &chain->writer.context;
+    Context *context = &chain->writer->context;
     int64_t count = starts.size - 1, n = offsets.size - 1;
     bool fits = is_graph(offsets, neighbors) && count > 0 && edges.size == count
         && cores.size == count && starts.data[0] == 0
@@ -60,23 +56,24 @@ bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, C
     if (!fits) return FAIL(context, MISUSED, "blocks do not fit their graph, or rules are no counts");
     chain->graph = (Graph){n, offsets, neighbors};
     /* Only read. */
-    chain->blocks = (Blocks){.count = count, .cores = {(int32_t *)cores.data, count}, .starts = {(int64_t *)starts.data, count + 1},
-        .edges = {(int64_t *)edges.data, count}, .members = {(int32_t *)members.data, members.size}};
+    chain->blocks = (Blocks){.count = count, .cores = {(int32_t *)cores.data, count},
+        .starts = {(int64_t *)starts.data, count + 1}, .edges = {(int64_t *)edges.data, count},
+        .members = {(int32_t *)members.data, members.size}};
     chain->header = (Header){.blocks = count, .key_interval = rules.key_interval, .onorm = rules.apart,
         .coefficients = rules.whole, .gop_frames = rules.whole > 0,
         .paper = {.exact = rules.exact, .power = rules.power, .iterations = rules.iterations,
             .key_iterations = rules.key_iterations, .springs = rules.springs, .shift = rules.shift}};
-    return begin_chains(&chain->chains, context, &chain->header, &chain->graph, &chain->blocks, &chain->writer.arena);
+    return begin_chains(&chain->chains, context, &chain->header, &chain->graph, &chain->blocks, &chain->writer->arena);
 }
 
 /* Patches of encoders, whose weights are all 1. */
 static bool hang_block(CodedChain *chain) {
-    Context *context = &chain->writer.context;
+    Context *context = &chain->writer->context;
     const Patch *patch = &chain->block.patch;
     Doubles weights;
-    if (!find_patch_fronts(context, &chain->writer.scratch, &chain->block.patch)
-        || !suspend_block(&chain->chains, &chain->writer.scratch, &chain->block)
-        || !take_doubles(&chain->writer.scratch, patch->size, &weights))
+    if (!find_patch_fronts(context, &chain->writer->scratch, &chain->block.patch)
+        || !suspend_block(&chain->chains, &chain->writer->scratch, &chain->block)
+        || !take_doubles(&chain->writer->scratch, patch->size, &weights))
         return false;
     weigh_rows(patch, weights);
     chain->shown = (CodedBlock){patch->vertices, patch->offsets, patch->neighbors, const_doubles(chain->block.springs),
@@ -85,18 +82,19 @@ static bool hang_block(CodedChain *chain) {
 }
 
 bool begin_coded_block(CodedChain *chain, int64_t index) {
-    Context *context = &chain->writer.context;
+    Context *context = &chain->writer->context;
     Chains *chains = &chain->chains;
     if (failed(context)) return false;
     if (index < 0 || index >= chain->blocks.count) return FAIL(context, MISUSED, "block # is not there", index);
     int64_t number = index / chain_length(&chain->header);
     if (number != chains->number && !begin_chain(chains, number)) return false;
     if (index != chains->next) return FAIL(context, MISUSED, "block # is not the next one", index);
-    release_all(&chain->writer.scratch);
+    release_all(&chain->writer->scratch);
     chain->dictionary = (Singles2){NULL, 0, 0};
+    chain->shown = (CodedBlock){.vertices = {NULL, 0}};
     chain->index = index;
     return order_patch(&chain->graph, members_of(&chain->blocks, index, size_of_block(&chain->blocks, index)),
-               &chain->writer.scratch, &chain->block.patch)
+               &chain->writer->scratch, &chain->block.patch)
         && hang_block(chain);
 }
 
@@ -122,11 +120,12 @@ static Arena *room_for_dictionary(CodedChain *chain) {
 }
 
 bool make_coded_dictionary(CodedChain *chain, int64_t width) {
-    Context *context = &chain->writer.context;
-    Arena *scratch = &chain->writer.scratch;
+    Context *context = &chain->writer->context;
+    Arena *scratch = &chain->writer->scratch;
     int64_t rows = chain->block.patch.size;
     if (failed(context)) return false;
-    if (width < 1) return FAIL(context, MISUSED, "a dictionary of # columns", width);
+    if (width < 1 || chain->shown.vertices.size < 1)
+        return FAIL(context, MISUSED, "# columns for a block of # rows", width, chain->shown.vertices.size);
     room_for_dictionary(chain);
     Mark mark = mark_of(scratch);
     bool made = make_dictionary(&chain->chains, &chain->block, least(width, rows), scratch, &chain->dictionary);
@@ -135,9 +134,9 @@ bool make_coded_dictionary(CodedChain *chain, int64_t width) {
 }
 
 bool give_dictionary(CodedChain *chain, ConstSingles2 own) {
-    Context *context = &chain->writer.context;
-    if (own.rows != chain->block.patch.size || own.columns > own.rows)
-        return FAIL(context, MISUSED, "a dictionary of # rows for #", own.rows, chain->block.patch.size);
+    Context *context = &chain->writer->context;
+    if (own.rows < 1 || own.rows != chain->shown.vertices.size || own.columns > own.rows)
+        return FAIL(context, MISUSED, "a dictionary of # rows for #", own.rows, chain->shown.vertices.size);
     Arena *arena = room_for_dictionary(chain);
     if (!take_singles2(arena, own.rows, own.columns, &chain->dictionary)) return false;
     memcpy(chain->dictionary.data, own.data, (size_t)(own.rows * own.columns) * sizeof *own.data);
@@ -147,7 +146,7 @@ bool give_dictionary(CodedChain *chain, ConstSingles2 own) {
 bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 positions) {
     Singles2 all = chain->dictionary, first = {all.data, all.rows, width};
     if (width > all.columns || positions.rows != all.rows || positions.columns != 3)
-        return FAIL(&chain->writer.context, MISUSED, "positions or columns do not fit the block");
+        return FAIL(&chain->writer->context, MISUSED, "positions or columns do not fit the block");
     for (int64_t r = 1; width < all.columns && r < all.rows; r++)
         memmove(first.data + r * width, all.data + r * all.columns, (size_t)width * sizeof *all.data);
     commit_block(&chain->chains, first,
@@ -158,7 +157,7 @@ bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 position
 }
 
 bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame) {
-    Writer *writer = &chain->writer;
+    Writer *writer = chain->writer;
     bool fits = first_frame.rows == chain->graph.size && first_frame.columns == 3 && faces.columns == 3;
     for (int64_t i = 0; fits && i < 3 * faces.rows; i++) fits = faces.data[i] >= 0 && faces.data[i] < first_frame.rows;
     if (!fits) return FAIL(&writer->context, MISUSED, "the first frame does not fit the graph");
@@ -168,7 +167,7 @@ bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame) 
 }
 
 bool begin_coded_part(CodedChain *part, const CodedChain *whole, int64_t index) {
-    Writer *writer = &part->writer;
+    Writer *writer = part->writer;
     if (index < 0 || index >= whole->parts.count) return FAIL(&writer->context, MISUSED, "part # is not there", index);
     const Site *site = part->site = whole->parts.part + index;
     part->part = (CodedPart){site->patch.vertices, const_ints(site->around), site->width, site->memory, site->making};
@@ -181,7 +180,7 @@ bool begin_coded_part(CodedChain *part, const CodedChain *whole, int64_t index) 
 const CodedPart *present_part(const CodedChain *part) { return &part->part; }
 
 static bool extend(CodedChain *part, ConstDoubles2 ends, int64_t columns, Doubles2 *extension) {
-    Writer *writer = &part->writer;
+    Writer *writer = part->writer;
     if (failed(&writer->context)) return false;
     if (ends.rows != part->site->around.size || ends.columns != columns)
         return FAIL(&writer->context, MISUSED, "values around a part do not fit it");
@@ -194,7 +193,7 @@ bool part_coefficients(CodedChain *part, ConstDoubles2 values, ConstDoubles2 end
     Doubles2 rest;
     if (values.rows != part->site->patch.size || coefficients.rows != part->dictionary.columns
         || coefficients.columns != values.columns)
-        return FAIL(&part->writer.context, MISUSED, "values do not fit the rows of a part");
+        return FAIL(&part->writer->context, MISUSED, "values do not fit the rows of a part");
     if (!extend(part, ends, values.columns, &rest)) return false;
     for (int64_t i = 0; i < values.rows * values.columns; i++) rest.data[i] = values.data[i] - rest.data[i];
     project(const_singles2(part->dictionary), const_doubles2(rest), coefficients);
@@ -205,7 +204,7 @@ bool part_values(CodedChain *part, ConstDoubles2 coefficients, ConstDoubles2 end
     Doubles2 extension;
     if (coefficients.rows != part->dictionary.columns || values.rows != part->site->patch.size
         || coefficients.columns != values.columns)
-        return FAIL(&part->writer.context, MISUSED, "coefficients do not fit the columns of a part");
+        return FAIL(&part->writer->context, MISUSED, "coefficients do not fit the columns of a part");
     if (!extend(part, ends, values.columns, &extension)) return false;
     reconstruct(const_singles2(part->dictionary), coefficients, values);
     for (int64_t i = 0; i < values.rows * values.columns; i++) values.data[i] += extension.data[i];
@@ -213,8 +212,8 @@ bool part_values(CodedChain *part, ConstDoubles2 coefficients, ConstDoubles2 end
 }
 
 bool begin_solver(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstDoubles shift) {
-    Context *context = &chain->writer.context;
-    Arena *arena = &chain->writer.arena;
+    Context *context = &chain->writer->context;
+    Arena *arena = &chain->writer->arena;
     int64_t n = offsets.size - 1;
     Patch *patch = &chain->block.patch;
     if (!is_graph(offsets, neighbors) || shift.size != n) return FAIL(context, MISUSED, "no graph, or no shift for it");
@@ -226,14 +225,14 @@ bool begin_solver(CodedChain *chain, ConstInts offsets, ConstInts neighbors, Con
 
 bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart,
     Singles2 subspace) {
-    Context *context = &chain->writer.context;
+    Context *context = &chain->writer->context;
     int64_t n = chain->block.patch.size;
     if (failed(context)) return false;
     if (start.rows != n || subspace.rows != n || subspace.columns > start.columns || start.columns < 1 || power < 0
         || iterations < 0 || apart < 0)
         return FAIL(context, MISUSED, "# rows of a start for # of a graph", start.rows, n);
-    release_all(&chain->writer.scratch);
+    release_all(&chain->writer->scratch);
     return iterate_columns(context, &chain->block.patch, &chain->block.factor,
         (Singles2){(float *)start.data, n, start.columns}, (Schedule){power, iterations, n, apart},
-        &chain->writer.scratch, subspace);
+        &chain->writer->scratch, subspace);
 }

@@ -1,15 +1,14 @@
-/* Blocks as encoders step through them: what the decoder does with each (codec/signal/chain.h), and levels in between. */
+/* Blocks as encoders step through them: what decoders do with each (codec/signal/chain.h), with levels in between. */
 #ifndef BSMDEC_CHAINING_H
 #define BSMDEC_CHAINING_H
 
 #include "codec/basis/basis.h"
-#include "library/bsmdec.h"
 
-/* One chain after the other, or a graph alone; and the first thing wrong. */
+/* One chain after the other, a part, or a graph alone: of an encoding, which has its errors. */
 typedef struct CodedChain CodedChain;
-CodedChain *open_chain(void);
+struct Writer;
+CodedChain *open_chain(struct Writer *writer);
 void close_chain(CodedChain *chain);
-const bsmdec_error *chain_error(const CodedChain *chain);
 
 /* The header's rules of dictionaries and chains; columns beyond half of `whole` rows are completed (M 8.7). */
 typedef struct {
@@ -31,7 +30,7 @@ typedef struct {
 } CodedBlock;
 bool begin_coded_block(CodedChain *chain, int64_t index);
 const CodedBlock *present_block(const CodedChain *chain);
-/* Decoders' work for this block's dictionary of so many columns, for all of it with as many coefficients, and memory. */
+/* Decoders' work for a dictionary of so many columns, for the rest of this block, and their memory. */
 double dictionary_work_of(const CodedChain *chain, int64_t width);
 double block_work_of(const CodedChain *chain, int64_t width);
 double block_memory_of(const CodedChain *chain, int64_t width);

@@ -46,6 +46,7 @@ struct Encoding {
     CodedField field;
     Corners corners;
     Writing payloads;
+    CodedChain *chain;
 };
 
 Encoding *open_encoding(void) {
@@ -57,8 +58,14 @@ Encoding *open_encoding(void) {
 void close_encoding(Encoding *encoding) {
     end_payloads(&encoding->writer.context, &encoding->payloads);
     end_field(&encoding->field);
+    if (encoding->chain != NULL) close_chain(encoding->chain);
     close_writer(&encoding->writer);
     free(encoding);
+}
+
+CodedChain *encoding_chain(Encoding *encoding) {
+    if (encoding->chain == NULL) encoding->chain = open_chain(&encoding->writer);
+    return encoding->chain;
 }
 
 const bsmdec_error *encoding_error(const Encoding *encoding) { return &encoding->writer.context.error; }

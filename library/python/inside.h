@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "library/bsmdec.h"
+#include "library/python/chaining.h"
 #include "bitstream/payloads/payloads.h"
 
 /* Bytes read, work charged and vertices of all faces so far; then what limits on work and memory count: vertices that
@@ -25,6 +26,8 @@ const char *decoder_skim(bsmdec *decoder, int64_t *numbers);
 typedef struct Encoding Encoding;
 Encoding *open_encoding(void);
 void close_encoding(Encoding *encoding);
+/* What steps through blocks (see chaining.h); NULL without memory. */
+CodedChain *encoding_chain(Encoding *encoding);
 const bsmdec_error *encoding_error(const Encoding *encoding);
 /* The payloads of the last call that wrote some. */
 const Writing *encoding_payloads(const Encoding *encoding);
