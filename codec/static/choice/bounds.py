@@ -86,6 +86,7 @@ class Candidate:
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     guess: Callable[[], float] | None = None
     also: Callable[[Draft], Draft] = lambda draft: draft  # the same positions, perhaps in fewer bytes
+    like: Callable[[int], int] = lambda congruence: 0  # bytes of a grid with the `congruence` of another header
 
     @cached_property
     def draft(self) -> Draft:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from bsm._core import rounded as places_on
-from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels, Matrix, Positions
@@ -47,17 +46,22 @@ def congruent(prepared: Prepared, draft: Draft) -> Draft:
     places, header = draft.places, draft.header
     if places is None or header.light or not may_repeat(prepared):
         return draft
-    before = tuple(packet for packet in draft.body if not isinstance(packet, packets.Grid))
     least, faces, alone = draft, prepared.mesh.faces, Grid(header.center, header.scale, header.grid)
     transforms = transforms_of(prepared, alone)
     for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
         grid = replace(alone, transforms=some)
         if len(some) or len(places) <= SAMPLE or sampled_size(faces, grid, places) < sampled_size(faces, alone, places):
-            body = (*before, *encode_grid(faces, grid, places))
-            least = min(least, replace(draft, header=replace(header, **grid.fields), body=body), key=lambda d: d.size)
+            least = min(least, grid_draft(prepared, grid, places), key=lambda d: d.size)
         if least.size < (1.0 - LEAST_SAVED) * draft.size:
             break
     return least
+
+
+def size_like(prepared: Prepared, grid: Grid, places: Levels, congruence: int) -> int:
+    """The bytes of places on a grid whose congruent parts are coded as those of a header with this `congruence`."""
+    if congruence:
+        grid = replace(grid, transforms=transforms_of(prepared, grid)[: None if congruence > 1 else 0])
+    return grid_draft(prepared, grid, places).size
 
 
 def sampled_size(faces: Faces, grid: Grid, places: Levels) -> int:
@@ -201,4 +205,5 @@ class Gridded:
         sampled = partial(sampled_ratio, self._prepared.mesh.faces, grid, places, SAMPLE)
         few = len(places) <= SAMPLE or self._prepared.light
         guess, also = None if few else lambda: coded(light=True).size * sampled(), partial(congruent, self._prepared)
-        return Candidate(step, positions, coded, guess=guess, also=also)
+        like = partial(size_like, self._prepared, grid, places)
+        return Candidate(step, positions, coded, guess=guess, also=also, like=like)

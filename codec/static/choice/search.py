@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -19,7 +19,9 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
 REFINED = 3  # rounds of spending the bytes that congruent parts save
-RUNGS = 6  # an octave: steps of small grids, the same for all promises, as some make more parts congruent by chance
+RUNGS, NEAR = 6, 1.05
+"""Steps of an octave that are the same for all promises, as some make more parts congruent by chance; and the bytes over
+the least from which on finer ones are hopeless."""
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 ALIKE = 1.02  # bytes over the least, within which normals choose where a visual error is bounded
 Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another: pure functions of the step
@@ -75,21 +77,26 @@ class Search:
                 ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
-        least = min(candidate.congruent.size for candidate in kept)
-        share = min(share, *(candidate.congruent.size / candidate.draft.size for candidate in kept))
-        rung = math.floor(RUNGS * math.log2(grid.first))
-        for finer in range(RUNGS + 1) if share < 1.0 and self._prepared.graph.size <= 2 * SAMPLE else ():
-            candidate = grid.at(2.0 ** ((rung + 1 - finer) / RUNGS))
-            if (1.0 - LEAST_SAVED) * share * candidate.draft.size > least:
-                break
-            share = min(share, candidate.congruent.size / candidate.draft.size)
-            if candidate.congruent.size < least and bounds.keeps(candidate.positions):
-                kept.append(candidate)
-                least = candidate.congruent.size
+        if share < 1.0 or 8 * first.size < self._prepared.graph.size:
+            kept += self._at_rungs(grid, bounds, kept)
         most = near * min(self._size(candidate.congruent) for candidate in kept)
         alike = [candidate for candidate in kept if self._size(candidate.congruent) <= most]
         bent = self._measures.original.angle
         return min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0).congruent
+
+    def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
+        """Grids of steps that are the same for all promises, each smaller than those before it."""
+        best = min(kept, key=lambda candidate: candidate.congruent.size).congruent
+        like, least = best.header.congruence, best.size
+        rung = math.floor(RUNGS * math.log2(grid.first))
+        for finer in range(RUNGS + 2):
+            candidate = grid.at(2.0 ** ((rung + 1 - finer) / RUNGS))
+            size = candidate.like(like)
+            if size > NEAR * least:
+                break
+            if size < least and not bounds.folds(candidate.positions) and bounds.keeps(candidate.positions):
+                yield candidate
+                least = candidate.congruent.size
 
     def _others(self, way: Refined, found: Candidate, bounds: Bounds) -> list[Refined]:
         """Ways that may be smaller than one that has come to a candidate."""
