@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from bsm.codec.static.attributes.encoding import Place, PreparedAttribute, carry
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
+from bsm.codec.static.options import LARGE_BLOCKS, PRESETS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import SLACK, TRIES, Contract
 
@@ -141,12 +142,10 @@ class Input:
 
 def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
     """The smallest stream that keeps a contract, in colors and under a checker where it has them, too."""
-    if given.options.effort == "best":
-        _choose_blocks(given, contract)
+    asked = _choose_blocks(given, contract) if given.options.effort == "best" else contract
     search = given.search(contract, near)
     if given.measures.look is not None and contract.look < math.inf:
         given.looks = _roughened(given, contract.look)
-    asked = contract
     for _ in range(TRIES):
         if given.looks:
             given.carried = given.carry(given.wanted)
@@ -160,17 +159,35 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
     )
 
 
-def _choose_blocks(given: Input, contract: Contract) -> None:
-    """Go on with the size of blocks and the effort with which the shape alone takes fewest bytes."""
-    given.carried, found = (), list[tuple[Draft, EncodeOptions, Prepared]]()
-    for changes in ({"effort": "normal"}, {}, LARGE_BLOCKS):  # the usual effort may be lucky
-        if changes is LARGE_BLOCKS and found[-1][0].places is not None and not found[-1][0].header.congruence:
+def _choose_blocks(given: Input, contract: Contract) -> Contract:
+    """Go on with the size of blocks and the effort with which the shape alone takes fewest bytes; return the promise
+    with which it does: the usual effort may be lucky, and so may a stricter promise."""
+    given.carried, found = (), list[tuple[Draft, EncodeOptions, Prepared, Contract]]()
+    large = given.options.block_size >= LARGE_BLOCKS["block_size"]
+    others = {name: getattr(EncodeOptions, name) if large else size for name, size in LARGE_BLOCKS.items()}
+    usual = [({"effort": "normal"}, promise) for promise in (contract, *_stricter(contract))]
+    for changes, promise in (*usual, ({}, contract), (others, contract)):
+        if changes is others and found[-1][0].places is not None and not found[-1][0].header.congruence:
             break  # a grid has no blocks; attributes may need some where it is smaller by congruent parts
         given.coded = replace(given.options, **changes)
         given.__dict__.pop("prepared", None)
-        found.append((given.search(contract, None).smallest(contract), given.coded, given.prepared))
-    _, given.coded, given.prepared = min(found, key=lambda made: made[0].size)
+        with suppress(TargetError) if promise is not contract else nullcontext():
+            found.append((given.search(promise, None).smallest(promise), given.coded, given.prepared, promise))
+    _, given.coded, given.prepared, promise = min(found, key=lambda made: made[0].size)
     given.carried = given.carry(given.wanted)
+    return promise
+
+
+def _stricter(contract: Contract) -> list[Contract]:
+    """The promises of presets that bound all that a contract bounds, and as tightly."""
+    bounds = attrgetter("farthest", "angle", "look", "by_part", "visual")
+    promises = [options.promise for options in PRESETS.values()]
+    return [
+        promise
+        for promise in promises
+        if promise and promise != contract and not contract.absolute
+        if all(own <= asked for own, asked in zip(bounds(promise), bounds(contract), strict=True))
+    ]
 
 
 def _roughened(given: Input, look: float) -> list[tuple[int, AttributeLook]]:

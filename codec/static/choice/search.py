@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
@@ -19,9 +19,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 
 REFINED = 3  # rounds of spending the bytes that congruent parts save
-RUNGS, NEAR = 6, 1.05
-"""Steps of an octave that are the same for all promises, as some make more parts congruent by chance; and the bytes over
-the least from which on finer ones are hopeless."""
+RUNGS = 6  # an octave: steps of grids, the same for all promises, as some make more parts congruent by chance
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 ALIKE = 1.02  # bytes over the least, within which normals choose where a visual error is bounded
 Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another: pure functions of the step
@@ -69,7 +67,8 @@ class Search:
                     continue
                 if share < SHAPED and way is not grid and way.at(grid.first).size > SHAPED * first.size:
                     continue  # places that are chosen repeat less
-            found = widest(way, bounds, (near * least + leaning) / gain, tries=self._tries)
+            like = partial(_as_rounded, first.congruent, gain) if gain < 1.0 else attrgetter("size")
+            found = widest(way, bounds, (near * least + leaning) / gain, tries=self._tries, size=like)
             if found is not None:
                 kept.append(found)
                 size = found.size if seen else found.draft.size  # the guess is for steps at which a mesh looks right
@@ -87,12 +86,13 @@ class Search:
     def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
         """Grids of steps that are the same for all promises, each smaller than those before it."""
         best = min(kept, key=lambda candidate: candidate.congruent.size).congruent
-        like, least = best.header.congruence, best.size
-        rung = math.floor(RUNGS * math.log2(grid.first))
-        for finer in range(RUNGS + 2):
+        like, least, rung = best.header.congruence, best.size, math.floor(RUNGS * math.log2(grid.first))
+        seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
+        for finer in range(RUNGS + 2 if seen else 2 * RUNGS):
             candidate = grid.at(2.0 ** ((rung + 1 - finer) / RUNGS))
             size = candidate.like(like)
-            if size > NEAR * least:
+            hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
+            if seen and hopeless > few:  # without pictures, all can be tried
                 break
             if size < least and not bounds.folds(candidate.positions) and bounds.keeps(candidate.positions):
                 yield candidate
@@ -193,7 +193,18 @@ class Search:
         return blocks + grids
 
 
-def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = TRIES) -> Candidate | None:
+def _as_rounded(first: Draft, share: float, candidate: Candidate) -> float:
+    """The bytes without congruent parts of which those with them, coded as in `first`, would be this share."""
+    return candidate.like(first.header.congruence) / share
+
+
+def widest(
+    way: Way,
+    bounds: Bounds,
+    most_bytes: float = math.inf,
+    tries: int = TRIES,
+    size: Callable[[Candidate], float] = attrgetter("size"),
+) -> Candidate | None:
     """Return the smallest candidate found that keeps the bounds, or has few folds, at least; None if it would not be
     smaller than `most_bytes`."""
     kept = list[tuple[bool, Candidate]]()
@@ -220,5 +231,6 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf, tries: int = 
         else:
             slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered else SLACK
             secant(at, way.first, way.least, way.most, tries, slack=slack)
-    smallest = min(kept, key=lambda found: (found[0], found[1].size), default=(False, None))[1]
-    return None if smallest is None or smallest.size >= most_bytes else smallest
+    sized = [(folded, size(found), found) for folded, found in kept]
+    _, least, smallest = min(sized, key=itemgetter(0, 1), default=(False, math.inf, None))
+    return smallest if least < most_bytes else None

@@ -63,6 +63,26 @@ def test_no_preset_is_outdone() -> None:
     assert not outdone(torus(40, 24))
 
 
+def sizes(mesh: TriangleMesh, effort: str) -> dict[str, int]:
+    """Bytes of each preset."""
+    return {name: Encoder(mesh, replace(PRESETS[name], effort=effort, threads=1)).draft().size for name in ORDER}
+
+
+def test_the_best_effort_is_smaller_than_all_stricter_presets() -> None:
+    mesh = torus(40, 24)
+    usual, best = sizes(mesh, "normal"), sizes(mesh, "best")
+    for at, name in enumerate(ORDER):
+        assert best[name] <= min(usual[stricter] for stricter in ORDER[at:])
+
+
+@pytest.mark.real
+def test_steps_are_tried_where_folds_and_congruent_parts_make_bytes_jump(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "assets/1002_tray_bottom.STL")).mesh.bare
+    usual = sizes(mesh, "normal")
+    assert usual["balanced"] <= 1.02 * usual["fine"]
+    assert usual["balanced"] < 1_400
+
+
 def shared(folder: Path | None) -> list[str]:
     """Names of all real meshes but the one that is for the patient."""
     found = [] if folder is None else [path for room in ROOMS for path in (folder / room).iterdir()]
