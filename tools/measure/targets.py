@@ -1,19 +1,21 @@
 """What a target beside the look takes, over the larger of both alone: `python -m tools.measure targets MESH...`
 
 The look is that of the default; each target by itself is reached with the preset "none". With `--stricter`, the bytes
-of series of promises, and how often a stricter promise takes fewer bytes.
+of series of promises, and how often a stricter promise takes fewer bytes; and how many looks of the default are low, by
+the bound that binds ("step": none does, wider steps that were tried break one).
 """
 
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from statistics import fmean
 
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import encode
+from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
 from bsm.codec.static.targets import Contract, Target
 from bsm.files.mesh import read_mesh
@@ -33,6 +35,7 @@ STRICTER = {
     "theta": [replace(PRESETS["none"], target=Target("theta_deg", angle)) for angle in (8.0, 4.0, 3.0, 2.0)],
     "nmsve": [replace(PRESETS["none"], target=Target("nmsve_db", error)) for error in (-45.0, -48.0, -52.0, -55.0)],
 }
+LOW = 0.9, 0.85  # looks
 BACK = 1.01  # bytes of a promise over those of a stricter one, above which it counts
 
 
@@ -54,8 +57,12 @@ def measured(name: str, mesh: TriangleMesh) -> list[float]:
     return ratios
 
 
-def stricter(name: str, mesh: TriangleMesh) -> list[float]:
-    """Print a row for each series; return the bytes of each promise over those of the next."""
+def stricter(name: str, mesh: TriangleMesh, looks: list[tuple[float, str]]) -> list[float]:
+    """Print a row for each series; return the bytes of each promise over those of the next. `looks` gets the default's
+    and what binds it."""
+    encoder = Encoder(mesh)
+    encoder.encode()
+    looks += [] if encoder.look is None else [(encoder.look, encoder.binding)]
     ratios = []
     for text, series in STRICTER.items():
         sizes = [len(encode(mesh, options)) for options in series]
@@ -70,11 +77,15 @@ def main() -> None:
     parser.add_argument("meshes", metavar="MESH", nargs="+", type=Path)
     parser.add_argument("--stricter", action="store_true", help="series of promises, instead of two at once")
     args = parser.parse_args()
-    ratios: list[float] = []
+    ratios, looks = list[float](), list[tuple[float, str]]()
     for path in args.meshes:
         mesh = read_mesh(str(path)).mesh.bare.without_isolated_vertices()[0]
-        ratios += (stricter if args.stricter else measured)(path.stem, mesh)
+        ratios += stricter(path.stem, mesh, looks) if args.stricter else measured(path.stem, mesh)
     if args.stricter:
+        for most in LOW:
+            print(
+                f"looks under {most:g} of {len(looks)}:", dict(Counter(bound for look, bound in looks if look < most))
+            )
         back = sum(ratio > BACK for ratio in ratios)
         print(f"{len(ratios)} steps, {back} back by more than {BACK - 1.0:.0%}, worst {max(ratios):.3f}")
     else:
