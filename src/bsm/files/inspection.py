@@ -1,6 +1,6 @@
 """Reports on streams, without decoding them."""
 
-from collections import Counter
+from collections import Counter, namedtuple
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -100,29 +100,12 @@ _CARRIED = {
 }
 
 
-@dataclass(frozen=True)
-class Packet:
-    """A packet as the decoder in C lists it (`decoder_skim` in library/python/inside.h)."""
-
-    name: str
-    type: int
-    offset: int
-    length: int
-    payload: int
-    data: int
-    index: int
-    count: int
-    entries: int
-    version: int
-    begins: int
-    positions: int
-    domain: int
-    semantic: int
-    kind: int
-    components: int
-    rows: int
-    coding: int
-    moves: int
+Packet = namedtuple(
+    "Packet",
+    "name type offset length payload data index count entries version begins positions domain semantic kind components "
+    "rows coding moves",
+)
+"""A packet as the decoder in C lists it (`decoder_skim`)."""
 
 
 class Skimmer:

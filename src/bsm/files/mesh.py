@@ -6,7 +6,6 @@ before anything is allocated for it.
 """
 
 import importlib
-import json
 import math
 import os
 import re
@@ -18,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import DependencyError, FormatError, OptionError, UnsupportedError
+from bsm.bitstream.errors import BsmError, DependencyError, FormatError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files import pipes
@@ -189,9 +188,8 @@ def size_with_parts(path: str, metadata: Metadata) -> int | None:
         return size
     names = {*str(metadata.get("mtllib", "")).split("\n"), *(name for name, _ in images_in(metadata).values())}
     if Path(path).suffix.lower() == ".gltf":
-        with suppress(ValueError, TypeError, AttributeError, KeyError):
-            tree = json.loads(Path(path).read_bytes())
-            names = {part["uri"] for kind in ("buffers", "images") for part in tree.get(kind, []) if "uri" in part}
+        with suppress(BsmError):
+            names = {*by_name("bsm.gltf.document", "read_document")(path).files}
     for name in filter(None, names):
         with suppress(FormatError, OSError, ValueError):
             size += os.path.getsize(file_beside(Path(path).resolve().parent, name))

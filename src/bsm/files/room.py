@@ -181,6 +181,18 @@ def as_format_error(kind: str) -> Iterator[None]:
         raise FormatError(f"this {kind} makes no sense: {type(error).__name__}: {words}") from error
 
 
+@contextmanager
+def as_library_error(library: str, what: str = "this file") -> Iterator[None]:
+    """Raise `FormatError` in place of all errors of a library, which promises nothing about damaged files."""
+    try:
+        yield
+    except (BsmError, MemoryError):
+        raise
+    except Exception as error:
+        words = " ".join(str(error).split())[-200:]
+        raise FormatError(f"{library} cannot read {what}: {type(error).__name__}: {words}") from error
+
+
 def gunzipped(data: bytes, limits: Limits) -> bytes:
     """What gzip has compressed, in one member or several."""
     found = bytearray()

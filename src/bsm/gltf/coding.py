@@ -10,6 +10,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import DependencyError, FormatError, UnsupportedError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
+from bsm.files.room import as_library_error
 
 Array = npt.NDArray[Any]
 Tree = dict[str, Any]
@@ -93,10 +94,8 @@ def unpack_meshopt(data: bytes, how: Tree) -> bytes:
     filters = {"OCTAHEDRAL": "oct", "QUATERNION": "quat", "EXPONENTIAL": "exp"}
     if reader is None or filtered not in ("NONE", *filters):
         raise UnsupportedError(f"meshopt of mode {str(mode)[:20]} with filter {str(filtered)[:20]} is not read here")
-    try:
+    with as_library_error("meshoptimizer", "a bufferView of this glTF"):
         found: Array = reader()
-    except (RuntimeError, ValueError) as error:
-        raise FormatError(f"meshoptimizer cannot decode a bufferView of this glTF: {error}") from error
     if filtered != "NONE":
         found = getattr(library, f"decode_filter_{filters[filtered]}")(found, count, stride)
     return found.astype(f"<u{stride}").tobytes() if mode != "ATTRIBUTES" else found.tobytes()
@@ -105,9 +104,7 @@ def unpack_meshopt(data: bytes, how: Tree) -> bytes:
 def unpack_draco(data: bytes) -> dict[int, Array]:
     """The arrays of a primitive that Draco has compressed, by their numbers; -1: its triangles."""
     draco = imported("DracoPy", "the meshes are compressed with Draco, which DracoPy reads", "formats")
-    try:
+    with as_library_error("DracoPy", "a primitive of this glTF"):
         mesh = draco.decode(data)
-    except Exception as error:  # it promises nothing about what damaged data raise
-        raise FormatError(f"DracoPy cannot decode a primitive of this glTF: {str(error)[:200]}") from error
     found = {int(attribute["unique_id"]): np.atleast_2d(attribute["data"]) for attribute in mesh.attributes}
     return found | {-1: np.asarray(mesh.faces).reshape(-1, 1)}

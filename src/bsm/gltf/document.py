@@ -364,6 +364,12 @@ class Growing:
         place = {"buffer": 0, "byteOffset": self.append(data), "byteLength": len(data)}
         return self.add("bufferViews", place | more)
 
+    def use(self, extension: str, *, required: bool) -> None:
+        for key in ("extensionsUsed", "extensionsRequired") if required else ("extensionsUsed",):
+            names = self.tree.setdefault(key, [])
+            if extension not in names:
+                names.append(extension)
+
     def table(self, values: Array, *, packed: bool = False) -> int:
         """A bufferView of values, which begin at multiples of four bytes, unless they shall be packed."""
         size = values.itemsize * values.shape[1]

@@ -173,13 +173,7 @@ class Rewritten(gltf.Growing):
                 if texture.get("source") == number:
                     del texture["source"]
                     texture.setdefault("extensions", {})[gltf.WEBP] = {"source": number}
-                    self._use(gltf.WEBP, required=True)
-
-    def _use(self, extension: str, *, required: bool) -> None:
-        for key in ("extensionsUsed", "extensionsRequired") if required else ("extensionsUsed",):
-            names = self.tree.setdefault(key, [])
-            if extension not in names:
-                names.append(extension)
+                    self.use(gltf.WEBP, required=True)
 
     def finished(self, images: ImageRule | None = None) -> bytes:
         """Return the .glb without replaced data, with external images inside, and with plain geometry elsewhere."""
@@ -195,7 +189,7 @@ class Rewritten(gltf.Growing):
         if self._virtual:
             filled: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
             tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
-            self._use(EXTENSION, required=not self._fallback)
+            self.use(EXTENSION, required=not self._fallback)
         for key in ("accessors", "bufferViews", "buffers", "extensionsUsed", "extensionsRequired"):
             if not tree.get(key):
                 tree.pop(key, None)

@@ -139,7 +139,7 @@ class _Scene(Growing):
             return {}
         (across, up), (right, above) = found
         written.add(f"{place}.{options}")
-        self.tree["extensionsUsed"] = [*dict.fromkeys([*self.tree.get("extensionsUsed", []), TRANSFORM])]
+        self.use(TRANSFORM, required=False)
         return {"extensions": {TRANSFORM: {"scale": [across, up], "offset": [right, 1 - up - above]}}}
 
     def _blend(self, used: Iterable[int], materials: dict[int, int | None]) -> None:
@@ -161,8 +161,7 @@ class _Scene(Growing):
         texture: Tree = {"source": self._images[data]}
         if kind == "image/webp":
             texture = {"extensions": {WEBP: texture}}
-            used = [*dict.fromkeys([*self.tree.get("extensionsUsed", []), WEBP])]
-            self.tree |= {"extensionsUsed": used, "extensionsRequired": [WEBP]}
+            self.use(WEBP, required=True)
         return self.add("textures", texture)
 
 
@@ -388,5 +387,5 @@ def moving_scene(stream: bytes) -> bytes:
     primitive = {"indices": places.pop("indices"), "attributes": places}
     mesh = {"primitives": [primitive], "extensions": {EXTENSION: {"stream": source}}}
     scene.place(mesh, **node, **placed_node(metadata)[0])
-    scene.tree |= {"extensionsUsed": [EXTENSION], "extensionsRequired": [EXTENSION]}
+    scene.use(EXTENSION, required=True)
     return scene.whole()

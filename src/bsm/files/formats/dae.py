@@ -11,13 +11,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, imported
+from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.conventions import unit_named
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
-from bsm.files.room import Doubles, Ints
+from bsm.files.room import Doubles, Ints, as_library_error
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
 _MOST_ERRORS = 8  # of pycollada that notes name
@@ -38,27 +38,22 @@ _LUMINANCE = (0.212671, 0.715160, 0.072169)  # as COLLADA has it
 def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     collada = imported("collada", "DAE is read with pycollada", "formats")
     beside = Beside(Path(path).resolve().parent if path else None, limits)
-    try:
-        with np.errstate(all="ignore"):  # a later check refuses infinite values
-            prepared, tags = _prepared(data)
-            document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
-            scene = _Scene(collada, beside)
-            nodes = document.scene.nodes if document.scene is not None else ()
-            surfaces = [one for node, matrix in _placed(collada, nodes) for one in scene.surfaces(node, matrix)]
-            shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
-            counts = [(len(shape.positions), max(len(shape.corners) - 2 * len(shape.sizes), 0)) for shape in shapes]
-            found = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
-            about = document.assetInfo
-            metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
-            metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
-            metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
-            errors = [f"unreadable elements ({error.msg[:80]})" for error in document.errors[:_MOST_ERRORS]]
-            dropped = (*dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT), *errors, *scene.absent)
-            return replace(found, metadata={**metadata, **found.metadata}, dropped=dropped)
-    except (BsmError, MemoryError):
-        raise
-    except Exception as error:  # it promises nothing about what damaged files raise
-        raise FormatError(f"pycollada cannot read this file: {type(error).__name__}: {str(error)[:200]}") from error
+    with as_library_error("pycollada"), np.errstate(all="ignore"):  # a later check refuses infinite values
+        prepared, tags = _prepared(data)
+        document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
+        scene = _Scene(collada, beside)
+        nodes = document.scene.nodes if document.scene is not None else ()
+        surfaces = [one for node, matrix in _placed(collada, nodes) for one in scene.surfaces(node, matrix)]
+        shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
+        counts = [(len(shape.positions), max(len(shape.corners) - 2 * len(shape.sizes), 0)) for shape in shapes]
+        found = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
+        about = document.assetInfo
+        metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
+        metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
+        metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
+        errors = [f"unreadable elements ({error.msg[:80]})" for error in document.errors[:_MOST_ERRORS]]
+        dropped = (*dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT), *errors, *scene.absent)
+        return replace(found, metadata={**metadata, **found.metadata}, dropped=dropped)
 
 
 def _prepared(data: bytes) -> tuple[bytes, list[str]]:

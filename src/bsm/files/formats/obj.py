@@ -12,6 +12,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
 from bsm.files.room import Doubles, Ints, Rows, as_integers, continued, point_row, text_table
@@ -254,6 +255,5 @@ def _points(mesh: TriangleMesh, color: Attribute | None) -> str:
     row = point_row("v ", mesh.positions)
     if color is None:
         return text_table(row, mesh.positions).decode()
-    most = np.iinfo(color.values.dtype).max if color.values.dtype.kind == "u" else 1
     row = row.replace("\n", " {:.6g}" * _COLORS + "\n")
-    return text_table(row, np.hstack([mesh.positions, color.values[:, :_COLORS] / most])).decode()
+    return text_table(row, np.hstack([mesh.positions, shares_of(color.values[:, :_COLORS])])).decode()

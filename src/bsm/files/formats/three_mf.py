@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from bsm.bitstream.errors import FormatError, MeshError, imported
+from bsm.bitstream.errors import MeshError, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
@@ -27,7 +27,7 @@ from bsm.files.formats.metadata import (
     materials_in,
 )
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
-from bsm.files.room import Doubles, Ints, single_suffices
+from bsm.files.room import Doubles, Ints, as_library_error, single_suffices
 from bsm.lengths import metres
 
 _UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
@@ -42,16 +42,10 @@ def read_3mf(data: bytes, limits: Limits) -> Polygons:
     library = imported("lib3mf", "3MF is read with lib3mf", "formats")
     model = library.get_wrapper().CreateModel()
     reader = model.QueryReader("3mf")
-    try:
-        _call(
-            reader,
-            "reader_readfrombuffer",
-            ctypes.c_uint64(len(data)),
-            ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8)),
-        )
+    given = ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8))
+    with as_library_error("lib3mf", "this 3MF file"):
+        _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), given)
         return _Model(library, model, limits).joined(reader, len(data))
-    except library.ELib3MFException as error:
-        raise FormatError(f"lib3mf cannot read this 3MF file: {str(error)[:200]}") from error
 
 
 def _call(owner: Any, name: str, *arguments: Any) -> None:

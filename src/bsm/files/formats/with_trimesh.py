@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, how_to_install, imported
+from bsm.bitstream.errors import FormatError, how_to_install, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
-from bsm.files.room import Doubles
+from bsm.files.room import Doubles, as_library_error
 
 _WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
 _OTHERS = {
@@ -45,14 +45,9 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         more = "" if complete else f" (3MF, DAE and others are read after: {how_to_install('formats')})"
         way = next((way for kinds, way in _OTHERS.items() if kind in kinds), f"{_WAY}{more}")
         raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
-    try:
-        with np.errstate(all="ignore"):  # a later check refuses infinite values
-            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
-            found = joined(scene, limits, len(data))
-    except (BsmError, MemoryError):
-        raise
-    except Exception as error:  # it promises nothing about what damaged files raise
-        raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {str(error)[:200]}") from error
+    with as_library_error("trimesh"), np.errstate(all="ignore"):  # a later check refuses infinite values
+        scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
+        found = joined(scene, limits, len(data))
     metadata = dict(found.metadata)
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file

@@ -26,7 +26,7 @@ from bsm.files import conventions
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
-from bsm.files.room import Doubles, Ints, as_format_error, require_count, single_suffices
+from bsm.files.room import Doubles, Ints, as_format_error, as_library_error, require_count, single_suffices
 from bsm.lengths import metres
 
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
@@ -501,11 +501,8 @@ class _Stage:
     def __init__(self, path: str, limits: Limits, *, runs: bool = False) -> None:
         self._limits, self._size, self._runs = limits, os.path.getsize(path), runs
         self.pxr = pxr = import_usd()
-        try:
-            with _quiet(pxr):
-                self.stage = pxr.Usd.Stage.Open(path)
-        except Exception as error:  # of the library's own kind
-            raise FormatError(f"usd-core cannot read this file: {str(error).strip().splitlines()[-1]}") from error
+        with as_library_error("usd-core"), _quiet(pxr):
+            self.stage = pxr.Usd.Stage.Open(path)
         if any(prim.IsA(pxr.UsdSkel.Root) for prim in self.stage.Traverse()):
             # Skeletons move the points, in a layer that is not saved.
             self.stage.SetEditTarget(self.stage.GetSessionLayer())
