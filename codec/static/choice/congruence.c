@@ -57,10 +57,10 @@ static int32_t nearest_vertex(const Space *s, const double *at, double reach) {
     return best;
 }
 
-/* How many of every `stride`th vertex a motion takes to another. */
-static int64_t count_moved(const Space *s, const Motion *m, int64_t stride, double reach) {
-    int64_t found = 0;
-    for (int64_t v = 0; v < s->positions.rows; v += stride) {
+/* How many of every `stride`th vertex a motion takes to another; fewer where they cannot be `wanted`. */
+static int64_t count_moved(const Space *s, const Motion *m, int64_t stride, double reach, int64_t wanted) {
+    int64_t found = 0, n = s->positions.rows;
+    for (int64_t v = 0; v < n && found + (n - 1 - v) / stride + 1 >= wanted; v += stride) {
         double at[3];
         move(m, s->positions.data + 3 * v, at);
         int32_t u = nearest_vertex(s, at, reach);
@@ -73,11 +73,12 @@ static int64_t count_moved(const Space *s, const Motion *m, int64_t stride, doub
 static bool fit(const Space *s, Motion *m, int64_t stride, double reach) {
     double middle[3] = {0.0, 0.0, 0.0}, off[3] = {0.0, 0.0, 0.0}, square[3][4] = {{0.0}};
     double seen = 0.0;
+    int32_t nearest[FITTING];
     for (int pass = 0; pass < 2; pass++) {
-        for (int64_t v = 0; v < s->positions.rows; v += stride) {
+        for (int64_t v = 0, at = 0; v < s->positions.rows; v += stride, at++) {
             double p[3];
             move(m, s->positions.data + 3 * v, p);
-            int32_t u = nearest_vertex(s, p, reach);
+            int32_t u = nearest[at] = pass ? nearest[at] : nearest_vertex(s, p, reach);
             if (u < 0) continue;
             const double *q = s->positions.data + 3 * (int64_t)u;
             if (pass == 0) {
@@ -295,8 +296,9 @@ static int64_t sort_pool(const Space *s, Motion *pool, int64_t count, int64_t mo
     int64_t left = 0;
     for (int64_t i = 0; i < count; i++) {
         Motion m = pool[i];
-        m.votes = count_moved(s, &m, stride, reach);
-        if (m.votes >= least_moved) left = keep(pool, left, most, m);
+        int64_t wanted = left == most ? largest(pool[left - 1].votes + 1, least_moved) : least_moved;
+        m.votes = count_moved(s, &m, stride, reach, wanted);
+        if (m.votes >= wanted) left = keep(pool, left, most, m);
     }
     return left;
 }
