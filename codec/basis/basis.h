@@ -10,15 +10,6 @@ typedef struct {
     ConstDoubles sums;
 } Fronts;
 
-/* Whether there is room for a factor of these fronts of n rows. */
-INLINE bool fits_factor(const Fronts *fronts, int64_t n, Singles values, ConstSingles inverse) {
-    int64_t count = fronts->firsts.size - 1;
-    return n > 0 && fronts->sums.size == 2 && fronts->rows.size == n && fronts->steps.size == n
-        && fronts->owners.size == n && count > 0 && fronts->starts.size == count + 1 && fronts->places.size == count + 1
-        && fronts->borders.size >= fronts->starts.data[count] && inverse.size == n
-        && values.size >= (int64_t)fronts->places.data[count] + 15;
-}
-
 int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Words rows, Words steps,
                     Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums);
 void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal,

@@ -100,7 +100,6 @@ static const double LEAST_PIVOT = 0x1p-20;
 /* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no smaller pivot. */
 int64_t ISA(complete_columns)(ConstSingles2 first, Singles scratch, Singles2 whole) {
     int64_t h = first.columns, n = first.rows, c = whole.columns;
-    if (whole.rows != n || c < h || c > n || scratch.size < ISA(completion_space)(h)) return MISUSED;
     Completion own = completion_of(h, aligned(scratch.data));
     for (int64_t r = 0; r < n; r++)
         for (int64_t b = 0; b < h; b++) whole.data[r * c + b] = first.data[r * h + b];

@@ -146,9 +146,6 @@ static int64_t find_borders(ConstInts offsets, ConstInts neighbors, ConstWords r
 int64_t find_fronts(ConstInts offsets, ConstInts neighbors, double most_work, Words scratch, Words rows, Words steps,
                     Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
     int64_t n = offsets.size - 1;
-    if (!fits_graph(offsets, neighbors) || scratch.size < 3 * n || rows.size != n || steps.size != n
-        || owners.size != n || firsts.size != n + 1 || starts.size != n + 1 || places.size != n + 1 || sums.size != 2)
-        return MISUSED;
     int64_t count = dissect(offsets, neighbors, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
     for (int64_t t = 0; t <= count; t++) firsts.data[t] = firsts.data[n - count + t];
     int64_t size = find_borders(offsets, neighbors, (ConstWords){rows.data, n}, (ConstWords){firsts.data, count + 1},

@@ -54,9 +54,6 @@ int64_t ISA(iteration_space)(int64_t n, int64_t c, int64_t apart) {
 int64_t ISA(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t power,
                        int64_t iterations, int64_t apart, int64_t care, Singles scratch, Singles2 subspace) {
     int64_t n = start.rows, c = subspace.columns, found = DONE;
-    if (subspace.rows != n || c > start.columns || c < 1 || power < 0 || iterations < 0 || apart < 0 ||
-        scratch.size < ISA(iteration_space)(n, c, apart) || !fits_factor(&fronts, n, values, inverse))
-        return MISUSED;
     float *memory = aligned(scratch.data);
     Panels panels = panels_of(n, c, memory);
     const uint32_t *order = fronts.rows.data;

@@ -19,7 +19,7 @@ import numpy as np
 from bsm._core import codec as _kernels
 from bsm.bitstream.errors import OptionError, imported
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Mask, Matrix, Order
+from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
 
@@ -117,19 +117,12 @@ class Blocks:
         """Vertices of one block, shape (n_i,), in the order in which they were found."""
         return self.members[self.starts[index] : self.starts[index + 1]]
 
-    def size_of(self, index: int) -> int:
-        return int(self.starts[index + 1] - self.starts[index])
-
     def block(self, index: int) -> Block:
         return _ordered(self.graph, self.members_of(index))
 
-    def core(self, index: int) -> Indices:
-        """Vertices of the part that one block grew from, shape (cores[index],), ascending."""
-        return self.members[self.starts[index] : self.starts[index] + self.cores[index]]
-
     def part(self, index: int) -> Block:
         """Order the rows of the part that one block grew from: a block without overlap."""
-        return _ordered(self.graph, self.core(index))
+        return _ordered(self.graph, self.members_of(index)[: self.cores[index]])
 
 
 def block_size(partition: Partition, overlap: float) -> int:
@@ -175,17 +168,9 @@ class Blend:
         """Add one copy of each vertex in `vertices`, shape (n_i,), at `positions`, shape (n_i, 3)."""
         _kernels.add_copies(self.sums, self.weights, vertices, positions, weights)
 
-    def known(self, vertices: Indices) -> Mask:
-        """Which of `vertices`, shape (k,), have a copy that counts; shape (k,)."""
-        return self.weights[vertices] > 0
-
     def all_positions(self) -> Matrix:
         """Weighted averages of all vertices, all of them known, shape (n, 3)."""
         return self.sums / self.weights[:, None]
-
-    def positions(self, vertices: Indices) -> Matrix:
-        """Weighted averages for `vertices`, all of them known, shape (len(vertices), 3)."""
-        return self.sums[vertices] / self.weights[vertices][:, None]
 
 
 def degree_weights(degrees: Indices) -> Matrix:

@@ -26,7 +26,7 @@ INLINE void cross_of_face(const double *positions, const int32_t *face, double *
 int64_t back_into_unit(ConstDoubles2 positions, double scale, ConstDoubles center, Doubles2 moved);
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
 int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, Ints labels);
-int64_t reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
+bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
 double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around);
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);

@@ -71,9 +71,8 @@ int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, I
 }
 
 /* Whether there is a way from vertex 0 to all others; `scratch` has two entries a vertex, and one more. */
-int64_t reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch) {
+bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch) {
     int64_t n = offsets.size - 1, tail = 1;
-    if (!fits_graph(offsets, neighbors) || scratch.size < 2 * n + 1) return MISUSED;
     int32_t *unseen = scratch.data, *waiting = scratch.data + n;
     for (int64_t v = 0; v < n; v++) unseen[v] = v > 0;
     waiting[0] = 0;

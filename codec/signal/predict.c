@@ -1,7 +1,6 @@
 /* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbors in their order; and
  * what continues the known (M 7.4), sums in the order of rows. */
 #include "bitstream/trellis.h"
-#include "codec/geometry/geometry.h"
 #include "codec/signal/signal.h"
 
 static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness, const double *sum, double weight) {
@@ -36,17 +35,14 @@ INLINE double mean_of(ConstDoubles2 pulls, int64_t d, double total) {
 
 /* What continues the known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean), with a factor of
  * `factorize_fronts`; zero without springs. `scratch` is what `solve_columns` asks for. */
-int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
-                       Singles scratch, Doubles2 continued) {
+void continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
+    Singles scratch, Doubles2 continued) {
     int64_t n = pulls.rows, m = pulls.columns;
-    if (springs.size != n || continued.rows != n || continued.columns != m || !fits_factor(&fronts, n, values, inverse)
-        || scratch.size < (n + 4) * (m + 16) + 15)
-        return MISUSED;
     double total = 0.0;
     for (int64_t r = 0; r < n; r++) total += springs.data[r];
     if (!(total > 0.0)) {
         for (int64_t i = 0; i < n * m; i++) continued.data[i] = 0.0;
-        return 0;
+        return;
     }
     for (int64_t d = 0; d < m; d++) {
         double mean = mean_of(pulls, d, total);
@@ -57,24 +53,19 @@ int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, Cons
         double mean = mean_of(pulls, d, total);
         for (int64_t r = 0; r < n; r++) continued.data[r * m + d] += mean;
     }
-    return 0;
 }
 
 /* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the
  * known. `sums` has room for a number a row, `column` for one more, and `scratch` is what `continue_known` asks for. */
-int64_t suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
-                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
-                Singles values, Singles inverse, Doubles2 continued) {
+void suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
+    ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
+    Singles values, Singles inverse, Doubles2 continued) {
     int64_t n = springs.size;
     ConstSingles pivots = {inverse.data, inverse.size};
-    if (!fits_graph(offsets, neighbors) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n
-        || !fits_factor(&fronts, n, values, pivots) || (weights.size > 0 && weights.size < offsets.data[n])
-        || sums.size != n || column.size != n + 1 || scratch.size < 3 * (n + 16) + 15)
-        return MISUSED;
     for (int64_t r = 0; r < n; r++) sums.data[r] = diagonal.data[r] + (springs.data[r] + shift);
     factorize_fronts(offsets, neighbors, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values,
         inverse);
-    return continue_known(fronts, values, pivots, springs, pulls, scratch, continued);
+    continue_known(fronts, values, pivots, springs, pulls, scratch, continued);
 }
 
 /* Positions of a block from its levels (specification, M 10.2): what is expected, and U times the coefficients. */

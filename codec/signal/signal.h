@@ -12,9 +12,9 @@ void ISA(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coeffic
 void ISA(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values);
 void look_around(ConstInts offsets, ConstInts neighbors, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls);
-int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
-                       Singles scratch, Doubles2 continued);
-int64_t suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
+void continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
+    Singles scratch, Doubles2 continued);
+void suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
     ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
     Singles values, Singles inverse, Doubles2 continued);
 int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
