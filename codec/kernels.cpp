@@ -37,18 +37,6 @@ void bind_codec(nb::module_ &m) {
     m.def("averaged", checked<&averaged>, "samples"_a, "small"_a, Unlocked());
     m.def("contrast", checked<&contrast>, "first"_a, "second"_a, "half"_a, "steady"_a, "scratch"_a, "sums"_a,
           Unlocked());
-    m.def("bisection_scratch", &bisection_scratch, "size"_a);
-    m.def("bisect", &bisect, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
-    m.def("refine_partition", &refine_partition, "offsets"_a, "neighbors"_a, "labels"_a, "passes"_a, "sizes"_a,
-          "votes"_a, Unlocked());
-    m.def("label_parts", checked<&label_parts>, "order"_a, "bounds"_a, "labels"_a, Unlocked());
-    m.def("group_by_label", &group_by_label, "labels"_a, "bounds"_a, "order"_a, Unlocked());
-    m.def("chain_blocks", checked<&chain_blocks>, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "labels"_a,
-          "size"_a, "links"_a, "shares"_a, "scratch"_a, "seen"_a, "chain"_a, "starts"_a, "edges"_a, "members"_a,
-          Unlocked());
-    m.def("order_scratch", &order_scratch, "rows"_a, "edges"_a);
-    m.def("order_block", &order_block, "offsets"_a, "neighbors"_a, "rows"_a, "vertices"_a, "local_offsets"_a,
-          "local_neighbors"_a, "scratch"_a, Unlocked());
     m.def("add_copies", &add_copies, "sums"_a, "total"_a, "vertices"_a, "positions"_a, "weights"_a, Unlocked());
     m.def("collect_edges", &collect_edges, "faces"_a, "offsets"_a, "filled"_a, "ends"_a, "second"_a, Unlocked());
     m.def("patch_scores", &patch_scores, "normals"_a, "areas"_a, "starts"_a, "members"_a, "steps"_a,

@@ -25,7 +25,7 @@ from tools.vectors.good_fields import LAYER, refined
 from tools.vectors.meshes import tangled
 
 STAGES = (
-    *("chain_blocks", "smooth_all", "place_block", "back_into_unit", "show_frames", "draw_shaded", "averaged"),
+    *("smooth_all", "place_block", "back_into_unit", "show_frames", "draw_shaded", "averaged"),
     *("contrast", "shown_normals", "collect_creases", "hang_creases"),
     *("settle_levels", "paint_checker", "paint_colors"),
 )

@@ -22,8 +22,7 @@ bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *
     return done;
 }
 
-/* The partition that follows from the graph alone (M 4). */
-static bool derive_labels(Context *context, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
+bool derive_labels(Context *context, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
     Ints order, bounds, votes;
     Words room;
     Longs sizes;

@@ -28,6 +28,8 @@ typedef struct {
 } Patch;
 
 bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph);
+/* The part of each vertex that follows from the graph alone (M 4). */
+bool derive_labels(Context *context, const Graph *graph, int64_t parts, Arena *scratch, Ints labels);
 /* `labels`: the part of each vertex, or no array for what follows from the graph. */
 bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
     Blocks *blocks);

@@ -16,52 +16,39 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bsm._core import Cut
 from bsm._core import codec as _kernels
-from bsm.bitstream.errors import OptionError, imported
+from bsm.bitstream.errors import imported
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
 
 
-def bisect(graph: Graph, parts: int) -> tuple[Indices, Indices]:
-    """Cut a graph into parts whose sizes differ by as little as proportional halving allows."""
-    order, bounds = np.empty(graph.size, np.int32), np.empty(parts + 1, np.int32)
-    scratch = np.empty(_kernels.bisection_scratch(graph.size), np.uint32)
-    if not _kernels.bisect(graph.offsets, graph.neighbors, order, bounds, scratch):
-        raise OptionError(f"{graph.size} vertices cannot be cut into {parts} parts")
-    return order, bounds
-
-
-REFINEMENT_PASSES = 2  # how often the derived partition goes over its boundaries; part of the format
-
-
 @dataclass(frozen=True, eq=False)
 class Partition:
     """Disjoint, non-empty parts that cover a graph."""
 
-    order: Indices
-    bounds: Indices
     labels: Indices
+
+    @cached_property
+    def sizes(self) -> Order:
+        """Vertices of each part."""
+        return np.bincount(self.labels)
 
     @property
     def parts(self) -> int:
-        return len(self.bounds) - 1
+        return len(self.sizes)
 
 
 def partition_of_labels(labels: Indices) -> Partition:
     """Partition whose parts are the distinct labels, shape (n,), numbered by the first vertex that has them."""
-    return _grouped(group_rows(labels.astype(np.int64)[:, None]))
+    return Partition(group_rows(labels.astype(np.int64)[:, None]))
 
 
 def derive_partition(graph: Graph, parts: int) -> Partition:
     """Recursive bisection, then two passes that move boundary vertices to where most of their neighbors are."""
-    order, bounds = bisect(graph, parts)
-    labels = np.empty(graph.size, np.int32)
-    _kernels.label_parts(order, bounds, labels)
-    sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)
-    _kernels.refine_partition(graph.offsets, graph.neighbors, labels, REFINEMENT_PASSES, sizes, votes)
-    return _grouped(labels)
+    return Partition(Cut(graph.offsets, graph.neighbors).labels(parts))
 
 
 def metis_partition(graph: Graph, parts: int) -> Partition:
@@ -72,12 +59,6 @@ def metis_partition(graph: Graph, parts: int) -> Partition:
     adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbors)
     _, labels = pymetis.part_graph(parts, adjacency)
     return partition_of_labels(np.asarray(labels, dtype=np.int32))
-
-
-def _grouped(labels: Indices) -> Partition:
-    order, bounds = np.empty(len(labels), np.int32), np.empty(int(labels.max()) + 2, np.int32)
-    _kernels.group_by_label(labels, bounds, order)
-    return Partition(order, bounds, labels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +84,6 @@ class Blocks:
     """All blocks of a mesh, or of a section of one, in the order of the chain."""
 
     graph: Graph
-    chain: Indices
     cores: Indices
     starts: Order
     edges: Order
@@ -111,7 +91,7 @@ class Blocks:
 
     @property
     def count(self) -> int:
-        return len(self.chain)
+        return len(self.cores)
 
     def members_of(self, index: int) -> Indices:
         """Vertices of one block, shape (n_i,), in the order in which they were found."""
@@ -127,33 +107,18 @@ class Blocks:
 
 def block_size(partition: Partition, overlap: float) -> int:
     """n_d: `overlap` times the largest part, rounded, at most the number of vertices."""
-    largest = int(np.diff(partition.bounds).max())
-    return min(len(partition.order), max(largest, round(overlap * largest)))
+    largest = int(partition.sizes.max())
+    return min(len(partition.labels), max(largest, round(overlap * largest)))
 
 
 def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
     """Put the parts into a chain and grow each by breadth-first rings to `size` vertices (n_d)."""
-    parts, ends = partition.parts, len(graph.neighbors)
-    chain, starts, edges = np.empty(parts, np.int32), np.empty(parts + 1, np.int64), np.empty(parts, np.int64)
-    members, seen = np.empty(parts * min(size, graph.size), np.int32), np.empty(graph.size, np.int32)
-    pairs = min(ends, parts * (parts - 1))
-    links, shares, scratch = np.empty(pairs, np.int32), np.empty(pairs, np.int64), np.empty(7 * parts, np.int64)
-    given = graph.offsets, graph.neighbors, partition.order, partition.bounds, partition.labels, size
-    count = _kernels.chain_blocks(*given, links, shares, scratch, seen, chain, starts, edges, members)
-    cores = np.diff(partition.bounds)[chain]
-    return Blocks(graph, chain, cores, starts, edges, members[:count])
+    cut = Cut(graph.offsets, graph.neighbors)
+    return Blocks(graph, *cut.blocks(partition.labels, partition.parts, size))
 
 
-def _ordered(graph: Graph, rows: Indices) -> Block:
-    size, room = len(rows), 8 * len(rows)
-    vertices, offsets = np.empty(size, np.int32), np.empty(size + 1, np.int32)
-    while True:
-        neighbors = np.empty(room, np.int32)
-        scratch = np.empty(_kernels.order_scratch(size, room), np.uint32)
-        ends = _kernels.order_block(graph.offsets, graph.neighbors, rows, vertices, offsets, neighbors, scratch)
-        if ends <= room:
-            return Block(vertices, offsets, neighbors[:ends].copy())
-        room = ends
+def _ordered(graph: Graph, members: Indices) -> Block:
+    return Block(*Cut(graph.offsets, graph.neighbors).rows(members))
 
 
 class Blend:

@@ -537,8 +537,8 @@ class Chain : public Steps {
         run([&] { return commit_coded_block(chain, width, positions); });
     }
 
-  private:
     friend class Part;
+    static nb::object copy(ConstLongs from) { return copy_of(from.data, "int64", (size_t)from.size); }
     static nb::object copy(ConstInts from) { return copy_of(from.data, "int32", (size_t)from.size); }
     static nb::object copy(ConstDoubles from) { return copy_of(from.data, "float64", (size_t)from.size); }
     static nb::object copy(ConstDoubles2 from) { return copy_of(from.data, "float64", (size_t)from.rows, 3); }
@@ -565,6 +565,33 @@ class Part : public Steps {
 
   private:
     const CodedPart *part;
+};
+
+// A graph that is cut into parts and blocks.
+class Cut : public Steps {
+  public:
+    Cut(ConstInts offsets, ConstInts neighbors) : offsets(offsets), neighbors(neighbors) {}
+    nb::object labels(int64_t parts) {
+        Array made = array_of("int32", (size_t)offsets.size - 1);
+        run([&] { return label_graph(chain, offsets, neighbors, parts, {(int32_t *)made.data, offsets.size - 1}); });
+        return made.numpy;
+    }
+    // Of blocks in the order of their chain: vertices of their parts, where members begin, edges, and members.
+    nb::tuple blocks(ConstInts labels, int64_t parts, int64_t size) {
+        GrownBlocks grown;
+        run([&] { return grow_parts(chain, offsets, neighbors, labels, parts, size, &grown); });
+        return nb::make_tuple(Chain::copy(grown.cores), Chain::copy(grown.starts), Chain::copy(grown.edges),
+            Chain::copy(grown.members));
+    }
+    // Vertices of a block in the order of its rows, and the graph among them.
+    nb::tuple rows(ConstInts members) {
+        run([&] { return order_rows(chain, offsets, neighbors, members); });
+        const CodedBlock &block = *present_block(chain);
+        return nb::make_tuple(Chain::copy(block.vertices), Chain::copy(block.offsets), Chain::copy(block.neighbors));
+    }
+
+  private:
+    ConstInts offsets, neighbors;
 };
 
 // The graph of a block, and iterations with it.
@@ -659,6 +686,15 @@ NB_MODULE(_core, m) {
             SIG("facts(self) -> tuple[" INTS ", " INTS ", int, float, float]"))
         .def("coefficients", in_turn(&Part::coefficients), "values"_a, "ends"_a, "found"_a)
         .def("values", in_turn(&Part::values), "coefficients"_a, "ends"_a, "found"_a);
+    nb::class_<Cut>(m, "Cut")
+        .def(nb::init<ConstInts, ConstInts>(), "offsets"_a, "neighbors"_a, nb::keep_alive<1, 2>(),
+            nb::keep_alive<1, 3>())
+        .def("labels", in_turn(&Cut::labels), "parts"_a, SIG("labels(self, parts: int) -> " INTS))
+        .def("blocks", in_turn(&Cut::blocks), "labels"_a, "parts"_a, "size"_a,
+            SIG("blocks(self, labels: " INTS ", parts: int, size: int) -> tuple[" INTS ", " LONGS ", " LONGS ", " INTS
+                "]"))
+        .def("rows", in_turn(&Cut::rows), "members"_a,
+            SIG("rows(self, members: " INTS ") -> tuple[" INTS ", " INTS ", " INTS "]"));
     nb::class_<Solver>(m, "Solver")
         .def(nb::init<ConstInts, ConstInts, ConstDoubles>(), "offsets"_a, "neighbors"_a, "shift"_a,
             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())

@@ -34,12 +34,54 @@ void close_chain(CodedChain *chain) {
 const CodedBlock *present_block(const CodedChain *chain) { return &chain->shown; }
 ConstSingles2 present_dictionary(const CodedChain *chain) { return const_singles2(chain->dictionary); }
 
+static bool are_within(ConstInts numbers, int64_t bound) {
+    bool within = true;
+    for (int64_t i = 0; within && i < numbers.size; i++) within = numbers.data[i] >= 0 && numbers.data[i] < bound;
+    return within;
+}
+
 static bool is_graph(ConstInts offsets, ConstInts neighbors) {
     int64_t n = offsets.size - 1;
     bool fits = n > 0 && offsets.data[0] == 0 && offsets.data[n] == neighbors.size;
     for (int64_t v = 0; fits && v < n; v++) fits = offsets.data[v] <= offsets.data[v + 1];
-    for (int64_t i = 0; fits && i < neighbors.size; i++) fits = neighbors.data[i] >= 0 && neighbors.data[i] < n;
-    return fits;
+    return fits && are_within(neighbors, n);
+}
+
+static bool take_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors) {
+    chain->graph = (Graph){offsets.size - 1, offsets, neighbors};
+    return is_graph(offsets, neighbors) || FAIL(&chain->writer->context, MISUSED, "offsets and neighbors are no graph");
+}
+
+bool label_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors, int64_t parts, Ints labels) {
+    Writer *writer = chain->writer;
+    return take_graph(chain, offsets, neighbors)
+        && derive_labels(&writer->context, &chain->graph, parts, &writer->scratch, labels);
+}
+
+bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
+    int64_t size, GrownBlocks *grown) {
+    Writer *writer = chain->writer;
+    Blocks blocks;
+    Header header = {.blocks = parts, .block_size = size};
+    if (!take_graph(chain, offsets, neighbors)) return false;
+    if (labels.size != chain->graph.size || parts < 1 || size < 1 || !are_within(labels, parts))
+        return FAIL(&writer->context, MISUSED, "labels of parts do not fit the graph");
+    if (!make_blocks(&writer->context, &header, &chain->graph, (Ints){(int32_t *)labels.data, labels.size},
+            &writer->arena, &writer->scratch, &blocks))
+        return false;
+    *grown = (GrownBlocks){const_ints(blocks.cores), const_ints(blocks.members),
+        {blocks.starts.data, blocks.starts.size}, {blocks.edges.data, blocks.edges.size}};
+    return true;
+}
+
+bool order_rows(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts members) {
+    Patch patch;
+    if (!take_graph(chain, offsets, neighbors)) return false;
+    if (members.size < 1 || !are_within(members, chain->graph.size))
+        return FAIL(&chain->writer->context, MISUSED, "members of a block do not fit the graph");
+    if (!order_patch(&chain->graph, members, &chain->writer->scratch, &patch)) return false;
+    chain->shown = (CodedBlock){.vertices = patch.vertices, .offsets = patch.offsets, .neighbors = patch.neighbors};
+    return true;
 }
 
 bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, ConstInts neighbors, ConstInts cores,
@@ -52,8 +94,7 @@ bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, C
         && rules.apart >= 0 && rules.key_interval >= 0;
     for (int64_t i = 0; fits && i < count; i++)
         fits = cores.data[i] > 0 && starts.data[i] + cores.data[i] <= starts.data[i + 1];
-    for (int64_t i = 0; fits && i < members.size; i++) fits = members.data[i] >= 0 && members.data[i] < n;
-    if (!fits) return FAIL(context, MISUSED, "blocks do not fit their graph, or rules are no counts");
+    if (!fits || !are_within(members, n)) return FAIL(context, MISUSED, "blocks do not fit their graph");
     chain->graph = (Graph){n, offsets, neighbors};
     /* Only read. */
     chain->blocks = (Blocks){.count = count, .cores = {(int32_t *)cores.data, count},
@@ -216,7 +257,8 @@ bool begin_solver(CodedChain *chain, ConstInts offsets, ConstInts neighbors, Con
     Arena *arena = &chain->writer->arena;
     int64_t n = offsets.size - 1;
     Patch *patch = &chain->block.patch;
-    if (!is_graph(offsets, neighbors) || shift.size != n) return FAIL(context, MISUSED, "no graph, or no shift for it");
+    if (!take_graph(chain, offsets, neighbors)) return false;
+    if (shift.size != n) return FAIL(context, MISUSED, "# shifts for # rows", shift.size, n);
     *patch = (Patch){.size = n, .offsets = offsets, .neighbors = neighbors};
     if (!take_doubles(arena, n, &patch->diagonal)) return false;
     for (int64_t r = 0; r < n; r++) patch->diagonal.data[r] = offsets.data[r + 1] - offsets.data[r];

@@ -10,6 +10,17 @@ struct Writer;
 CodedChain *open_chain(struct Writer *writer);
 void close_chain(CodedChain *chain);
 
+/* Of a graph: the part of each vertex; blocks of `size` vertices at most that grow from parts; and the rows of some of
+ * its vertices in order, which `present_block` has. */
+bool label_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors, int64_t parts, Ints labels);
+typedef struct {
+    ConstInts cores, members;
+    ConstLongs starts, edges;
+} GrownBlocks;
+bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts labels, int64_t parts,
+    int64_t size, GrownBlocks *grown);
+bool order_rows(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts members);
+
 /* The header's rules of dictionaries and chains; columns beyond half of `whole` rows are completed (M 8.7). */
 typedef struct {
     bool exact, springs;

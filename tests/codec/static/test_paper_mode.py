@@ -45,7 +45,7 @@ def test_the_stream_is_as_the_paper_has_it():
     assert (how.bits, how.exact, how.power, how.iterations, how.springs) == (12, 1, 2, 1, 0)
     assert (header.key_interval, header.smoothing, header.refinement) == (0, 0.0, ())
     parts = Encoder(MESH, EncodeOptions(preset="paper", **SMALL))._input.prepared.partition
-    assert header.block_size == round(1.15 * np.diff(parts.bounds).max())
+    assert header.block_size == round(1.15 * parts.sizes.max())
     assert not inspect_stream(iter([bsm.encode(MESH, step=0.01)])).is_paper
     assert not inspected(key_interval=4).is_paper
     assert not inspected(key_seed="cosines").is_paper
