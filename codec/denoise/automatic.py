@@ -79,20 +79,13 @@ best on smooth shapes; its mean with the other filter loses nothing where detail
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
 STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
 LEFT_UNEVEN = 0.55  # share of the angle that stays then
+SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
 LEARNT, LEARNT_MORE = 0.4, 0.025
 """Share of learnt normals in the mean; and movement over noise, above that without them, at which they are left out."""
-SLIDING = 0.6  # noise across the normals, over noise along them, from which on vertices slide along the surface
-DROWNED = 0.42
-"""Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
-alone is up to an eighth better, for normals and vertices."""
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
-HARMFUL = 0.95
-"""If the expected error of the result exceeds this multiple of the change, the mesh is not changed: normals turned by
-less than their estimated error do not get closer to the clean ones. Noise reads 0.15 to 0.7, the clean meshes that were
-taken for noisy 1.1 and 2.1."""
 UNPROMISED = 1.2
 """If the rehearsed error exceeds this multiple of the one that the roughness tells, the mesh is not changed: thin parts
 of robots became worse by up to a fifth."""
@@ -184,7 +177,8 @@ def choose(
         patient.expect(LARGEST_KEEP)
     goals = named("goal", GOALS, goal)
     rehearsal = Rehearsal(positions, finding.on(members), patient, candidates[0], goals, progress)
-    candidates = _suited(candidates, rehearsal.level, finding.edge)
+    if rehearsal.level.slides:  # noise has moved vertices along the surface, too
+        candidates = tuple(replace(each, hand_over=SLIDING.get(each.hand_over, each.hand_over)) for each in candidates)
     winner = rehearsal.compete(candidates[:HERALDS], HERALDED)
     # The result of a few recipes is a better guess. A third round would repeat its own mistakes.
     rehearsal.rehearse(rehearsal.perform(winner.steps, share), SEED + 1)
@@ -193,7 +187,8 @@ def choose(
     forecast = rehearsal.forecast(winner) if goal == "shading" else None
     doubts = {
         "any filter would cost more than it gains": WORTH * untreated,
-        "the expected error is as large as the change": HARMFUL * rehearsal.changed(steps, share),
+        # Noise reads 0.15 to 0.95 of it, clean meshes that were taken for noisy 1.1 and 2.1.
+        "the expected error is as large as the change": rehearsal.changed(steps, share),
         "the triangles are so uneven that any filter would turn their normals farther": (
             UNPROMISED * forecast.untreated if forecast else np.inf
         ),
@@ -234,15 +229,6 @@ def _bounded(finding: Finding) -> AutomaticChoice:
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 
-def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:
-    """The recipes to try: those that let vertices slide along the surface only where noise has moved them there, or
-    drowns the surface."""
-    sliding = {recipe: replace(recipe, hand_over="positions") for recipe in recipes if recipe.hand_over == "heights"}
-    if level.tangential > SLIDING * level.normal:
-        return tuple(sliding.get(recipe, recipe) for recipe in recipes)
-    return (*recipes, *sliding.values()) if level.normal > DROWNED * edge else recipes
-
-
 def treat(
     choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient, strength: float = 1.0
 ) -> tuple[Positions, AutomaticChoice]:
@@ -250,6 +236,7 @@ def treat(
     return the choice as it was carried out, with the angles to expect if vertices move only a part of the way."""
     if not choice.steps:
         return noisy, choice
+    finding = finding.reaching(patient.topology, choice.noise.slides)
     patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels > 0.0
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
@@ -266,8 +253,7 @@ def treat(
     if verdict.reason:
         return noisy, replace(choice, steps=(), reason=verdict.reason)
     share = restraint(verdict.movement, finding)
-    result = full if share == 1.0 else noisy + share * (full - noisy)
-    result = keep_good(noisy, result, verdict.good)
+    result = keep_good(noisy, noisy + share * (full - noisy) if share < 1.0 else full, verdict.good)
     if choice.forecast:
         part = noisy + strength * (result - noisy)
         choice = choice.seen(share * strength, full, part, finding.levels > 0.0, patient.topology)

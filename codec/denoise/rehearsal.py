@@ -102,9 +102,11 @@ class Rehearsal:
         self, noisy: Positions, finding: Finding, patient: Patient, base: Recipe, goal: Goal, progress: Progress
     ) -> None:
         self._patient, self._topology, self._goal, self._progress = patient, patient.topology, goal, progress
-        self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
+        self._given, self._touched = noisy, finding.levels > 0.0
         smooth = patient.smooth(noisy, base.keep) if base.needs_coarse else noisy
         self.level = estimate_noise(noisy, smooth, patient.probe)
+        self._finding = finding.reaching(self._topology, self.level.slides)
+        patient.bound = self._finding.bound
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
         given = 1
         if finding.kind == "fused":

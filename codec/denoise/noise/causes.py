@@ -14,7 +14,7 @@ import numpy as np
 from bsm.codec.arrays import Faces, Indices, Positions
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.denoise.surface import Floats, Topology, surface_normals
 from bsm.codec.geometry.welding import weld
 
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
@@ -114,6 +114,31 @@ class Line:
         """Moved positions, shape (n, 3), brought back to the lines through the given ones."""
         along = np.clip((moved - given) @ self.axis, -self.most, self.most)
         return np.asarray(given + along[:, None] * self.axis)
+
+
+FARTHEST, ASIDE = 5.0, 1.5
+"""Levels of noise that a vertex moves at most; and those along the surface that it approaches, however far it would
+slide. Both leave the angles of noise along normals and of single vertices as they are or better."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """How far noise reaches, shape (n,), and whether it has moved vertices along the surface, too."""
+
+    topology: Topology
+    levels: Floats
+    slides: bool
+
+    def within(self, given: Positions, moved: Positions) -> Positions:
+        """Moved positions, shape (n, 3), brought back to where noise may have come from."""
+        way, levels = moved - given, np.maximum(self.levels, 1e-300)
+        if not self.slides:
+            normals = surface_normals(moved, self.topology)
+            along = np.einsum("ij,ij->i", way, normals)[:, None] * normals
+            aside = way - along
+            way = along + aside / (1.0 + np.linalg.norm(aside, axis=1) / (ASIDE * levels))[:, None]
+        far = np.linalg.norm(way, axis=1) / (FARTHEST * levels)
+        return np.asarray(given + way / np.maximum(far, 1.0)[:, None])
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid, Steps
+from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid, Reach, Steps
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
-from bsm.codec.denoise.surface import Floats, Mask
+from bsm.codec.denoise.surface import Floats, Mask, Topology
 
 LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has at least, and over the usual
 LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
@@ -77,6 +77,12 @@ class Finding:
     def on(self, members: npt.NDArray[np.int64]) -> Finding:
         growth = None if self.growth is None else self.growth[members]
         return replace(self, levels=self.levels[members], growth=growth)
+
+    def reaching(self, topology: Topology, slides: bool) -> Finding:
+        """The finding with a bound to where noise that is not bound otherwise may have moved vertices from."""
+        free = self.bound is None and self.kind in ("white", "correlated", "local")
+        # Fine levels hold little of noise that neighbors share: about the square of their share in the finest.
+        return replace(self, bound=Reach(topology, self.levels / self.whiteness**2, slides)) if free else self
 
 
 MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "irregular", "few")

@@ -60,6 +60,9 @@ HEAVY_LEVEL, HEAVY_PASSES = 0.3, 8  # from here on normals are taken from a smoo
 AXIS_ALONE, AXIS_EVEN = 1.25, (0.55, 1.7)
 """Noise along an axis over that across; and on sides along the axis over that at its ends: noise along normals reads 0
 to 0.8 there, triangles that are longer one way 1.8 and more."""
+AXIS_BARE = 0.58
+"""Noise along the normals over that along the axis, on sides along the axis: it reads up to 0.45, from detail of the
+shape, and noise along normals on shapes of long triangles 0.7 and more."""
 AXIS_MOST, SNAP = 5.0, 0.995  # deviations that a vertex was moved at most; cosine from which on it is x, y or z
 DEPTH_WORTH, DEPTH_MOST = 0.7, 3.0
 """Noise that grows with depth: the rest of the spread, and the logarithm of the ratio between both ends."""
@@ -225,12 +228,14 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
         return None
     axis = vectors[:, 2] * np.sign(vectors[np.abs(vectors[:, 2]).argmax(), 2])
     axis = np.round(axis) if np.abs(axis).max() > SNAP else axis
-    facing = np.abs(probe.smooth_normals(positions, HEAVY_PASSES) @ axis)
+    normals = probe.smooth_normals(positions, HEAVY_PASSES)
+    facing = np.abs(normals @ axis)
     beside, ends = (chosen & (facing < 0.35)), (chosen & (facing >= 0.7))
     if min(beside.sum(), ends.sum()) < FEWEST_IN_WINDOW:
         return None
-    strengths = [float(np.quantile(np.abs(fine[side] @ axis), SHARE)) for side in (beside, ends)]
-    if not AXIS_EVEN[0] * strengths[1] < strengths[0] < AXIS_EVEN[1] * strengths[1]:
+    seen = ((fine @ axis)[beside], (fine @ axis)[ends], np.einsum("ij,ij->i", fine, normals)[beside])
+    side, end, bare = (float(np.quantile(np.abs(values), SHARE)) for values in seen)
+    if not AXIS_EVEN[0] * end < side < AXIS_EVEN[1] * end or bare > AXIS_BARE * side:
         return None
     along = look(probe, positions / edge, np.tile(axis, (len(positions), 1)), edge)
     windows, depth, growth = probe.windows, positions @ axis, None

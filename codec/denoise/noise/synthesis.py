@@ -15,9 +15,11 @@ from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Floats, surface_normals
 from bsm.codec.geometry.metrics import mean_edge_length
 
-MEDIAN_ALONG, MEDIAN_ACROSS = 0.6745, 1.1774  # of one standard normal number's size, and of the length of two
+MEDIAN_ALONG, TENTH_ACROSS = 0.6745, 0.4590  # of one standard normal number's size, and of the length of two
 IRREGULARITY = 0.15
 """Largest level across the normals, in mean edges, that irregular triangles gave on the meshes tried."""
+
+SLIDING = 0.5  # noise across the normals, over noise along them, from which on vertices slide along the surface
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,11 @@ class NoiseLevel:
     normal: float
     tangential: float
 
+    @property
+    def slides(self) -> bool:
+        """Whether vertices have to slide along the surface."""
+        return self.tangential > SLIDING * self.normal
+
 
 def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> NoiseLevel:
     """Return the noise of `positions`, shape (n, 3), along and across the normals of a smooth version of them."""
@@ -34,10 +41,12 @@ def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> Noi
     normals = surface_normals(smooth, probe.topology)[counted]
     seen = probe.finest(positions)[counted]
     along = np.einsum("ij,ij->i", seen, normals)
-    across = float(np.median(np.linalg.norm(seen - along[:, None] * normals, axis=1))) / MEDIAN_ACROSS
+    # Triangles are irregular here and there, and noise is everywhere: its tenth part tells.
+    across = float(np.quantile(np.linalg.norm(seen - along[:, None] * normals, axis=1), 0.1)) / TENTH_ACROSS
     normal = float(np.median(np.abs(along))) / MEDIAN_ALONG
     floor = IRREGULARITY * mean_edge_length(positions, probe.topology.faces)
-    return NoiseLevel(normal, min(normal, math.sqrt(max(across * across - floor * floor, 0.0))))
+    above = math.sqrt(max(across * across - floor * floor, 0.0))
+    return NoiseLevel(normal, min(normal, across if above > SLIDING * normal else above))
 
 
 MOST_STEPS = 12

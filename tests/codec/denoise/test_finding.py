@@ -57,6 +57,13 @@ def test_fainter_impulses_are_found_on_many_vertices_and_few(shape, size: int, s
     assert finding.noisy and finding.whiteness > 1.08
 
 
+def test_triangles_that_are_irregular_along_an_axis_are_no_noise_along_it() -> None:
+    clean, faces = cube(20)
+    walls = (clean[:, 2] > 0.0) & (clean[:, 2] < 20.0)
+    clean[walls, 2] += np.random.default_rng(5).normal(0.0, 0.25, walls.sum())
+    assert find(gaussian_along_normals(clean, faces, 0.2, 3), faces).kind == "white"
+
+
 def test_the_axis_is_found_and_noise_that_grows_along_it() -> None:
     clean, faces = sphere(30)
     direction = np.array([1.0, 2.0, -2.0]) / 3.0
