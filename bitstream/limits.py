@@ -208,24 +208,32 @@ _BEYOND = re.compile(r"(\w+) = (\d+) is over the limit of \d+$")
 
 
 def decoder_error(
-    status: int, message: str, offset: int, frame: int, block: int, limits: Limits, state: list[float]
+    status: int,
+    message: str,
+    offset: int,
+    frame: int,
+    block: int,
+    limits: Limits,
+    shown: int,
+    present: int,
+    received: float,
 ) -> Exception:
     """The error that the decoder in C reports, as an exception; places of -1 are not known."""
     if status not in _REFUSALS:
         return MemoryError(message)
     error = _REFUSALS[status](message)
     if isinstance(error, LimitError) and (beyond := _BEYOND.match(message)):
-        error = LimitError(f"{message}; {_cure_of(beyond[1], float(beyond[2]), *state[3:6])}")
+        error = LimitError(f"{message}; {_cure_of(beyond[1], float(beyond[2]), shown, present, received)}")
     places = {"offset": offset, "frame": frame, "block": block}
     return error.located(**{name: place for name, place in places.items() if place >= 0})
 
 
-def _cure_of(name: str, value: float, shown: float, present: float, received: float) -> str:
+def _cure_of(name: str, value: float, shown: int, present: int, received: float) -> str:
     def enough(limits: Limits) -> bool:
         if name == "work":
-            return value <= limits.work_for(int(shown), 0)
+            return value <= limits.work_for(shown, 0)
         if name == "memory":
-            return value <= limits.memory_for(int(present), int(received))
+            return value <= limits.memory_for(present, int(received))
         return bool(value <= getattr(limits, name, 0))
 
     return _cure(name, enough)

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import Decoder as Engine
-from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, paper_of
+from bsm._core import DecoderState
+from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper, fields_of, paper_of
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
@@ -89,7 +90,7 @@ class StreamDecoder:
         self._finished = False
         self._error: BsmError | None = None
         self._entries = self._received = 0
-        self._state = [0.0] * 7
+        self._last = self._engine.state()
         self.metadata: Mapping[str, MetadataValue] = {}
         """Metadata of the mesh, as far as it has arrived."""
 
@@ -103,17 +104,21 @@ class StreamDecoder:
     def close(self) -> None:
         """Release the decoder's memory; no more events can be asked for."""
         if self._engine is not None:
-            self._state, self._engine = self._engine.state(), None
+            self._last, self._engine = self._state, None
+
+    @property
+    def _state(self) -> DecoderState:
+        return self._last if self._engine is None else self._engine.state()
 
     @property
     def work(self) -> float:
         """Nanoseconds of a processor core that the stream has cost so far, by the estimates that limits bound."""
-        return float((self._state if self._engine is None else self._engine.state())[1])
+        return self._state.work
 
     @property
     def vertices(self) -> int:
         """How many have come with faces; by them memory and work are bounded."""
-        return int((self._state if self._engine is None else self._engine.state())[2])
+        return self._state.vertices
 
     @_in_turn
     def receive_data(self, data: Buffer) -> None:
@@ -287,7 +292,7 @@ class Decoder(StreamDecoder):
             if event[0] == END:
                 self._sizes = event[3:]
             elif progress is not None:
-                progress(int(self._open.state()[0]), self._received)
+                progress(self._open.state().offset, self._received)
         assert self._sizes is not None
         vertices, faces = self._sizes
         engine = self._open
@@ -383,34 +388,36 @@ class SequenceDecoder(StreamDecoder):
             yield attribute if found is None else found[0]
 
 
-def header_of(numbers: list[float]) -> Header:
-    """A header of the numbers that `list_header` in bitstream/container/header.c gives."""
-    n, whole = numbers, [int(number) for number in numbers]
-    law = LAW_OF_SEQUENCES if n[39] else LAW
-    run, mesh_of = whole[13:15]
+def header_of(numbers: dict[str, float]) -> Header:
+    """A header of its numbers by their names in C (`HEADER_LIST` in bitstream/container/header.h)."""
+    whole = {name: int(number) for name, number in numbers.items()}
+    law = LAW_OF_SEQUENCES if whole["is_sequence"] else LAW
+    run, mesh_of = whole["run"], whole["mesh_of"]
+    by_law = whole["on_grid"] or mesh_of >= 0
     return Header(
-        vertices=whole[0],
-        faces=whole[1],
-        blocks=whole[2],
-        block_size=whole[3],
-        coefficients=whole[4],
-        key_interval=whole[5],
-        step=n[6],
-        scale=n[7],
-        smoothing=n[8],
-        attributes=whole[9],
-        light=whole[10],
-        congruence=whole[41],
-        center=tuple(n[15:18]),
-        refinement=tuple(n[19:21]) if n[18] else (),
-        grid=tuple(whole[22:25]) if n[21] else (),
-        lattice=tuple(whole[25:27]) if n[26] else (),
-        corner=tuple(whole[28:31]) if n[27] else (),
-        sequence=tuple(whole[11:13]) if n[39] else (),
+        step=numbers["step"],
+        scale=numbers["scale"],
+        smoothing=numbers["smoothing"],
+        center=_row(numbers, "center", 3),
+        refinement=_row(numbers, "refinement", 2) if whole["refined"] else (),
+        grid=_row(whole, "grid", 3) if whole["on_grid"] else (),
+        lattice=(whole["cells"], whole["points"]) if whole["points"] else (),
+        corner=_row(whole, "corner", 3) if whole["counted"] else (),
+        sequence=(whole["frames"], whole["gop_frames"]) if whole["is_sequence"] else (),
         run=(run, mesh_of) if mesh_of >= 0 else (run,) if run else (),
-        paper=() if n[21] or mesh_of >= 0 else paper_of(tuple(n[31:39]), law).entry(law),
-        onorm=whole[40],
+        paper=() if by_law else paper_of(tuple(numbers[f"paper.{name}"] for name in fields_of(Paper)), law).entry(law),
+        **{name: whole[name] for name in _PLAIN},
     )
+
+
+_PLAIN = (
+    *("vertices", "faces", "blocks", "block_size", "coefficients", "key_interval"),
+    *("attributes", "light", "congruence", "onorm"),
+)
+
+
+def _row(numbers: Mapping[str, float], name: str, count: int) -> tuple[Any, ...]:
+    return tuple(numbers[f"{name}[{i}]"] for i in range(count))
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

@@ -160,16 +160,8 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
         && WITHIN(context, gop_frames, header->gop_frames) && WITHIN(context, attributes, header->attributes);
 }
 
-void list_header(const Header *h, double *numbers) {
-    const Paper *p = &h->paper;
-    const double all[HEADER_NUMBERS] = {
-        (double)h->vertices, (double)h->faces, (double)h->blocks, (double)h->block_size, (double)h->coefficients,
-        (double)h->key_interval, h->step, h->scale, h->smoothing, (double)h->attributes, h->light, (double)h->frames,
-        (double)h->gop_frames, (double)h->run, (double)h->mesh_of, h->center[0], h->center[1], h->center[2], h->refined,
-        h->refinement[0], h->refinement[1], h->on_grid, h->grid[0], h->grid[1], h->grid[2], (double)h->cells,
-        (double)h->points, h->counted, (double)h->corner[0], (double)h->corner[1], (double)h->corner[2], p->bits,
-        p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence,
-        h->onorm, h->congruence,
-    };
+#define NUMBER_OF(field) (double)header->field,
+void list_header(const Header *header, double *numbers) {
+    const double all[HEADER_NUMBERS] = {HEADER_LIST(NUMBER_OF)};
     memcpy(numbers, all, sizeof all);
 }

@@ -41,8 +41,15 @@ INLINE bool is_congruent(const Header *header) { return method_of(header) != LIG
 
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 
-/* All numbers of a header in a row, for other languages. */
-enum { HEADER_NUMBERS = 42 };
+/* All numbers of a header in a row, for other languages; Python has them by name. */
+#define HEADER_LIST(F) F(vertices) F(faces) F(blocks) F(block_size) F(coefficients) F(key_interval) F(step) \
+    F(scale) F(smoothing) F(attributes) F(light) F(frames) F(gop_frames) F(run) F(mesh_of) F(center[0]) F(center[1]) \
+    F(center[2]) F(refined) F(refinement[0]) F(refinement[1]) F(on_grid) F(grid[0]) F(grid[1]) F(grid[2]) F(cells) \
+    F(points) F(counted) F(corner[0]) F(corner[1]) F(corner[2]) F(paper.bits) F(paper.coarser) F(paper.exact) \
+    F(paper.power) F(paper.iterations) F(paper.key_iterations) F(paper.shift) F(paper.springs) F(is_sequence) \
+    F(onorm) F(congruence)
+#define ONE_MORE(field) +1
+enum { HEADER_NUMBERS = HEADER_LIST(ONE_MORE) };
 void list_header(const Header *header, double *numbers);
 
 /* Blocks of a chain (M 10.1). */

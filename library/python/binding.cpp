@@ -58,12 +58,6 @@ nb::object copy_of(const void *data, const char *kind, size_t rows, size_t colum
     return made.numpy;
 }
 
-template <typename Number, size_t count> nb::list list_of(const Number (&numbers)[count]) {
-    nb::list all;
-    for (Number number : numbers) all.append(number);
-    return all;
-}
-
 // Text that a message may have cut inside a character.
 nb::object text_of(const char *text) {
     return nb::steal(PyUnicode_DecodeUTF8(text, (Py_ssize_t)std::strlen(text), "ignore"));
@@ -88,9 +82,10 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
     throw nb::python_error();
 }
 
-nb::object error_of(const bsmdec_error &error, const nb::object &limits, const nb::object &state) {
+nb::object error_of(const bsmdec_error &error, const nb::object &limits, const DecoderState &state) {
     return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
-        (int)error.status, text_of(error.message), error.offset, error.frame, error.block, limits, state);
+        (int)error.status, text_of(error.message), error.offset, error.frame, error.block, limits,
+        state.shown, state.present, state.received);
 }
 
 // Python threads that share an object take turns: results are copied before the next call begins.
@@ -165,13 +160,12 @@ class Decoder : public Shared {
         return nb::make_tuple((int)event.type, event.index, event.count, event.vertices, event.faces);
     }
 
-    // Name and numbers of the next packet (see inside.h); None: it has not come as a whole.
-    nb::object skim() {
-        int64_t numbers[SKIMMED_NUMBERS] = {};
-        const char *name = "";
-        check(unlocked([&] { return name = decoder_skim(decoder, numbers), bsmdec_last_error(decoder)->status; }));
-        if (numbers[0] < 0) return nb::none();
-        return nb::make_tuple(text_of(name), list_of(numbers));
+    // The next packet; None: it has not come as a whole.
+    std::optional<SkimmedPacket> skim() {
+        SkimmedPacket packet;
+        bool found = false;
+        check(unlocked([&] { return found = decoder_skim(decoder, &packet), bsmdec_last_error(decoder)->status; }));
+        return found ? std::optional(packet) : std::nullopt;
     }
 
     nb::object faces(size_t count) {
@@ -229,17 +223,18 @@ class Decoder : public Shared {
             copy_of(found.values, KINDS[shape.kind], (size_t)found.count, (size_t)shape.components));
     }
 
-    // The numbers of bitstream/container/header.h, in the order of `list_header`.
-    nb::list header() {
-        double numbers[MOST_HEADER_NUMBERS] = {};
-        unlocked([&] { return decoder_header(decoder, numbers), BSMDEC_OK; });
-        return list_of(numbers);
+    // The numbers of bitstream/container/header.h by their names there.
+    nb::dict header() {
+        double numbers[MOST_HEADER_NUMBERS];
+        const char *const *names;
+        int count = unlocked([&] { return decoder_header(decoder, &names, numbers); });
+        nb::dict all;
+        for (int i = 0; i < count; i++) all[names[i]] = numbers[i];
+        return all;
     }
 
-    nb::list state() {
-        double numbers[STATE_NUMBERS];
-        unlocked([&] { return decoder_state(decoder, numbers), BSMDEC_OK; });
-        return list_of(numbers);
+    DecoderState state() {
+        return unlocked([&] { return decoder_state(decoder); });
     }
 
     // The loss of the last LOSS event, as an error.
@@ -291,7 +286,7 @@ class Output {
     template <typename Work> void run(Work work) {
         if (unlocked(work)) return;
         nb::object limits = nb::module_::import_("bsm.bitstream.limits").attr("DEFAULT_LIMITS");
-        raise(error_of(*encoding_error(encoding), limits, nb::make_tuple(0, 0, 0, 0, 0, 0, 0)));
+        raise(error_of(*encoding_error(encoding), limits, DecoderState{}));
     }
 
     nb::list payloads() const {
@@ -700,6 +695,18 @@ NB_MODULE(_core, m) {
             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("iterate", in_turn(&Solver::iterate), "start"_a, "power"_a, "iterations"_a, "apart"_a = 0,
             SIG("iterate(self, start: " SINGLES ", power: int, iterations: int, apart: int = 0) -> " SINGLES));
+    nb::class_<DecoderState>(m, "DecoderState")
+#define NUMBER(name) .def_ro(#name, &DecoderState::name)
+        NUMBER(offset) NUMBER(vertices) NUMBER(shown) NUMBER(present) NUMBER(work) NUMBER(received) NUMBER(memory);
+#undef NUMBER
+    nb::class_<SkimmedPacket>(m, "SkimmedPacket")
+        .def_prop_ro("name", [](const SkimmedPacket &packet) { return text_of(packet.name); },
+            SIG("name(self) -> str"))
+#define NUMBER(name) .def_ro(#name, &SkimmedPacket::name)
+        NUMBER(type) NUMBER(offset) NUMBER(length) NUMBER(payload) NUMBER(data) NUMBER(index) NUMBER(count)
+        NUMBER(entries) NUMBER(version) NUMBER(positions) NUMBER(begins) NUMBER(domain) NUMBER(semantic) NUMBER(kind)
+        NUMBER(components) NUMBER(coding) NUMBER(rows) NUMBER(moves);
+#undef NUMBER
     nb::class_<Decoder>(m, "Decoder")
         .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1,
             "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)
@@ -707,7 +714,7 @@ NB_MODULE(_core, m) {
         .def("finish", in_turn(&Decoder::finish))
         .def("next", in_turn(&Decoder::next), "wanted"_a,
             SIG("next(self, wanted: int) -> tuple[int, int, int, int, int]"))
-        .def("skim", in_turn(&Decoder::skim), SIG("skim(self) -> tuple[str, list[int]] | None"))
+        .def("skim", in_turn(&Decoder::skim))
         .def("faces", in_turn(&Decoder::faces), "count"_a, SIG("faces(self, count: int) -> " INTS))
         .def("positions", in_turn(&Decoder::positions), "count"_a, SIG("positions(self, count: int) -> " DOUBLES))
         .def("changes", in_turn(&Decoder::changes), SIG("changes(self) -> " CHANGES))
@@ -720,7 +727,7 @@ NB_MODULE(_core, m) {
             SIG("attribute(self, index: int) -> tuple[str, int, int, typing.Any, typing.Any, bool] | None"))
         .def("values", in_turn(&Decoder::values), "index"_a,
             SIG("values(self, index: int) -> tuple[str, int, int, typing.Any, " INTS ", typing.Any]"))
-        .def("header", in_turn(&Decoder::header), SIG("header(self) -> list[float]"))
-        .def("state", in_turn(&Decoder::state), SIG("state(self) -> list[float]"))
+        .def("header", in_turn(&Decoder::header), SIG("header(self) -> dict[str, float]"))
+        .def("state", in_turn(&Decoder::state))
         .def("loss", in_turn(&Decoder::loss), SIG("loss(self) -> typing.Any"));
 }

@@ -9,36 +9,43 @@
 #include "library/encode/rounding.h"
 #include "library/writing.h"
 
-void decoder_state(const bsmdec *decoder, double *state) {
+DecoderState decoder_state(const bsmdec *decoder) {
     const Spent *spent = &decoder->context.spent;
-    const double all[STATE_NUMBERS] = {(double)decoder->reader.offset, spent->spent, (double)spent->vertices,
-        (double)(spent->vertices + spent->shown), (double)(spent->vertices - spent->gone), spent->received,
-        spent->reserved};
-    memcpy(state, all, sizeof all);
+    return (DecoderState){decoder->reader.offset, spent->vertices, spent->vertices + spent->shown,
+        spent->vertices - spent->gone, spent->spent, spent->received, spent->reserved};
 }
 
-void decoder_header(const bsmdec *decoder, double *numbers) {
+_Static_assert(HEADER_NUMBERS <= MOST_HEADER_NUMBERS, "headers do not fit");
+
+#define NAME_OF(field) #field,
+int decoder_header(const bsmdec *decoder, const char *const **names, double *numbers) {
+    static const char *const ALL[] = {HEADER_LIST(NAME_OF)};
     list_header(&decoder->reader.headers[decoder->reader.header], numbers);
+    *names = ALL;
+    return HEADER_NUMBERS;
 }
 
-const char *decoder_skim(bsmdec *decoder, int64_t *numbers) {
+_Static_assert(sizeof((SkimmedPacket *)0)->name > MOST_NAME, "names do not fit");
+
+bool decoder_skim(bsmdec *decoder, SkimmedPacket *packet) {
     Reader *reader = &decoder->reader;
     const Header *header = &reader->headers[0];
     Packet p;
     Gop gop = {0};
-    numbers[0] = NO_FRAME;
-    if (next_packet(reader, &p) != A_PACKET) return "";
+    if (next_packet(reader, &p) != A_PACKET) return false;
     header += reader->header;
     if (p.type == GOP_FRAME
         && !parse_beginning(&(Cursor){&decoder->context, p.data}, header->gop_frames, header->run, &gop))
-        return "";
+        return false;
     const Declaration none = {0}, *d = p.type == ATTRIBUTE_FRAME ? p.declaration : &none;
-    const int64_t all[SKIMMED_NUMBERS] = {p.type, reader->last_offset, reader->offset - reader->last_offset, p.size,
-        p.data.size, p.index, p.coefficients + p.count + gop.frames, reader->metadata.count, reader->version,
-        gop.method == LEARNED || gop.method == KEY_FRAMES, p.has_positions ? (int64_t)p.positions : -1, d->domain,
-        d->semantic, d->kind, d->components, d->rows, d->coding, d->moves};
-    memcpy(numbers, all, sizeof all);
-    return p.type == ATTRIBUTE_FRAME ? p.declaration->name : "";
+    *packet = (SkimmedPacket){.type = p.type, .offset = reader->last_offset,
+        .length = reader->offset - reader->last_offset, .payload = p.size, .data = p.data.size, .index = p.index,
+        .count = p.coefficients + p.count + gop.frames, .entries = reader->metadata.count, .version = reader->version,
+        .positions = p.has_positions ? (int64_t)p.positions : -1,
+        .begins = gop.method == LEARNED || gop.method == KEY_FRAMES, .domain = d->domain, .semantic = d->semantic,
+        .kind = d->kind, .components = d->components, .coding = d->coding, .rows = d->rows, .moves = d->moves};
+    memcpy(packet->name, d->name, sizeof d->name);
+    return true;
 }
 
 struct Encoding {

@@ -10,17 +10,29 @@
 
 /* Bytes read, work charged and vertices of all faces so far; then what limits on work and memory count: vertices that
  * are present and of frames shown, vertices in memory, bytes received, and bytes of memory that are kept. */
-enum { STATE_NUMBERS = 7 };
-void decoder_state(const bsmdec *decoder, double *state);
-/* The header of the present run, as bitstream/container/header.h has it. */
+typedef struct {
+    int64_t offset, vertices, shown, present;
+    double work, received, memory;
+} DecoderState;
+DecoderState decoder_state(const bsmdec *decoder);
+/* The names and numbers of the header of the present run (bitstream/container/header.h), and how many there are. */
 enum { MOST_HEADER_NUMBERS = 48 };
-void decoder_header(const bsmdec *decoder, double *numbers);
-/* Read the next packet without decoding it, after all checks that come before decoding, and list it: type, offset and
- * length of its frame, bytes of its payload and of the data in it, index, count (also of coefficients or frames),
- * entries of metadata so far, version, whether a GOP begins anew, the checksum of positions or -1; of an attribute,
- * whose name is returned, domain, semantic, kind, components, rows, coding, whether it moves. Type -1: none. */
-enum { SKIMMED_NUMBERS = 18 };
-const char *decoder_skim(bsmdec *decoder, int64_t *numbers);
+int decoder_header(const bsmdec *decoder, const char *const **names, double *numbers);
+/* What a packet says before it is decoded; `positions` is their checksum or -1. What follows is of an attribute. */
+typedef struct {
+    int64_t type, offset, length; /* of its frame */
+    int64_t payload, data, index; /* bytes, and of these bytes of data */
+    int64_t count;                /* also of coefficients or frames */
+    int64_t entries;              /* of metadata so far */
+    int64_t version, positions;
+    bool begins; /* whether a GOP begins anew */
+    int domain, semantic, kind, components, coding;
+    int64_t rows;
+    bool moves;
+    char name[256]; /* more than any name takes */
+} SkimmedPacket;
+/* Read the next packet without decoding it, after all checks that come before decoding; false: there is none yet. */
+bool decoder_skim(bsmdec *decoder, SkimmedPacket *packet);
 
 /* What an encoder writes payloads with (library/writing.h): faces, or the chunks of one field. */
 typedef struct Encoding Encoding;
@@ -33,7 +45,6 @@ const bsmdec_error *encoding_error(const Encoding *encoding);
 const Writing *encoding_payloads(const Encoding *encoding);
 bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
     int32_t *faces);
-/* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
 /* ORDER of joined faces, which `values` has as they are coded, and of given vertices and faces, or NULL. */
 bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
     const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count);
@@ -41,6 +52,7 @@ bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, co
 bool encode_corners(Encoding *encoding, const int32_t *faces, int64_t faces_count, int64_t vertices);
 int64_t encode_joins(const Encoding *encoding, const int32_t *numbers, uint8_t *seams, int32_t *joined, int32_t *first);
 bool encode_seams(Encoding *encoding, const uint8_t *own, const uint8_t *last, const uint8_t *before_last);
+/* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
     double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
 bool encode_levels(Encoding *encoding, Written given);

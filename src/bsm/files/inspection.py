@@ -1,13 +1,13 @@
 """Reports on streams, without decoding them."""
 
-from collections import Counter, namedtuple
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 
 import numpy as np
 
-from bsm._core import Decoder
+from bsm._core import Decoder, SkimmedPacket
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import FrameType
@@ -100,28 +100,20 @@ _CARRIED = {
 }
 
 
-Packet = namedtuple(
-    "Packet",
-    "name type offset length payload data index count entries version begins positions domain semantic kind components "
-    "rows coding moves",
-)
-"""A packet as the decoder in C lists it (`decoder_skim`)."""
-
-
 class Skimmer:
     """Checks the packets of a stream that arrives in pieces without decoding them."""
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.engine = Decoder(limits)
 
-    def receive(self, chunk: bytes | None) -> Iterator[Packet]:
+    def receive(self, chunk: bytes | None) -> Iterator[SkimmedPacket]:
         """Take more bytes, or None at the end; yield the packets that are complete now."""
         if chunk is None:
             self.engine.finish()
         elif len(chunk):
             self.engine.push(np.frombuffer(chunk, np.uint8))
         while (found := self.engine.skim()) is not None:
-            yield Packet(found[0], *found[1])
+            yield found
 
     @property
     def header(self) -> Header:
@@ -137,7 +129,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     coefficients: list[int] = []
     gops: list[GopInfo] = []
     sizes = dict.fromkeys((*dict.fromkeys(_CARRIED.values()), "attributes", "metadata"), 0)
-    declared: list[Packet] = []
+    declared: list[SkimmedPacket] = []
     lengths: Counter[int] = Counter()
     checksum: int | None = None
     total = entries = version = 0
@@ -173,7 +165,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, version)
 
 
-def _attribute_info(packet: Packet, size: int) -> AttributeInfo:
+def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:
     return AttributeInfo(
         packet.name,
         ("vertex", "corner", "face")[packet.domain],

@@ -22,11 +22,12 @@ from threading import Condition, Lock
 from typing import Any, BinaryIO
 from urllib.parse import parse_qs, urlsplit
 
+from bsm._core import SkimmedPacket
 from bsm.bitstream.container.wire import MAGIC, FrameType, write_preamble
 from bsm.bitstream.errors import BsmError, DependencyError
 from bsm.bitstream.limits import Limits
 from bsm.exits import worded
-from bsm.files.inspection import Packet, Skimmer
+from bsm.files.inspection import Skimmer
 from bsm.files.pipes import place_of, read_range
 from bsm.viewer.contents import PRESETS, Content, uploaded
 
@@ -103,7 +104,7 @@ class Growing:
         except BsmError:
             self._entry = self._skimmer = None
 
-    def _note(self, packet: Packet, place: slice) -> None:
+    def _note(self, packet: SkimmedPacket, place: slice) -> None:
         self._over = packet.type == FrameType.END
         if packet.type == FrameType.METADATA:
             self._metadata.append(place)

@@ -161,8 +161,8 @@ def test_what_meshes_take_does_not_grow_with_their_number():
         decoder.receive_data(encoded(frames, step=0.02))
         while not isinstance(decoder.next_event(), bsm.Signal):
             pass
-        *_, present, _, memory = decoder._open.state()
-        return memory, present
+        state = decoder._open.state()
+        return state.memory, state.present
 
     (few, those), (many, these) = kept(40), kept(70)
     assert many < 1.5 * few and these < 1.5 * those

@@ -102,7 +102,7 @@ def test_asking_what_changed_is_not_work_of_the_stream():
                 vertices, places, ended = engine.changes()
                 positions[vertices] = places
                 final.append(vertices[ended])
-        return engine.state()[1], final, positions
+        return engine.state().work, final, positions
 
     work, final, positions = asked(1)
     assert asked(0)[0] == asked(3)[0] == work
