@@ -270,7 +270,7 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     g->gaps.data[AXES * (int64_t)v + j] = gap;
     *hits = hits_of(&e, value);
     if (step == 0) *first_gap = size_of(gap);
-    if (g->twins) pass_twin_axis(g->twins, j, value);
+    if (g->twins) g->twins->axis[step] = j, g->twins->value[step] = value, g->twins->known_axes = step + 1;
     pass_axis(&p->whole, j, error);
     for (int i = 0; i < 2 && i < r->flaps; i++) pass_axis(&p->plane[i], j, value * FINE - p->across[i][j]);
     return true;

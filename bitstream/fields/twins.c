@@ -8,6 +8,7 @@ enum {
     CELL_BITS = 4,      /* of space, by which known vertices are found */
     MOST_VISITS = 8,   /* of one chain */
     REACH = 29,         /* in 1/16: how far an image may be from its vertex */
+    NEAR_CELL_BITS = 7, /* in 1/16: of `near`; at least twice REACH */
     MATCH = 26,         /* in 1/16, on each axis */
     MOST_ADDED = 24,   /* corners around twins of neighbors */
     MOST_AROUND = 12,  /* corners around the twin of an edge */
@@ -158,11 +159,6 @@ INLINE uint32_t chain_of(int32_t x, int32_t y, int32_t z, int bits) {
     return mixed * 2654435769u >> (32 - bits);
 }
 
-/* For the cell of a place (1/16). */
-INLINE uint32_t cell_chain(const int32_t *place, int bits) {
-    return chain_of(place[0] >> (4 + CELL_BITS), place[1] >> (4 + CELL_BITS), place[2] >> (4 + CELL_BITS), bits);
-}
-
 /* Of each image the place (1/16) that it takes to x, and the bit of `near` of that place's cell. As `image_of` has it:
  * sums below 2^53 are exact, and above 0, so that they are rounded down. */
 KERNEL void move_back(const Twins *t, const int32_t *x, int32_t place[AXES][MOST_IMAGES], uint32_t *bits) {
@@ -174,7 +170,7 @@ KERNEL void move_back(const Twins *t, const int32_t *x, int32_t place[AXES][MOST
             for (int k = 0; k < AXES; k++) sum += *(const Reals *)(t->back[j][k] + i) * (double)x[k];
             Numbers own = __builtin_convertvector(sum * (1.0 / (1 << (TURN_BITS - 4))), Numbers) - ABOVE;
             *(Numbers *)(place[j] + i) = own;
-            mixed ^= (Wholes)(own >> (4 + CELL_BITS)) * FACTOR[j];
+            mixed ^= (Wholes)(own >> NEAR_CELL_BITS) * FACTOR[j];
         }
         *(Wholes *)(bits + i) = mixed * 2654435769u >> (32 - NEAR_BITS);
     }
@@ -270,14 +266,11 @@ static void seek_images(Twins *t, const Corners *corners, const Ints2 *values, c
             }
         }
     }
-    int32_t unit = 64;
-    for (int i = 0; i < around->flaps && i < 1; i++) {
-        Flap flap = around->flap[i];
-        int32_t along = 0;
-        for (int j = 0; j < AXES; j++)
-            along += size_of(values->data[AXES * (int64_t)flap.a + j] - values->data[AXES * (int64_t)flap.b + j]);
-        unit = (int32_t)largest(unit, 6 * (int64_t)along);
-    }
+    const int32_t *x = values->data;
+    int32_t along = 0;
+    for (int j = 0; j < AXES && around->flaps > 0; j++)
+        along += size_of(x[AXES * (int64_t)around->flap->a + j] - x[AXES * (int64_t)around->flap->b + j]);
+    int32_t unit = (int32_t)largest(64, 6 * (int64_t)along);
     for (int i = 0; i < t->candidates; i++) { /* the best first */
         Candidate found = t->candidate[i];
         int64_t away = 0;
@@ -456,11 +449,6 @@ void choose_twins(const Twins *t, int *chosen) {
     }
 }
 
-void pass_twin_axis(Twins *t, int axis, int32_t value) {
-    t->axis[t->known_axes] = axis;
-    t->value[t->known_axes++] = value;
-}
-
 /* v is the image of u. */
 static void join(Twins *t, int32_t v, int32_t u, int32_t image) {
     int32_t inverse = t->image[image].inverse;
@@ -528,8 +516,8 @@ void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t
         t->head[chain] = v;
         for (int i = 0; i < 8; i++) {
             int32_t at[AXES];
-            for (int j = 0; j < AXES; j++) at[j] = FINE * x[j] + (i >> j & 1 ? REACH : -REACH);
-            uint32_t bit = cell_chain(at, NEAR_BITS);
+            for (int j = 0; j < AXES; j++) at[j] = (FINE * x[j] + (i >> j & 1 ? REACH : -REACH)) >> NEAR_CELL_BITS;
+            uint32_t bit = chain_of(at[0], at[1], at[2], NEAR_BITS);
             t->near[bit >> 6] |= UINT64_C(1) << (bit & 63);
         }
     }

@@ -13,7 +13,7 @@ enum {
     MOST_ECHOES = 1 << 13, /* flaps that are remembered, a power of two */
     ECHO_HEADS = 1 << 14,
     TWIN_BYTES = 32, /* more than a transform takes in a payload */
-    NEAR_BITS = 18, /* bits of `near`, as a power of two */
+    NEAR_BITS = 19, /* bits of `near`, as a power of two */
 };
 
 typedef struct { /* a transform, or the inverse of one */
@@ -70,7 +70,6 @@ void seek_twins(Twins *twins, const Corners *corners, const Ints2 *values, const
     const int32_t *base);
 /* The two best candidates that agree with the axes known so far; -1: there is none. */
 void choose_twins(const Twins *twins, int *chosen);
-void pass_twin_axis(Twins *twins, int axis, int32_t value);
 /* Learn from a vertex, which is known now. */
 void remember_twins(Twins *twins, const Ints2 *values, const Around *around, int32_t v);
 

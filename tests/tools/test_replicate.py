@@ -17,7 +17,7 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.codec.denoise.denoise_shapes import grid
 from tests.shapes import torus
-from tools.replicate import ablation, denoising, fetch, outside, paper, quotes, rates, report, stages
+from tools.replicate import ablation, denoising, fetch, outside, paper, quotes, rates, report, run, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
 from tools.replicate.paper import coherence, dictionaries, dynamic, iterations, models, published, rivals
@@ -116,6 +116,17 @@ class TestTables:
         found = rates.ratios(row(), "DAME")
         assert found["default"] == pytest.approx(0.5) and found["fine"] == pytest.approx(0.5)
         assert found["BD-rate"] == pytest.approx(0.5, abs=0.01) and "quick" not in found
+
+    def test_named_files_are_all_that_is_measured(self, tmp_path, monkeypatch):
+        pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
+        pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
+        pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
+        write_mesh(tmp_path / "ring.ply", torus(24, 16))
+        monkeypatch.setattr(run, "meshopt_package", lambda *_: None)
+        run.measure_all(tmp_path, {"rates": 1.0}, quick=False, docs=False, named=[tmp_path / "ring.ply"])
+        (found,) = json.loads((tmp_path / "results.json").read_text())["rates"]
+        assert (found["mesh"], found["group"], found["vertices"]) == ("ring", "named", 384)
+        assert "ring |" in (tmp_path / "rates-spread-named.md").read_text()
 
     def test_tables_and_figures_of_every_stage(self, tmp_path):
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")

@@ -2,7 +2,7 @@
 
 Makes an environment where packages are missing, fetches the meshes of meshes.json, measures and writes one folder:
 tables in Markdown and LaTeX, figures in PDF and PNG, and results.json with every number, the commit, the processor and
-the time. About an hour on two cores; a run that was cut goes on where it was.
+the time. About an hour on two cores; a run that was cut goes on where it was. With files of your own, their rates.
 """
 
 from __future__ import annotations
@@ -50,6 +50,7 @@ def environment(folder: Path, needed: tuple[str, ...]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("meshes", nargs="*", metavar="MESH", type=Path, help="only the rates of these files")
     parser.add_argument("-o", "--output", metavar="FOLDER", type=Path, default=Path("replicate"))
     parser.add_argument("--quick", action="store_true", help="ten minutes: as many meshes as fit, of all sizes")
     parser.add_argument("--figure", choices=STAGES, help="only this table and figure")
@@ -59,9 +60,10 @@ def main() -> None:
     environment(args.output, FOR_PAPER if args.figure == "paper" else NEEDED)
     from tools.replicate.run import measure_all
 
-    chosen = (args.figure,) if args.figure else STAGES
+    chosen = ("rates",) if args.meshes else (args.figure,) if args.figure else STAGES
     minutes = QUICK if args.quick else MINUTES
-    measure_all(args.output, {stage: minutes[stage] for stage in chosen}, quick=args.quick, docs=args.docs)
+    wanted = {stage: minutes[stage] for stage in chosen}
+    measure_all(args.output, wanted, quick=args.quick, docs=args.docs and not args.meshes, named=args.meshes)
 
 
 if __name__ == "__main__":

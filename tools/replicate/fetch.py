@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tarfile
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -63,8 +63,12 @@ def fetch_meshes(folder: Path, note: Callable[[str], None]) -> list[Source]:
 def own_meshes(folder: Path) -> list[Source]:
     """Meshes of the folder that BSM_MESHES names; they were in use here before."""
     found = [*folder.glob("static/*.ply"), *folder.glob("assets/*.STL")]
-    paths = [path for path in sorted(found) if path.stat().st_size < LARGEST]
-    return [Source(path.stem, path, "tuned", len(welded(str(path))[0])) for path in paths]
+    return sources_of([path for path in sorted(found) if path.stat().st_size < LARGEST], "tuned")
+
+
+def sources_of(paths: Iterable[Path], group: str) -> list[Source]:
+    """Files of one's own."""
+    return [Source(path.stem, path, group, len(welded(str(path))[0])) for path in paths]
 
 
 def unpacked(package: dict[str, Any], root: Path) -> None:

@@ -17,7 +17,7 @@ from tools.replicate.measures import MEASURES
 from tools.replicate.outside import PHOTOGRAPHED, SPREAD, outside_table, steadiness_table
 from tools.replicate.rates import COLUMNS, CURVE, MESHOPT_BITS, PRESETS, Row, ratios, spread, summary, time_summary
 
-GROUPS = {"unseen": "fetched meshes", "tuned": "meshes that were in use here before"}
+GROUPS = {"unseen": "fetched meshes", "tuned": "meshes that were in use here before", "named": "named meshes"}
 WHAT = ("BD-rate", *PRESETS, *(f"meshoptimizer {bits}" for bits in MESHOPT_BITS))
 PAGE = Path(__file__).parents[2] / "docs" / "measured.md"
 INTRODUCTION = """# Measured

@@ -8,13 +8,14 @@ import os
 import platform
 import subprocess
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from tools.replicate import quotes, report
 from tools.replicate.ablation import ablate_mesh
 from tools.replicate.denoising import denoise_mesh, pairs
-from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_meshes
+from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_meshes, sources_of
 from tools.replicate.motion import measure_motion, sequences
 from tools.replicate.outside import SEEN, measure_outside
 from tools.replicate.paper import TABLES, Job, make_tables
@@ -48,14 +49,16 @@ def shuffled(sources: list[Source]) -> list[Source]:
     return [sources[at] for at in sorted(range(len(sources)), key=lambda at: f"{at:012b}"[::-1])]
 
 
-def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: bool) -> None:
+def measure_all(
+    folder: Path, minutes: dict[str, float], *, quick: bool, docs: bool, named: Sequence[Path] = ()
+) -> None:
     """Run the stages that are asked for, and write down what came of all that were run in this folder."""
     os.environ["OMP_NUM_THREADS"] = "1"
     begin = time.monotonic()
     own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") else None
     own_enough = set(minutes) == {"paper"} and complete(own)
-    sources = [] if own_enough else fetch_meshes(folder / "meshes", note)
-    if own and not quick:
+    sources = sources_of(named, "named") if named or own_enough else fetch_meshes(folder / "meshes", note)
+    if own and not quick and not named:
         sources = sorted([*sources, *own_meshes(own)], key=lambda source: (source.vertices, source.name))
     workers = max(1, len(os.sched_getaffinity(0)))
     if "rates" in minutes:

@@ -14,6 +14,7 @@ enum {
     MOST_ASKED = 3000, /* triangles whose pairs vote */
     TRIED = 256, FITTING = 1024, COUNTED = 16384, /* vertices */
     CELL = 8,
+    NEAR_WORDS = 1 << 14,
 };
 static const double LEAST_SIDE = 3.0, LEAST_AREA = 8.0, ALIKE = 1.0, LOOSE = 4.0, CLOSE = 1.25;
 
@@ -27,12 +28,16 @@ typedef struct {
     ConstDoubles2 positions;
     int32_t *head, *next; /* of vertices by cells of CELL */
     uint32_t mask;
+    uint64_t *near; /* a bit for each cell with a place that is within LOOSE of a vertex, and others */
 } Space;
 
 INLINE int64_t cell_of(double x) { return (int64_t)__builtin_floor(x / CELL); }
 INLINE uint32_t mixed(uint32_t hash, int64_t x) { return (hash ^ (uint32_t)x) * 2654435769u ^ hash >> 15; }
-INLINE uint32_t cell_key(const Space *s, int64_t x, int64_t y, int64_t z) {
-    return mixed(mixed(mixed(1, x), y), z) >> 7 & s->mask;
+INLINE uint32_t cell_key(int64_t x, int64_t y, int64_t z, uint32_t mask) {
+    return mixed(mixed(mixed(1, x), y), z) >> 7 & mask;
+}
+INLINE uint32_t near_key(const double *at, double off_x, double off_y, double off_z) {
+    return cell_key(cell_of(at[0] + off_x), cell_of(at[1] + off_y), cell_of(at[2] + off_z), 64 * NEAR_WORDS - 1);
 }
 
 INLINE void move(const Motion *m, const double *from, double *to) {
@@ -40,14 +45,16 @@ INLINE void move(const Motion *m, const double *from, double *to) {
         to[i] = m->turn[i][0] * from[0] + m->turn[i][1] * from[1] + m->turn[i][2] * from[2] + m->shift[i];
 }
 
-/* The vertex nearest to a place within `reach`, at most a cell; -1: none. */
+/* The vertex nearest to a place within `reach`, at most LOOSE; -1: none. */
 static int32_t nearest_vertex(const Space *s, const double *at, double reach) {
     double least = reach * reach;
     int32_t best = -1;
+    uint32_t bit = near_key(at, 0.0, 0.0, 0.0);
+    if ((s->near[bit >> 6] >> (bit & 63) & 1) == 0) return -1;
     for (int64_t a = cell_of(at[0] - reach); a <= cell_of(at[0] + reach); a++)
         for (int64_t b = cell_of(at[1] - reach); b <= cell_of(at[1] + reach); b++)
             for (int64_t c = cell_of(at[2] - reach); c <= cell_of(at[2] + reach); c++) {
-                int32_t u = s->head[cell_key(s, a, b, c)];
+                int32_t u = s->head[cell_key(a, b, c, s->mask)];
                 for (int visits = 0; u >= 0 && visits < MOST_WALKED; visits++, u = s->next[u]) {
                     const double *x = s->positions.data + 3 * (int64_t)u;
                     double p = x[0] - at[0], q = x[1] - at[1], r = x[2] - at[2], square = p * p + q * q + r * r;
@@ -69,7 +76,7 @@ static int64_t count_moved(const Space *s, const Motion *m, int64_t stride, doub
     return found;
 }
 
-/* One step of Gauss and Newton towards the rotation and shift that fit best; false if too few vertices fit. */
+/* One step of Gauss and Newton, on at most FITTING vertices, towards what fits best; false if too few vertices fit. */
 static bool fit(const Space *s, Motion *m, int64_t stride, double reach) {
     double middle[3] = {0.0, 0.0, 0.0}, off[3] = {0.0, 0.0, 0.0}, square[3][4] = {{0.0}};
     double seen = 0.0;
@@ -312,23 +319,29 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
     Motion *pool = (Motion *)room.data;
     if (n < 1 || positions.columns != 3 || faces.columns != 3 || degrees.size != n || heads.size < 2
         || (heads.size & (heads.size - 1)) != 0 || links.size < n + m || covered.size < FITTED * COUNTED
-        || room.size * (int64_t)sizeof(double) < (int64_t)(VOTES * sizeof(Motion)) || found.columns != 12)
+        || room.size * (int64_t)sizeof(double) < (int64_t)(VOTES * sizeof(Motion) + NEAR_WORDS * sizeof(uint64_t))
+        || found.columns != 12)
         return MISUSED;
     for (int64_t k = 0; k < 3 * m; k++)
         if (faces.data[k] < 0 || faces.data[k] >= n) return MISUSED;
     for (int64_t k = 0; k < 3 * n; k++)
         if (!(__builtin_fabs(positions.data[k]) < 0x1p30)) return MISUSED;
-    Space s = {positions, heads.data, links.data, (uint32_t)heads.size - 1};
+    Space s = {positions, heads.data, links.data, (uint32_t)heads.size - 1, (uint64_t *)(pool + VOTES)};
     for (int64_t i = 0; i < VOTES; i++) pool[i] = (Motion){.votes = 0};
     for (int64_t i = 0; i < heads.size; i++) heads.data[i] = -1;
     collect_votes(&s, faces, degrees, heads.data, links.data + n, s.mask, pool);
     count = choose_pool(&s, pool);
     for (int64_t i = 0; i < heads.size; i++) heads.data[i] = -1;
+    for (int64_t i = 0; i < NEAR_WORDS; i++) s.near[i] = 0;
     for (int64_t v = 0; v < n; v++) {
         const double *x = positions.data + 3 * v;
-        uint32_t key = cell_key(&s, cell_of(x[0]), cell_of(x[1]), cell_of(x[2]));
+        uint32_t key = cell_key(cell_of(x[0]), cell_of(x[1]), cell_of(x[2]), s.mask);
         links.data[v] = heads.data[key];
         heads.data[key] = (int32_t)v;
+        for (int i = 0; i < 8; i++) {
+            uint32_t bit = near_key(x, i & 1 ? LOOSE : -LOOSE, i & 2 ? LOOSE : -LOOSE, i & 4 ? LOOSE : -LOOSE);
+            s.near[bit >> 6] |= UINT64_C(1) << (bit & 63);
+        }
     }
     int64_t tried = n / TRIED + 1, fitting = n / FITTING + 1, counted = n / COUNTED + 1;
     count = sort_pool(&s, pool, count, FITTED, tried, LOOSE, 3);
