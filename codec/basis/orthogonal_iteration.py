@@ -37,9 +37,7 @@ class DynamicSize:
 
     def follow(self, left: float, coefficients: Matrix) -> int | None:
         """Return c_i for coefficients, shape (c, 3), and the squared error that they leave; None: they leave too much.
-
-        From the predecessor's size, one column more while the error is over eps_h, one less while under eps_l.
-        """
+        From the predecessor's size, one column more while the error is over eps_h, one less while under eps_l."""
         norms = np.sqrt(left + np.append(np.cumsum(np.square(coefficients).sum(axis=1)[::-1])[::-1], 0.0))
         if norms[-1] > self.highest:
             return None

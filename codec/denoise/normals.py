@@ -30,11 +30,9 @@ def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: f
 
 
 def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
-    """Guidance normal of each face: the mean normal of the most consistent patch that holds the face.
-
-    A patch is a face with all faces that share a vertex with it; it is consistent if its normals lie close together
-    and its differences are spread over many inner edges instead of one crease.
-    """
+    """Guidance normal of each face: the mean normal of the most consistent patch that holds the face. A patch is a face
+    with all faces that share a vertex with it; it is consistent if its normals lie close together and its differences
+    are spread over many inner edges instead of one crease."""
     patches, inner = topology.patches, topology.inner
     normals = geometry.normals
     steps = pair_distances(normals, topology.pairs)

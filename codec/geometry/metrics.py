@@ -83,9 +83,7 @@ class Reference:
 
     def nmsve(self, decoded: Positions) -> float:
         """Normalized mean square visual error: the formula of the paper's section 8, divided by `scale`, the diagonal.
-
-        Its norms are not squared, as printed there. `nmsve * scale` is the paper's number, in the unit of the mesh.
-        """
+        Its norms are not squared, as printed there. `nmsve * scale` is the paper's number, in the unit of the mesh."""
         decoded = self._checked(decoded)
         detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbors))
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)

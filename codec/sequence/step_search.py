@@ -64,10 +64,8 @@ class StepSearch:
             self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
 
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
-        """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights.
-
-        Weights of frames follow their looks from attempt to attempt, unless encodings are not `weighed`.
-        """
+        """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights. Weights
+        of frames follow their looks from attempt to attempt, unless encodings are not `weighed`."""
         kept: Found | None = None
         step, evened, missed, most = first, np.zeros(len(self._frames)), 0, COARSEST_STEP
         uneven = weighed and len(evened) > 1 and bool(self._knots)
@@ -155,10 +153,8 @@ class Measured:
         return int(most.argmax()) if most.max(initial=0.0) > 1.0 else None
 
     def looks(self, deviations: float = 0.0) -> Matrix:
-        """Return the looks of all frames, shape (T,), expected ones of those not drawn plus standard deviations.
-
-        Looks over errors are interpolated in time, as a Brownian bridge between frames that are drawn.
-        """
+        """Return the looks of all frames, shape (T,), expected ones of those not drawn plus standard deviations. Looks
+        over errors are interpolated in time, as a Brownian bridge between frames that are drawn."""
         seen = np.array(sorted(index for index, share in self.drawn.items() if share > 0.0), np.int64)
         if not len(seen):
             return np.zeros(len(self.errors))

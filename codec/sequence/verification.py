@@ -36,10 +36,8 @@ class ExpectedFrame:
 
 
 class SequenceVerifier:
-    """Decodes a sequence chunk by chunk, compares each frame, and measures the promise of the options.
-
-    `shown` collects original and decoded positions, with their faces.
-    """
+    """Decodes a sequence chunk by chunk, compares each frame, and measures the promise of the options. `shown` collects
+    original and decoded positions, with their faces."""
 
     def __init__(self, options: SequenceOptions, metadata: Metadata, shown: list[Measured] | None = None) -> None:
         self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)

@@ -81,9 +81,7 @@ def verify(
     threads: int | None,
 ) -> None:
     """Decode a draft and compare everything; `VerificationError` if anything differs from the encoder's result.
-
-    Positions must be equal bit for bit, faces, metadata and orders as promised, attributes equal but for rounding.
-    """
+    Positions must be equal bit for bit, faces, metadata and orders as promised, attributes equal but for rounding."""
     try:
         decoded = decode(b"".join(draft.frames), limits, threads)
     except LimitError:

@@ -39,6 +39,11 @@ const char *const KINDS[] = {"uint8", "int8", "uint16", "int16", "uint32", "int3
 
 nb::handle numpy_empty; // runs no code of Python, which could call the decoder whose memory is copied
 
+// Not when the module is imported, since an interrupt there would become an error.
+void find_numpy() {
+    if (!numpy_empty) numpy_empty = nb::object(nb::module_::import_("numpy").attr("empty")).release();
+}
+
 struct Array {
     nb::object numpy;
     void *data;
@@ -47,6 +52,7 @@ struct Array {
 
 Array array_of(const char *kind, size_t rows, size_t columns = 0) {
     nb::object shape = columns > 0 ? nb::object(nb::make_tuple(rows, columns)) : nb::object(nb::int_(rows));
+    find_numpy();
     nb::object made = numpy_empty(shape, kind);
     auto view = nb::cast<nb::ndarray<nb::c_contig, nb::device::cpu>>(made);
     return {made, view.data(), view.nbytes()};
@@ -90,6 +96,7 @@ nb::object error_of(const bsmdec_error &error, const nb::object &limits, const D
 
 // Python threads that share an object take turns: results are copied before the next call begins.
 struct Shared {
+    Shared() { find_numpy(); }
     std::recursive_mutex mutex; // a signal handler may call the decoder that it interrupts
 };
 
@@ -623,7 +630,6 @@ void bind_bsm(nb::module_ &m);
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false); /* the traceback of an error keeps its decoder until the process ends */
     m.attr("version") = BSM_VERSION;
-    numpy_empty = nb::object(nb::module_::import_("numpy").attr("empty")).release();
     nb::module_ bitstream = m.def_submodule("bitstream"), codec = m.def_submodule("codec");
     bind_bitstream(bitstream);
     bind_codec(codec);

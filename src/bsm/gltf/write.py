@@ -225,12 +225,10 @@ def _unit(vectors: Doubles) -> Doubles:
 
 @contextmanager
 def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> Iterator[FrameWriter]:
-    """Write a GLB in which each frame is a morph target; yields what takes frame after frame.
-
-    Between frames the weights of two targets cross, which interpolates positions and vertex colors linearly. Where
-    faces change, other meshes replace the previous ones, by their scale. Nothing but the
-    first frame of a run is kept in memory; the targets wait in a file until their number is known.
-    """
+    """Write a GLB in which each frame is a morph target; yields what takes frame after frame. Between frames the
+    weights of two targets cross, which interpolates positions and vertex colors linearly. Where faces change, other
+    meshes replace the previous ones, by their scale. Nothing but the first frame of a run is kept in memory; the
+    targets wait in a file until their number is known."""
     with tempfile.TemporaryFile() as spool:
         moving = _Moving(spool)
 

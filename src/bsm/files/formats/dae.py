@@ -57,11 +57,8 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
 
 
 def _prepared(data: bytes) -> tuple[bytes, list[str]]:
-    """Return a document as pycollada can read it, and its tags.
-
-    Elements without corners, and lines, would make it leave out a whole geometry. A polygon with holes gets all corners
-    in one element, which says where its rings end.
-    """
+    """Return a document as pycollada can read it, and its tags. Elements without corners, and lines, would make it
+    leave out a whole geometry. A polygon with holes gets all corners in one element, which says where its rings end."""
     root, changed = ElementTree.fromstring(data), False
     tags = [_tag(element) for element in root.iter()]
     for mesh in [element for element in root.iter() if _tag(element) == "mesh"]:

@@ -368,10 +368,8 @@ _MOST_TEXT = 1 << 13  # characters of a comment; readers look for the end of a h
 
 
 def write_ply(mesh: TriangleMesh, stem: str) -> Written:
-    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double.
-
-    Values of corners are values of vertices where the corners of each have the same, and else lists of the faces.
-    """
+    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double. Values of
+    corners are values of vertices where the corners of each have the same, and else lists of the faces."""
     library = Library(mesh, stem)
     images = [f"{IMAGE} {name}" for name in library.images.values()]
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}

@@ -158,10 +158,8 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
 
 
 def read_files(names: Sequence[str], file_format: str | None, limits: Limits, wanted: Wanted) -> Frames:
-    """The frames in files, each read when it is asked for; with `runs`, their faces may change.
-
-    Their times are those that are wanted, or that the files have, or else the numbers in their names.
-    """
+    """The frames in files, each read when it is asked for; with `runs`, their faces may change. Their times are those
+    that are wanted, or that the files have, or else the numbers in their names."""
     runs, rate, times = wanted.runs, wanted.rate, wanted.times
     cut = CutAlike()
 
