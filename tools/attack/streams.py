@@ -255,7 +255,7 @@ def _still(rows: int, columns: int, width: int, components: int, part: int = 400
     coded = _coded("torus", rows, columns)
     graph = graph_of_faces(coded.faces, len(coded.vertex_order))
     partition = derive_partition(graph, max(1, graph.size // part))
-    cores = grow_blocks(graph, partition, 1).cores
+    cores = grow_blocks(graph, partition, int(np.bincount(partition.labels).max())).cores
     levels = [np.zeros((min(width, int(core)), components), np.int32) for core in cores]
     return encode_levels(make_level_bank(), levels, level_references(levels, components))
 
