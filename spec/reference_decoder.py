@@ -135,6 +135,8 @@ def frames_of(stream):  # F 2 and F 3: yields (type, payload, offset of the tag)
         crc = binascii.crc_hqx(body, 0) if size == 2 else zlib.crc32(body)
         require(crc == int.from_bytes(stream[end : end + size], "little"), "checksum of a frame is wrong")  # F 3.3
         yield kind, stream[start:end], offset
+        if kind == HEADER and stream[start:end].startswith(BRIEF):
+            kind = END  # F 11.1
         offset = end + size
     require(offset == len(stream), "data after END")  # F 2.3
 
@@ -161,10 +163,32 @@ FIELDS = {
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
 EXTENSIONS |= {19: "extension paper", 21: "extension paper"}
 EXTENSIONS[22] = "extension congruence"
+BRIEF = b"\x81\x17"  # how the payload of a brief stream begins: a map of one entry, with key 23
+
+
+def brief_fields(payload):  # F 11.2: fields of the header, the payload of CONNECTIVITY, and positions
+    ((_, value),) = canonical_map(payload)
+    require(type(value) is bytes, "brief has a wrong type")
+    n, m, *grid, congruence, rest = varints(value, 6)
+    require(len(rest) >= 16, "numbers are missing")
+    scale, *center = np.frombuffer(rest[:16], ">f4").astype(float).tolist()
+    size, rest = varints(rest[16:], 1)
+    require(size <= len(rest), "the faces end early")
+    given = {"vertices": n, "faces": m, "grid": grid, "scale": scale, "center": center}
+    for name, field in given.items():
+        items = field if type(field) is list else [field]
+        require(all(FIELDS[name][2] <= item <= FIELDS[name][3] for item in items), f"{name} is out of range")
+    require(congruence <= 17, "congruence is out of range")
+    if congruence:
+        raise UnsupportedError(EXTENSIONS[22])
+    return given, rest[:size], rest[size:]
 
 
 def parse_header(payload):
     require(len(payload) <= 65536, "a header of too many bytes")  # F 4.9
+    if payload.startswith(BRIEF):
+        h = {name: field[4] for name, field in FIELDS.items()} | brief_fields(payload)[0]
+        return agreeing(h, set())
     h, entries, names = {}, canonical_map(payload), {field[0]: name for name, field in FIELDS.items()}
     require(all(type(key) is int for key, _ in entries), "a key is not an integer")  # F 4.1
     for key, _ in entries:  # F 4.2, F 4.8
@@ -181,8 +205,10 @@ def parse_header(payload):
         h[names[key]] = value
     stored = set(h)
     require({"vertices", "faces"} <= stored, "vertices or faces are missing")
-    h = {name: field[4] for name, field in FIELDS.items()} | h
+    return agreeing({name: field[4] for name, field in FIELDS.items()} | h, stored)
 
+
+def agreeing(h, stored):
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
         beside = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner"}
@@ -253,6 +279,9 @@ def read_frames(stream, packets):
             require(count == number, "END counts other frames")
             require(int.from_bytes(crc[:4], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         last, header = rank, header or parsed
+        if kind == HEADER and payload.startswith(BRIEF):  # F 11.1
+            _, faces, values = brief_fields(payload)
+            packets |= {CONNECTIVITY: [faces], GRID: [(0, header["vertices"], values)], END: [b""]}
         covered += parsed[1] if kind in (GRID, REFINEMENT) else 0
         packets.setdefault(kind, []).append(parsed)
 

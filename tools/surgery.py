@@ -20,7 +20,7 @@ from bsm.bitstream.container.header import (
     Paper,
     fields_of,
 )
-from bsm.bitstream.container.packets import WRITERS, Attribute, End, Metadata, Packet, Writer
+from bsm.bitstream.container.packets import BRIEF, WRITERS, Attribute, End, Metadata, Packet, Writer
 from bsm.bitstream.container.wire import (
     MAGIC,
     MAX_VARINT_BYTES,
@@ -75,7 +75,7 @@ class Span:
 
 
 def spans_of(stream: bytes) -> Iterator[Span]:
-    """Yield all frames of a stream, END included."""
+    """Yield all frames of a stream, END included; of a brief one those for which it stands."""
     cursor = Cursor(stream, PREAMBLE_BYTES)
     while (start := cursor.at) < len(stream):
         length, kind = divmod(cursor.varint(), 16)
@@ -83,7 +83,35 @@ def spans_of(stream: bytes) -> Iterator[Span]:
         size = checksum_size(kind, length)
         if cursor.take(size) != checksum(size, body):
             raise CorruptError(f"checksum of the frame at byte {start} is wrong")
-        yield Span(kind, payload, start, cursor.at - start)
+        if kind == FrameType.HEADER and payload.startswith(BRIEF_START):
+            yield from spans_of(stream_of(brief_frames(payload), stream[PREAMBLE_BYTES - 1]))
+        else:
+            yield Span(kind, payload, start, cursor.at - start)
+
+
+def brief_frames(payload: bytes) -> Frames:
+    """The frames for which that of a brief stream stands, without END."""
+    value = header_entries(payload).get(BRIEF)
+    if not isinstance(value, bytes):
+        raise CorruptError("a brief stream without bytes")
+    cursor = Cursor(value)
+    n, m, *grid, congruence = (cursor.varint() for _ in range(6))
+    scale, *center = struct.unpack(">4f", cursor.take(16))
+    header = header_frame(vertices=n, faces=m, grid=grid, congruence=congruence, scale=scale, center=center)
+    connectivity = cursor.take(cursor.varint())
+    values = write_varint(0) + write_varint(n) + cursor.rest()
+    return [header, (int(FrameType.CONNECTIVITY), connectivity), (int(FrameType.GRID), values)]
+
+
+def first_payload(stream: bytes) -> bytes:
+    """The payload of the first frame; of a brief stream, that which stands for all of them."""
+    cursor = Cursor(stream, PREAMBLE_BYTES)
+    return cursor.take(cursor.varint() // 16)
+
+
+def is_brief(stream: bytes) -> bool:
+    """Whether one frame is the whole stream."""
+    return first_payload(stream).startswith(BRIEF_START)
 
 
 def frames_of(stream: bytes) -> Frames:
@@ -147,6 +175,7 @@ def _is_later(frame: tuple[int, bytes]) -> bool:
         return False
 
 
+BRIEF_START = bytes([0x81, BRIEF])
 LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence")}
 PARTS = {"paper": tuple(fields_of(Paper)), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""

@@ -4,7 +4,7 @@
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
-    CONGRUENCE,
+    CONGRUENCE, BRIEF,
 };
 
 static const Field FIELDS[] = {
@@ -34,6 +34,7 @@ static const Field FIELDS[] = {
 #define BIT(key) (1u << (key))
 static const uint32_t OF_A_GRID = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(ATTRIBUTES) | BIT(GRID)
     | BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY) | BIT(CONGRUENCE);
+static const uint32_t OF_A_BRIEF = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(GRID) | BIT(CONGRUENCE);
 static const uint32_t OF_A_RUN = BIT(VERTICES) | BIT(FACES) | BIT(SEQUENCE) | BIT(RUN);
 enum { MOST_HEADER = 1 << 16 };
 
@@ -145,11 +146,42 @@ static bool check_header(Context *context, const Record *record, const Header *h
         && agrees(context, (record->stored & ~OF_A_RUN) == 0, "the mesh of another run, and fields of its own");
 }
 
+/* The header of a brief stream, all of whose fields are one of bytes, and what follows it there (F 11). */
+static bool parse_brief(Context *context, Span payload, Arena *scratch, Record *record, Span *faces, Span *values) {
+    static const uint8_t VARINTS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE},
+        FLOATS[] = {SCALE, CENTER, CENTER, CENTER};
+    Mark mark = mark_of(scratch);
+    Map *map;
+    bool done = TAKE(scratch, 1, map) && parse_map(context, payload, map)
+        && (map->value[0].kind == BINARY || FAIL(context, CORRUPT, "field # is of another type", BRIEF));
+    Cursor cursor = {context, done ? map->value[0].bytes : (Span){0}};
+    release_to(scratch, mark);
+    *record = (Record){.stored = OF_A_BRIEF};
+    for (int i = 0; i < 6; i++) record->number[VARINTS[i]][record->count[VARINTS[i]]++] = (double)take_varint(&cursor);
+    for (int i = 0; i < 4; i++) {
+        Span bytes = take_span(&cursor, 4);
+        uint32_t bits = bytes.size == 4 ? (uint32_t)big_endian(bytes.data, 4) : 0;
+        float number;
+        memcpy(&number, &bits, sizeof number);
+        record->number[FLOATS[i]][record->count[FLOATS[i]]++] = number;
+    }
+    *faces = take_span(&cursor, take_varint(&cursor));
+    *values = take_rest(&cursor);
+    return !failed(context) && complete_record(context, FIELDS, sizeof FIELDS / sizeof *FIELDS, record);
+}
+
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header) {
     Record record;
+    Span faces = {0}, values = {0};
     if (payload.size > MOST_HEADER) return FAIL(context, CORRUPT, "a header of # bytes is too long", payload.size);
-    if (!parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record)) return false;
+    bool brief = payload.size > 1 && payload.data[0] == 0x81 && payload.data[1] == BRIEF;
+    if (brief && !parse_brief(context, payload, scratch, &record, &faces, &values)) return false;
+    if (!brief && !parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record))
+        return false;
     set_header(&record, header);
+    header->brief = brief;
+    header->connectivity = faces;
+    header->values = values;
 #ifdef BSMDEC_LACKS /* by a smaller build for pages */
     if (BSMDEC_LACKS) return FAIL(context, UNSUPPORTED, "");
 #endif

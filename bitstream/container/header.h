@@ -25,6 +25,8 @@ typedef struct {
     int congruence; /* 1 more than the transforms of congruent parts; 0: the grid is coded without */
     int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;
+    bool brief; /* the frame of the header is the whole stream, and ends with this (F 11) */
+    Span connectivity, values;
 } Header;
 
 /* How positions on a grid are coded. */

@@ -212,15 +212,7 @@ static bool in_range(const Field *field, const Record *record) {
     return true;
 }
 
-static bool read_record(Context *context, const Map *map, const Field *fields, int count, Record *record) {
-    *record = (Record){0};
-    if (!refuse_unknown(context, map, fields, count)) return false;
-    for (int i = 0; i < map->count; i++) {
-        const Field *field = field_of(fields, count, map->key[i].bits);
-        if (!read_field(context, map, field, &map->value[i], record)) return false;
-        if (is_default(field, record))
-            return FAIL(context, CORRUPT, "field # is stored although it has its default", field->key);
-    }
+bool complete_record(Context *context, const Field *fields, int count, Record *record) {
     for (int i = 0; i < count; i++) {
         const Field *field = fields + i;
         bool is_stored = record->stored >> field->key & 1, is_list = field->type == INTS_FIELD
@@ -235,6 +227,18 @@ static bool read_record(Context *context, const Map *map, const Field *fields, i
         if (!in_range(fields + i, record))
             return FAIL(context, CORRUPT, "field # is outside its legal range", fields[i].key);
     return true;
+}
+
+static bool read_record(Context *context, const Map *map, const Field *fields, int count, Record *record) {
+    *record = (Record){0};
+    if (!refuse_unknown(context, map, fields, count)) return false;
+    for (int i = 0; i < map->count; i++) {
+        const Field *field = field_of(fields, count, map->key[i].bits);
+        if (!read_field(context, map, field, &map->value[i], record)) return false;
+        if (is_default(field, record))
+            return FAIL(context, CORRUPT, "field # is stored although it has its default", field->key);
+    }
+    return complete_record(context, fields, count, record);
 }
 
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record) {

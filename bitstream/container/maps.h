@@ -46,5 +46,7 @@ typedef struct {
 } Record;
 
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record);
+/* Give what is not stored its default, and compare everything with its range. */
+bool complete_record(Context *context, const Field *fields, int count, Record *record);
 
 #endif

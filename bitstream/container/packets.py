@@ -11,7 +11,15 @@ import numpy as np
 from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
 from bsm.bitstream.container.header import entries_of
-from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, write_frame, write_map, write_preamble, write_varint
+from bsm.bitstream.container.wire import (
+    MAX_ENTRIES,
+    FrameType,
+    pack,
+    write_frame,
+    write_map,
+    write_preamble,
+    write_varint,
+)
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 
@@ -131,6 +139,22 @@ Packet: TypeAlias = (
 
 def write_header(header: Header) -> bytes:
     return write_map(entries_of(header))
+
+
+BRIEF, MOST_BRIEF = 23, 60_000
+"""Key of the only field in the header of a brief stream, and bytes of faces and positions that fit into one."""
+
+
+def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
+    """Return the payload of the only frame of a brief stream (F 11); None: these packets cannot be in one."""
+    floats = b"".join(pack(value)[1:] for value in (header.scale, *header.center))
+    match body:
+        case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16:
+            whole = (header.vertices, header.faces, *header.grid, header.congruence, len(faces))
+            *fields, length = map(write_varint, whole)
+            data = b"".join(fields) + floats + length + faces + values
+            return write_map([(BRIEF, data)]) if len(data) < MOST_BRIEF else None
+    return None
 
 
 def metadata_of(entries: Sequence[tuple[str, MetadataValue]]) -> tuple[Metadata, ...]:

@@ -245,6 +245,33 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
     return packet->sum == reader->sum || FAIL(context, CORRUPT, "the CRC-32 of the whole stream is wrong");
 }
 
+/* Keep what follows the header of a brief stream in its frame (F 11). */
+static bool keep_brief(Reader *reader, Header *header) {
+    uint8_t *copy;
+    int64_t size = header->connectivity.size + header->values.size;
+    if (!header->brief) return true;
+    if (!TAKE(&reader->meshes, size + 1, copy)) return false;
+    if (size > 0) memcpy(copy, header->connectivity.data, (size_t)size);
+    header->connectivity.data = copy;
+    header->values.data = copy + header->connectivity.size;
+    return true;
+}
+
+/* The packets for which a brief stream has no frames. */
+static void next_of_brief(Reader *reader, Packet *packet) {
+    const Header *header = reader->grammar.header;
+    switch (reader->grammar.last) {
+        case HEADER_FRAME: *packet = (Packet){.type = CONNECTIVITY_FRAME, .data = header->connectivity}; break;
+        case CONNECTIVITY_FRAME:
+            *packet = (Packet){.type = GRID_FRAME, .count = header->vertices, .data = header->values};
+            break;
+        default: *packet = (Packet){.type = END_FRAME, .count = reader->frames, .sum = reader->sum};
+    }
+    packet->size = packet->data.size;
+    reader->last_offset = reader->offset;
+    advance_grammar(&reader->grammar, packet, NULL);
+}
+
 /* Skip a frame. */
 static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
     Span bytes = {waiting(reader).data, frame.size};
@@ -253,6 +280,7 @@ static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
         if (packet->type == HEADER_FRAME) {
             reader->header = !reader->header;
             release_all(&reader->meshes);
+            if (!keep_brief(reader, &reader->headers[reader->header])) return false;
         }
         if (packet->type == ATTRIBUTE_FRAME) {
             if (!TAKE(&reader->meshes, 1, own)) return false;
@@ -279,6 +307,10 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
     }
     while (reader->grammar.last != END_FRAME) {
         Frame frame = {0};
+        if (reader->grammar.header != NULL && reader->grammar.header->brief) {
+            next_of_brief(reader, packet);
+            return A_PACKET;
+        }
         if (!read_frame(reader, waiting(reader), &frame)) return NOTHING_BUT_AN_ERROR;
         if (frame.size == 0) return incomplete(reader);
         if (!pay(reader, FRAME_WORK + BYTE_WORK * (double)frame.size, (double)frame.size)) return NOTHING_BUT_AN_ERROR;

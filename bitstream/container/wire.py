@@ -91,11 +91,11 @@ _FLOAT32_MAX = struct.unpack(">f", b"\x7f\x7f\xff\xff")[0]
 def write_map(entries: Iterable[tuple[Any, Any]]) -> bytes:
     """A msgpack map of (key, value) pairs in the order given; every value in its shortest exact form."""
     pairs = list(entries)
-    packed = b"".join(_pack(key) + _pack(value) for key, value in pairs)
+    packed = b"".join(pack(key) + pack(value) for key, value in pairs)
     return bytes(msgpack.Packer().pack_map_header(len(pairs))) + packed
 
 
-def _pack(value: Any) -> bytes:
+def pack(value: Any) -> bytes:
     if isinstance(value, float):
         # Single precision where that is exact, double otherwise.
         if abs(value) <= _FLOAT32_MAX:
@@ -104,5 +104,5 @@ def _pack(value: Any) -> bytes:
                 return b"\xca" + single
         return b"\xcb" + struct.pack(">d", value)
     if isinstance(value, list | tuple):
-        return bytes(msgpack.Packer().pack_array_header(len(value))) + b"".join(map(_pack, value))
+        return bytes(msgpack.Packer().pack_array_header(len(value))) + b"".join(map(pack, value))
     return bytes(msgpack.packb(value))

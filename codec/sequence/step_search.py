@@ -64,8 +64,7 @@ class StepSearch:
             self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
 
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
-        """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights. Weights
-        of frames follow their looks from attempt to attempt, unless encodings are not `weighed`."""
+        """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
         kept: Found | None = None
         step, evened, missed, most = first, np.zeros(len(self._frames)), 0, COARSEST_STEP
         uneven = weighed and len(evened) > 1 and bool(self._knots)

@@ -16,8 +16,7 @@ RISES = {"kg": 0.78}  # the power of the step that errors grow with, where it is
 
 @dataclass(frozen=True)
 class SequenceComparison:
-    """A decoded sequence against its original. `kg`: 100 ||P - P~|| / ||P - E(P)|| (Z. Karni, C. Gotsman, "Compression
-    of soft-body animation sequences", 2004)."""
+    """A decoded sequence against its original; `kg` is 100 ||P - P~|| / ||P - E(P)|| (Karni and Gotsman, 2004)."""
 
     kg: float
     theta_deg: float

@@ -36,8 +36,7 @@ class ExpectedFrame:
 
 
 class SequenceVerifier:
-    """Decodes a sequence chunk by chunk, compares each frame, and measures the promise of the options. `shown` collects
-    original and decoded positions, with their faces."""
+    """Decodes a sequence chunk by chunk, measures the promise, and collects originals and results in `shown`."""
 
     def __init__(self, options: SequenceOptions, metadata: Metadata, shown: list[Measured] | None = None) -> None:
         self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)

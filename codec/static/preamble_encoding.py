@@ -13,7 +13,8 @@ from bsm.bitstream.connectivity.faces import Splits, encode_connectivity, encode
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.container.packets import Packet, Writer
+from bsm.bitstream.container.packets import Packet, Writer, write_brief
+from bsm.bitstream.container.wire import FrameType, write_frame
 from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
@@ -98,13 +99,7 @@ LOST_OF_DIAGONAL, LOST_OF_EDGE = 1e-6, 1e-3  # by rounding to single precision, 
 
 
 def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
-    """Return the mesh with coordinates in single precision, as doubles, and a note if that moves some.
-
-    Raises
-    ------
-    TargetError
-        If it moves them visibly: far from the origin, single precision is coarse.
-    """
+    """Return the mesh in single precision, as doubles, and notes; `TargetError` if that moves it visibly."""
     with np.errstate(over="ignore"):
         single = mesh.positions.astype(np.float32).astype(np.float64)
     if not np.isfinite(single).all():
@@ -275,6 +270,7 @@ class Draft:
     body: tuple[Packet, ...]
     decoded: Positions
     places: Levels | None = None
+    may_be_brief: bool = False  # in format 1.1
 
     @cached_property
     def frames(self) -> tuple[bytes, ...]:
@@ -285,8 +281,12 @@ class Draft:
         return sum(map(len, self.frames))
 
     def _write(self) -> Iterator[bytes]:
-        writer = Writer()
-        yield writer.start(minor=int(self.header.congruence > 0 or self.header.onorm > 0))
+        writer, may_be_brief = Writer(), self.may_be_brief and not self.header.light
+        brief = write_brief(self.header, self.body) if may_be_brief else None
+        yield writer.start(minor=int(brief is not None or self.header.congruence > 0 or self.header.onorm > 0))
+        if brief is not None:
+            yield write_frame(FrameType.HEADER, brief)
+            return
         for packet in (self.header, *self.body):
             yield writer.write(packet)
         yield writer.end(checksum_of(self.decoded))

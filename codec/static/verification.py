@@ -80,8 +80,7 @@ def verify(
     limits: Limits,
     threads: int | None,
 ) -> None:
-    """Decode a draft and compare everything; `VerificationError` if anything differs from the encoder's result.
-    Positions must be equal bit for bit, faces, metadata and orders as promised, attributes equal but for rounding."""
+    """Decode a draft; `VerificationError` unless positions are equal bit for bit, and all else is as promised."""
     try:
         decoded = decode(b"".join(draft.frames), limits, threads)
     except LimitError:

@@ -57,13 +57,7 @@ DOUBTFUL = 0.02  # of the diagonal: a bare number from here on may be meant as a
 def in_own_unit(
     options: Mapping[str, Any], metadata: Mapping[str, Any], mesh: TriangleMesh | None = None
 ) -> dict[str, Any]:
-    """Return the options that are lengths in another unit than the mesh's, converted to that.
-
-    Raises
-    ------
-    OptionError
-        If a length is a number without a unit that may not be a share of the diagonal, or the mesh has no unit.
-    """
+    """Convert options that are lengths to the unit of the mesh; `OptionError` if either has no unit."""
     value, own, mesh = options.get("max_error"), unit_of(metadata), mesh and mesh.without_isolated_vertices()[0]
     number, unit = (0.0, "") if value is None else _parts("max_error", value)
     if unit == "" and number >= DOUBTFUL:

@@ -175,6 +175,11 @@ def test_1_0_refuses_congruent_parts_by_the_number_of_their_field(earlier):
     assert found.status == 5 and found.message == "field 22 is unknown to this decoder"
 
 
+def test_1_0_refuses_brief_streams_by_the_number_of_their_field(earlier):
+    found = decode(earlier, (FOLDER.parent / "1.1" / "good-brief-plain.bsm").read_bytes())
+    assert found.status == 5 and found.message == "field 23 is unknown to this decoder"
+
+
 def test_1_0_decodes_sequences_that_are_written_today(earlier):
     moving = [torus(24, 18, phase=0.2 * t) for t in range(12)]
     stream = bsm.encode_sequence([mesh.positions for mesh in moving], moving[0].faces)

@@ -5,6 +5,7 @@ from tools.vectors.edges import EDGES
 from tools.vectors.exact import EXACT
 from tools.vectors.good import STATIC, Good
 from tools.vectors.good_attributes import ATTRIBUTES
+from tools.vectors.good_brief import BRIEFS, BRIEFS_BAD
 from tools.vectors.good_congruence import CONGRUENCE, CONGRUENCE_BAD
 from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_light import LIGHT
@@ -22,5 +23,6 @@ GOODS: dict[str, Good] = {
     **BOUNDS,
     **LARGE,
     **CONGRUENCE,
+    **BRIEFS,
 }
-BADS: dict[str, Bad] = {**BOUNDS_BAD, **CONGRUENCE_BAD}
+BADS: dict[str, Bad] = {**BOUNDS_BAD, **CONGRUENCE_BAD, **BRIEFS_BAD}

@@ -16,7 +16,7 @@ from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.attributes import Attribute
-from tools.surgery import frames_of, header_entries
+from tools.surgery import frames_of, header_entries, is_brief
 
 FOLDER = Path(__file__).parents[2] / "spec" / "vectors" / "1.0"
 """The vectors of 1.0, which stay what they are."""
@@ -130,12 +130,14 @@ def read_manifest() -> list[Vector]:
 
 def needs_of(stream: bytes) -> list[str]:
     """Return the documents that a decoder of a stream needs, as far as its frames and header can be read."""
+    found = {"core"}
     try:
+        found |= {"brief"} if is_brief(stream) else set()
         frames = frames_of(stream)
-        found = {"core"} | {name for kind, name in FRAME_NEEDS.items() if kind in {kind for kind, _ in frames}}
+        found |= {name for kind, name in FRAME_NEEDS.items() if kind in {kind for kind, _ in frames}}
         fields = set().union(*(header_entries(payload) for kind, payload in frames if kind == FrameType.HEADER))
     except (BsmError, TypeError, ValueError):
-        return ["core"]
+        return sorted(found)
     return sorted(found | {name for name in FIELD_NEEDS if HEADER_FIELDS[name].key in fields})
 
 

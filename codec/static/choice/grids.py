@@ -28,12 +28,12 @@ SAMPLE = 1 << 11
 """Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
 
 
-def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False) -> Draft:
+def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False, brief: bool = False) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative; with the small model, which is quick, if `light`."""
     grid = replace(grid, light=light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     coded = encode_grid(prepared.mesh.faces, grid, places)
-    return Draft(header, (*prepared.before_grid, *coded), grid.positions(places), places)
+    return Draft(header, (*prepared.before_grid, *coded), grid.positions(places), places, brief)
 
 
 def may_repeat(prepared: Prepared) -> bool:
@@ -51,7 +51,8 @@ def congruent(prepared: Prepared, draft: Draft) -> Draft:
     for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
         grid = replace(alone, transforms=some)
         if len(some) or len(places) <= SAMPLE or sampled_size(faces, grid, places) < sampled_size(faces, alone, places):
-            least = min(least, grid_draft(prepared, grid, places), key=lambda d: d.size)
+            coded = grid_draft(prepared, grid, places, brief=draft.may_be_brief)
+            least = min(least, coded, key=lambda d: d.size)
         if least.size < (1.0 - LEAST_SAVED) * draft.size:
             break
     return least
@@ -61,7 +62,7 @@ def size_like(prepared: Prepared, grid: Grid, places: Levels, congruence: int) -
     """The bytes of places on a grid whose congruent parts are coded as those of a header with this `congruence`."""
     if congruence:
         grid = replace(grid, transforms=transforms_of(prepared, grid)[: None if congruence > 1 else 0])
-    return grid_draft(prepared, grid, places).size
+    return grid_draft(prepared, grid, places, brief=may_repeat(prepared)).size
 
 
 def sampled_size(faces: Faces, grid: Grid, places: Levels) -> int:
@@ -200,7 +201,8 @@ class Gridded:
                 yield from () if exactly is None else (self._candidate(*exactly),)
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
-        coded, step = partial(grid_draft, self._prepared, grid, places), grid.step / self._prepared.units.scale
+        brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
+        coded = partial(grid_draft, self._prepared, grid, places, brief=brief)
         positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))
         sampled = partial(sampled_ratio, self._prepared.mesh.faces, grid, places, SAMPLE)
         few = len(places) <= SAMPLE or self._prepared.light

@@ -40,13 +40,7 @@ class Search:
         self._options, self._size, self._saved = options, size, saved
 
     def smallest(self, contract: Contract) -> Draft:
-        """The smallest stream that keeps a contract.
-
-        Raises
-        ------
-        TargetError
-            If none does; says what can be had.
-        """
+        """The smallest stream that keeps a contract; raises `TargetError` if none does."""
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)

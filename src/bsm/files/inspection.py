@@ -62,6 +62,7 @@ class StreamInfo:
     runs: tuple[RunInfo, ...]
     checksum: int | None  # of decoded positions
     version: int
+    brief: bool  # one frame is the whole stream
 
     @property
     def frames(self) -> int:
@@ -133,6 +134,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     lengths: Counter[int] = Counter()
     checksum: int | None = None
     total = entries = version = 0
+    brief = False
     for packet in (packet for chunk in chain(chunks, (None,)) for packet in skimmer.receive(chunk)):
         total, version = packet.offset + packet.length, packet.version
         match packet.type:
@@ -151,6 +153,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             case FrameType.END:
                 checksum = packet.positions if packet.positions >= 0 else None
             case carried:
+                brief |= packet.length == 0
                 sizes[_CARRIED[FrameType(carried)]] += packet.data
         if packet.type == FrameType.BLOCK:
             coefficients.append(packet.count)
@@ -162,7 +165,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes["attributes"] = sum(attribute.bytes for attribute in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
-    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, version)
+    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, version, brief)
 
 
 def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:

@@ -261,8 +261,7 @@ def _words(accessor: Tree) -> Tree:
 
 
 def _short(node: Any) -> Any:
-    """JSON with each number that single precision has written as shortly as that allows; glTF means no more. Extras and
-    extensions stay as they are."""
+    """JSON with numbers as short as single precision allows; extras and extensions stay as they are."""
     if isinstance(node, dict):
         return {key: value if key in ("extras", "extensions") else _short(value) for key, value in node.items()}
     if isinstance(node, list):

@@ -57,8 +57,7 @@ def tile_one(job: TileJob, console: Console) -> Facts:
 
 
 def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, int]:
-    """A tile in cells of the lattice, and how many of its positions share a place with another. Where vertices at one
-    place differ in color or normal, so do corners."""
+    """A tile in cells of the lattice, and how many positions share a place; corners there may differ."""
     begin, count = plan.leaves[name]
     used, corners = np.unique(mapped(folder, "cut", plan.kinds)[begin : begin + count], return_inverse=True)
     corners = corners.reshape(-1, 3)

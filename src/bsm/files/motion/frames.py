@@ -153,8 +153,7 @@ def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
 
 
 def timing_of(times: Positions, rate: float = 0.0) -> tuple[float, dict[str, float | str] | None]:
-    """Frames per second of times in seconds, shape (T,), 0 if they are not equally spaced, and metadata of the rest.
-    None: the times are not numbers that grow."""
+    """Frames per second of times, shape (T,), 0 if uneven, and metadata of the rest; None: they do not grow."""
     if not len(times):
         return rate, {}
     if not np.isfinite(times).all() or (np.diff(times) <= 0.0).any():
