@@ -8,18 +8,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from bsm.bitstream.container import wire
 from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
 from bsm.bitstream.container.header import entries_of
-from bsm.bitstream.container.wire import (
-    MAX_ENTRIES,
-    FrameType,
-    pack,
-    write_frame,
-    write_map,
-    write_preamble,
-    write_varint,
-)
+from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 
@@ -147,7 +140,7 @@ BRIEF, MOST_BRIEF = 23, 60_000
 
 def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
     """Return the payload of the only frame of a brief stream (F 11); None: these packets cannot be in one."""
-    floats = b"".join(pack(value)[1:] for value in (header.scale, *header.center))
+    floats = b"".join(wire.pack(value)[1:] for value in (header.scale, *header.center))
     match body:
         case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16:
             whole = (header.vertices, header.faces, *header.grid, header.congruence, len(faces))

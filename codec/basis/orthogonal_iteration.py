@@ -36,8 +36,7 @@ class DynamicSize:
         return self._size + self._size // 4 + 8
 
     def follow(self, left: float, coefficients: Matrix) -> int | None:
-        """Return c_i for coefficients, shape (c, 3), and the squared error that they leave; None: they leave too much.
-        From the predecessor's size, one column more while the error is over eps_h, one less while under eps_l."""
+        """Return c_i by the predecessor's size, shape (c, 3) given, and the squared error left; None: over eps_h."""
         norms = np.sqrt(left + np.append(np.cumsum(np.square(coefficients).sum(axis=1)[::-1])[::-1], 0.0))
         if norms[-1] > self.highest:
             return None

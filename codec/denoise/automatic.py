@@ -122,8 +122,7 @@ class AutomaticChoice:
     def seen(
         self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology
     ) -> AutomaticChoice:
-        """Return the choice with the angles of the whole mesh: noise remains where the full treatment is not applied,
-        and its errors count by the share that is applied."""
+        """Return the choice with the angles of the whole mesh, whose errors count by the share that is applied."""
         assert self.forecast is not None
         ends = (face_geometry(positions, topology.faces).normals for positions in (full, result))
         undone = np.degrees(2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(np.subtract(*ends), axis=1), 1.0)))
@@ -232,8 +231,7 @@ def _bounded(finding: Finding) -> AutomaticChoice:
 def treat(
     choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient, strength: float = 1.0
 ) -> tuple[Positions, AutomaticChoice]:
-    """Apply the choice to `noisy`, shape (n, 3), where there is noise and as far as the safety checks allow. Also
-    return the choice as it was carried out, with the angles to expect if vertices move only a part of the way."""
+    """Apply the choice to `noisy`, shape (n, 3), where it is safe; also return it as carried out, with its angles."""
     if not choice.steps:
         return noisy, choice
     finding = finding.reaching(patient.topology, choice.noise.slides)

@@ -135,8 +135,7 @@ class Rehearsal:
         return self._goal(Reference(self.perform(steps, share), self._topology.faces), self._given)
 
     def forecast(self, winner: Outcome) -> Forecast:
-        """Return the angles to expect on the rehearsed mesh. Detail that the filter removes from the guess was already
-        removed from the mesh to make the guess."""
+        """Return the angles to expect on the rehearsed mesh; detail that the filter removes is gone from the guess."""
         guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
         scanned = self._finding.kind == "view"  # whose noise is known so well that rehearsals say enough
         lost = float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 and not scanned else 0.0

@@ -82,8 +82,7 @@ class Reference:
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
     def nmsve(self, decoded: Positions) -> float:
-        """Normalized mean square visual error: the formula of the paper's section 8, divided by `scale`, the diagonal.
-        Its norms are not squared, as printed there. `nmsve * scale` is the paper's number, in the unit of the mesh."""
+        """The paper's error (section 8; norms not squared) over `scale`, the diagonal; times `scale`: its number."""
         decoded = self._checked(decoded)
         detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbors))
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)

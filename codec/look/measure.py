@@ -278,9 +278,7 @@ class LookMetric:
 
 
 class AttributeLook:
-    """Pictures of an original under a checker, at texture coordinates, or in colors: `spec/look.md`, L 7 and L 8.
-
-    `values` are what corners have, shape (m, 3 c)."""
+    """Pictures of an original under a checker, or in colors of corners, shape (m, 3 c): `spec/look.md`, L 7, L 8."""
 
     def __init__(self, mesh: TriangleMesh, semantic: Semantic, values: Matrix, *, threads: int | None = None) -> None:
         self._metric = LookMetric(mesh.bare, threads=threads, most_pixels=LEAST_PIXELS)

@@ -165,8 +165,7 @@ class Size:
 
 
 def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Matrix:
-    """One over the part of a checker's square that its edges take on each face, shape (m,), 0: it is gray there; where
-    corners are at places of it, shape (m, 6), and positions in a box of diagonal 1 fill a picture."""
+    """One over the part of a checker's square that its edges take on each face, shape (m,); 0: it is gray there."""
     first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
     texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2
     a, b, c = (positions[corner] for corner in faces.T)

@@ -116,8 +116,7 @@ def paired_frames(
 
 
 def one_each(before: Positions, after: Positions, faces: Faces, kept: int) -> tuple[Order, Faces]:
-    """One vertex for each place, if those at one in frames, shape (T, n, 3), are at one in decoded frames, too; and the
-    faces of these, of which decoders have `kept`: so encoders measure."""
+    """One vertex for each place that copies share in all frames, shape (T, n, 3), before and after; their faces."""
     mesh, index = TriangleMesh(before[0], faces), group_rows(np.concatenate(before, axis=1))
     whole = joined(mesh, index, keep=len(faces) == kept)
     copies = whole.index >= 0

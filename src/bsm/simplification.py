@@ -103,8 +103,7 @@ class Source:
         return max(found, default=0.0) / self.promise.look
 
     def apart(self, other: TriangleMesh, reach: Matrix) -> tuple[float, float]:
-        """The largest distance of both surfaces as a share of the bound, and in the unit of the mesh: at vertices
-        (those of the other mesh have the bounds `reach`) and middles of edges and faces."""
+        """The largest distance of both surfaces as a share of the bound (others: `reach`), and in the mesh's unit."""
         whole = self.whole
         points, allowed = _samples(whole, self._reach)
         there = distances_to_surface(points, other.positions, other.faces)

@@ -74,8 +74,7 @@ def find_grid(positions: Positions) -> Grid | None:
 
 
 def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
-    """What `weld` makes of positions, shape (n, 3); but of those that lie on a grid only vertices of the boundary are
-    welded, as those of seams and soups are: others have been merged by rounding."""
+    """What `weld` makes of positions, shape (n, 3); on a grid only vertices of the boundary are welded."""
     welded, joined, index = weld(positions, faces)
     n = len(positions)
     if len(welded) == n or find_grid(welded) is None:

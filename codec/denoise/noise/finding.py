@@ -93,8 +93,7 @@ SLOPE, SHIFT = 0.6, 0.15  # of the broad level over the whiteness (logarithms), 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What filters leave of a mesh along a direction at each vertex, and across it; levels are those of the windows, in
-    mean edges."""
+    """What filters leave of a mesh along and across a direction at each vertex; windows' levels in mean edges."""
 
     probe: Probe
     normals: Floats

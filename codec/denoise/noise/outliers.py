@@ -64,8 +64,7 @@ NO_OUTLIERS = Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
 
 
 def find_outliers(positions: Positions, probe: Probe, finding: Finding) -> Outliers:
-    """Find vertices that lie far outside their neighbors, noise or not; then what stands out of a mesh without noise,
-    which the finding for `positions`, shape (n, 3), tells."""
+    """Find vertices far outside their neighbors, noise or not, then what stands out of a mesh without noise."""
     back = put_strays_back(positions, probe)
     if not (finding if back is positions else find_noise(back, probe)).noisy:
         back = _peeled(back, probe).put_back(back)

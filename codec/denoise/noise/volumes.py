@@ -77,8 +77,7 @@ class Cells:
 
 
 def find_cells(positions: Positions, topology: Topology) -> Cells | None:
-    """The cells of a binary volume whose surface by marching cubes the positions, shape (n, 3), are: every vertex lies
-    halfway between two cells along one axis, and on a cell along both others. The axes may have any direction."""
+    """The cells of a binary volume whose surface by marching cubes positions, shape (n, 3), are, in any direction."""
     cells = _cells(positions, np.eye(3))
     for frame in () if cells else _frames(positions, topology):
         cells = cells or _cells(np.stack([_snapped(column) for column in frame @ positions.T], axis=1), frame)

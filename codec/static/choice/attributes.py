@@ -160,8 +160,7 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
 
 
 def _choose_blocks(given: Input, contract: Contract) -> Contract:
-    """Go on with the size of blocks and the effort with which the shape alone takes fewest bytes; return the promise
-    with which it does: the usual effort may be lucky, and so may a stricter promise."""
+    """Go on with the blocks, effort and promise, asked or stricter, that give the shape fewest bytes."""
     given.carried, found = (), list[tuple[Draft, EncodeOptions, Prepared, Contract]]()
     large = given.options.block_size >= LARGE_BLOCKS["block_size"]
     others = {name: getattr(EncodeOptions, name) if large else size for name, size in LARGE_BLOCKS.items()}

@@ -249,8 +249,7 @@ class Plain:
 
 
 class Refined:
-    """Blocks and a layer of refinement, by its step; levels are settled for their bits, or shaped for normals. Steps
-    along tangents are wider by a ratio."""
+    """Blocks and a layer of refinement, by its step; steps along tangents are wider by a ratio."""
 
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO

@@ -76,8 +76,7 @@ class Measures:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """The result of a step: decoded positions, in BSM units, shape (n, 3), and the stream; and versions with fewer
-    folds, or without flat faces, None if this is one."""
+    """The result of a step: decoded positions, in BSM units, shape (n, 3), the stream, versions with fewer folds."""
 
     step: float
     positions: Matrix
@@ -104,8 +103,7 @@ class Candidate:
 
 
 def turned(candidate: Candidate) -> Candidate | None:
-    """The candidate with fewer edges folded over, None if few are; levels of blocks depend on those of others, so what
-    is mended may need it again."""
+    """The candidate with fewer edges folded over, None if few are; of blocks, others may need it again."""
     found = last = candidate.unfold()
     for _ in range(3):
         last = last and last.unfold()

@@ -199,8 +199,7 @@ def widest(
     tries: int = TRIES,
     size: Callable[[Candidate], float] = attrgetter("size"),
 ) -> Candidate | None:
-    """Return the smallest candidate found that keeps the bounds, or has few folds, at least; None if it would not be
-    smaller than `most_bytes`."""
+    """Return the smallest candidate found that keeps the bounds, or has few folds; None: not below `most_bytes`."""
     kept = list[tuple[bool, Candidate]]()
 
     def at(step: float) -> float | None:

@@ -86,8 +86,7 @@ class StreamInfo:
 
     @property
     def bpv_paper(self) -> float:
-        """3 q_c c k / n, the paper's measure: c k as the sum over the blocks, n the vertices of the mesh; q_c is as
-        declared for packed coefficients, and for others their average size."""
+        """3 q_c c k / n, the paper's measure: c k summed over blocks, q_c as declared or the average size."""
         bits, count = self.header.constants.bits, sum(self.coefficients)
         mean = 8 * self.sizes["coefficients"] / (3 * max(1, count))
         return 3 * (bits or mean) * count / self.header.vertices

@@ -231,8 +231,7 @@ def _descriptor(path: str | os.PathLike[str]) -> int | None:
 
 
 def can_be_replaced(path: str | os.PathLike[str]) -> bool:
-    """Whether a file can be put in this place: there is one, or nothing. Links are not followed by hand: what is
-    behind /dev/fd/63 may have no name."""
+    """Whether a file can be put in this place; links are not followed, as /dev/fd/63 may have no name."""
     return _descriptor(path) is None and (os.path.isfile(path) or not os.path.exists(path))
 
 

@@ -107,8 +107,7 @@ def open_frames(
     *,
     isolated: bool | None = None,
 ) -> Frames:
-    """The sequence of these mesh files, in the order of their times, or of the numbers in their names; errors as of
-    `open_sequence`."""
+    """The sequence of these mesh files by their times or numbers; errors as of `open_sequence`."""
     asked = wanted or Wanted()
     ordered = list(names) if asked.times else in_order(names)
     kinds = [kind_of(Input(name), file_format) for name in ordered]

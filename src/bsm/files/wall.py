@@ -341,8 +341,7 @@ def _close_calls() -> None:
 
 @cache
 def _libraries() -> tuple[str, ...]:
-    """Folders of Python, of installed and loaded packages and of libraries of the system. Not all of `sys.path`: an
-    editable installation puts the folder there that holds the checkout."""
+    """Folders of Python, of packages and of libraries; not all of `sys.path`, where a checkout may be."""
     installed = {path for path in sys.path if Path(path).name in ("site-packages", "dist-packages")}
     python = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
     loaded = {path for module in list(sys.modules.values()) for path in list(getattr(module, "__path__", ()))}

@@ -685,8 +685,7 @@ def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:
 
 
 def _materials(document: Document, used: list[int], transparent: bool) -> tuple[dict[int, Material], dict[str, Value]]:
-    """Materials by their places among those used, in the words of glTF, and their images as metadata. What glTF draws
-    opaque says so, for elsewhere an opacity of a vertex or a material acts by itself."""
+    """Materials by place, in glTF's words, and their images as metadata; what glTF draws opaque says so."""
     words: dict[int, Material] = {}
     numbers: dict[str, int] = {}
     images: dict[str, Value] = {}

@@ -155,8 +155,7 @@ def totals(files: Sequence[Facts]) -> Facts:
 
 
 def largest_error(files: Sequence[Facts]) -> str:
-    """The largest vertex error of files, in words: in each unit, and of those without one relative; and the largest
-    distance of surfaces of those with fewer triangles."""
+    """The largest vertex error of files, in words, in each unit or relative; and distance of surfaces."""
     worst: dict[tuple[str, str], Facts] = {}
     for facts in files:
         if facts.get("max_error_relative") is not None:

@@ -129,8 +129,7 @@ class Root:
 
 @dataclass(frozen=True)
 class Plan(Root):
-    """How a mesh is cut: `leaves` tells of each tile of the finest level where its faces begin in the file `cut`, and
-    how many they are; `kinds` of the tables beside it."""
+    """How a mesh is cut: where in the file `cut` the faces of each leaf begin, how many; `kinds` of the tables."""
 
     lattice: Lattice
     depth: int
@@ -177,8 +176,7 @@ def load_plan(path: Path) -> Plan:
 
 
 def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
-    """Write the lattice's places, faces leaf by leaf, and which places are used from outside of their leaf; a triangle
-    is of the leaf that its first corner is in."""
+    """Write places, faces by the leaf of their first corner, and which places are used from outside of it."""
     folder, (low, high) = raw.folder, lattice.places(np.array([raw.low, raw.high])).astype(np.int64)
     vertices, triangles = raw.rows["positions"], raw.rows["faces"]
     # Above the first level that is cut there is one node a level, down to a mesh that is there at once.

@@ -91,9 +91,7 @@ def compared(
     limits: Limits = DEFAULT_LIMITS,
     before: bytes | None = None,
 ) -> Content:
-    """Return a stream with its original, a file of `size` bytes, and `before` as a stream. Vertices are compared where
-    the faces agree, and surfaces where they do not. For meshes of the same faces, also show Draco's file if DracoPy is
-    there."""
+    """Return a stream with its original, a file of `size` bytes, `before`, and Draco's file if DracoPy is there."""
     header, _ = peek_header(Input(stream).chunks())
     if bool(header and header.gop_frames) != isinstance(original, Frames):
         raise MeshError(f"{name} and its original must both be sequences, or both meshes")
@@ -152,8 +150,7 @@ def _promised(contracts: Mapping[str, Contract | None], preset: str | None) -> d
 def _over_time(
     name: str, decoder: SequenceStream, before: Positions, faces: Faces
 ) -> tuple[dict[str, Any], npt.NDArray[np.float32] | None]:
-    """Return the largest error of each frame, as a fraction of the first one's diagonal, the look of the worst of some,
-    and the error of each vertex."""
+    """Return the largest relative error of each frame, the look of the worst of some, and errors of vertices."""
     from bsm.codec.look.measure import look
     from bsm.codec.sequence.step_search import KNOTS, shading_error
 

@@ -77,8 +77,7 @@ class Growing:
             return self._data.startswith(MAGIC[: len(self._data)])
 
     def chunks(self) -> Iterator[bytes]:
-        """Yield the received bytes that a page needs, then new bytes up to the end; while none arrive, yield empty
-        bytes from time to time, so that the sender can check the connection."""
+        """Yield received bytes that a page needs, then new ones, or empty ones while none arrive, up to the end."""
         with self._change:
             at = 0
             if self._entry is not None and not self._over:

@@ -318,8 +318,7 @@ def open_npz_sequence(
     attributes: Callable[[], tuple[Attribute, ...]] = tuple,
     metadata: Callable[[], Metadata] = dict,
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write an npz of `positions`, shape (T, n, 3), `faces` and attributes; yields what takes frame after frame. Frames
-    wait in memory where their number is not known; attributes that change wait in files."""
+    """Write an npz of frames, shape (T, n, 3); yields what takes them, and keeps them until their number is known."""
     kept: list[Positions] = []
     first: tuple[Attribute, ...] = ()
     moved: dict[str, IO[bytes]] = {}

@@ -215,8 +215,7 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
 
 
 def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
-    """The order in which faces are written: their own, but grouped by their materials and so on where these change for
-    every few faces, as no file has it."""
+    """The order in which faces are written: grouped by their materials where these change for every few faces."""
     order = np.arange(faces)
     if states:
         table = np.column_stack(states[::-1])

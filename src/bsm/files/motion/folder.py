@@ -63,8 +63,7 @@ def frame_files(path: str) -> list[str]:
 
 
 def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
-    """The mesh files of a folder or pattern if they are meshes by themselves: one, or the last has other faces than
-    the first; none if they are the frames of a sequence, or the path is that of a file."""
+    """The mesh files of a folder or pattern if they are meshes by themselves; none if they are frames."""
     if is_pipe(path) or is_url(path) or not names_many(path):
         return []
     names = frame_files(path)
@@ -158,8 +157,7 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
 
 
 def read_files(names: Sequence[str], file_format: str | None, limits: Limits, wanted: Wanted) -> Frames:
-    """The frames in files, each read when it is asked for; with `runs`, their faces may change. Their times are those
-    that are wanted, or that the files have, or else the numbers in their names."""
+    """The frames in files, each read when asked for; with `runs`, faces change. Times: wanted, in files, or numbers."""
     runs, rate, times = wanted.runs, wanted.rate, wanted.times
     cut = CutAlike()
 
