@@ -15,7 +15,7 @@ DecoderState decoder_state(const bsmdec *decoder) {
         spent->vertices - spent->gone, spent->spent, spent->received, spent->reserved};
 }
 
-_Static_assert(HEADER_NUMBERS <= MOST_HEADER_NUMBERS, "headers do not fit");
+_Static_assert((int)HEADER_NUMBERS <= MOST_HEADER_NUMBERS, "headers do not fit");
 
 #define NAME_OF(field) #field,
 int decoder_header(const bsmdec *decoder, const char *const **names, double *numbers) {
