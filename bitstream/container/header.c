@@ -148,8 +148,7 @@ static bool check_header(Context *context, const Record *record, const Header *h
 
 /* The header of a brief stream, all of whose fields are one of bytes, and what follows it there (F 11). */
 static bool parse_brief(Context *context, Span payload, Arena *scratch, Record *record, Span *faces, Span *values) {
-    static const uint8_t VARINTS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE},
-        FLOATS[] = {SCALE, CENTER, CENTER, CENTER};
+    static const uint8_t KEYS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE, SCALE, CENTER, CENTER, CENTER};
     Mark mark = mark_of(scratch);
     Map *map;
     bool done = TAKE(scratch, 1, map) && parse_map(context, payload, map)
@@ -157,13 +156,9 @@ static bool parse_brief(Context *context, Span payload, Arena *scratch, Record *
     Cursor cursor = {context, done ? map->value[0].bytes : (Span){0}};
     release_to(scratch, mark);
     *record = (Record){.stored = OF_A_BRIEF};
-    for (int i = 0; i < 6; i++) record->number[VARINTS[i]][record->count[VARINTS[i]]++] = (double)take_varint(&cursor);
-    for (int i = 0; i < 4; i++) {
-        Span bytes = take_span(&cursor, 4);
-        uint32_t bits = bytes.size == 4 ? (uint32_t)big_endian(bytes.data, 4) : 0;
-        float number;
-        memcpy(&number, &bits, sizeof number);
-        record->number[FLOATS[i]][record->count[FLOATS[i]]++] = number;
+    for (int i = 0; i < 10; i++) {
+        double number = i < 6 ? (double)take_varint(&cursor) : take_real(&cursor, false).number;
+        record->number[KEYS[i]][record->count[KEYS[i]]++] = number;
     }
     *faces = take_span(&cursor, take_varint(&cursor));
     *values = take_rest(&cursor);

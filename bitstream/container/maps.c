@@ -54,7 +54,7 @@ static Value negative_value(Cursor *cursor, int size) {
     return (Value){.kind = INTEGER, .whole = value, .number = (double)value};
 }
 
-static Value real_value(Cursor *cursor, bool is_double) {
+Value take_real(Cursor *cursor, bool is_double) {
     double number;
     if (is_double) {
         uint64_t bits = take_unsigned(cursor, 8);
@@ -88,7 +88,7 @@ static Value take_single(Cursor *cursor, uint8_t tag) {
         require_shortest(cursor, size >= TEXTS[tag - 0xd9]);
         return bytes_value(cursor, TEXT, (int64_t)size);
     }
-    if (tag == 0xca || tag == 0xcb) return real_value(cursor, tag == 0xcb);
+    if (tag == 0xca || tag == 0xcb) return take_real(cursor, tag == 0xcb);
     if (tag >= 0xcc && tag <= 0xcf) {
         uint64_t bits = take_unsigned(cursor, 1 << (tag - 0xcc));
         require_shortest(cursor, bits >= LONGER[tag - 0xcc]);

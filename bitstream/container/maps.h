@@ -46,6 +46,8 @@ typedef struct {
 } Record;
 
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record);
+/* A number in single or double precision, the highest byte first. */
+Value take_real(Cursor *cursor, bool is_double);
 /* Give what is not stored its default, and compare everything with its range. */
 bool complete_record(Context *context, const Field *fields, int count, Record *record);
 

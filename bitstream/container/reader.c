@@ -260,13 +260,10 @@ static bool keep_brief(Reader *reader, Header *header) {
 /* The packets for which a brief stream has no frames. */
 static void next_of_brief(Reader *reader, Packet *packet) {
     const Header *header = reader->grammar.header;
-    switch (reader->grammar.last) {
-        case HEADER_FRAME: *packet = (Packet){.type = CONNECTIVITY_FRAME, .data = header->connectivity}; break;
-        case CONNECTIVITY_FRAME:
-            *packet = (Packet){.type = GRID_FRAME, .count = header->vertices, .data = header->values};
-            break;
-        default: *packet = (Packet){.type = END_FRAME, .count = reader->frames, .sum = reader->sum};
-    }
+    bool has_faces = reader->grammar.last == HEADER_FRAME, has_values = reader->grammar.last == CONNECTIVITY_FRAME;
+    *packet = (Packet){.type = has_faces ? CONNECTIVITY_FRAME : has_values ? GRID_FRAME : END_FRAME,
+        .data = has_faces ? header->connectivity : has_values ? header->values : (Span){0},
+        .count = has_values ? header->vertices : 0};
     packet->size = packet->data.size;
     reader->last_offset = reader->offset;
     advance_grammar(&reader->grammar, packet, NULL);
