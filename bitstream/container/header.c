@@ -147,17 +147,15 @@ static bool check_header(Context *context, const Record *record, const Header *h
 }
 
 /* The header of a brief stream, all of whose fields are one of bytes, and what follows it there (F 11). */
-static bool parse_brief(Context *context, Span payload, Arena *scratch, Record *record, Span *faces, Span *values) {
+static bool parse_brief(Context *context, Span payload, Record *record, Span *faces, Span *values) {
     static const uint8_t KEYS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE, SCALE, CENTER, CENTER, CENTER};
-    Mark mark = mark_of(scratch);
-    Map *map;
-    bool done = TAKE(scratch, 1, map) && parse_map(context, payload, map)
-        && (map->value[0].kind == BINARY || FAIL(context, CORRUPT, "field # is of another type", BRIEF));
-    Cursor cursor = {context, done ? map->value[0].bytes : (Span){0}};
-    release_to(scratch, mark);
+    Cursor cursor = {context, {payload.data + 3, payload.size - 3}};
+    Value value = take_single(&cursor, payload.data[2]);
+    agrees(context, value.kind == BINARY && cursor.left.size == 0, "a brief header that is not one value of bytes");
+    cursor.left = value.bytes;
     *record = (Record){.stored = OF_A_BRIEF};
     for (int i = 0; i < 10; i++) {
-        double number = i < 6 ? (double)take_varint(&cursor) : take_real(&cursor, false).number;
+        double number = i < 6 ? (double)take_varint(&cursor) : take_single(&cursor, 0xca).number;
         record->number[KEYS[i]][record->count[KEYS[i]]++] = number;
     }
     *faces = take_span(&cursor, take_varint(&cursor));
@@ -169,8 +167,8 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
     Record record;
     Span faces = {0}, values = {0};
     if (payload.size > MOST_HEADER) return FAIL(context, CORRUPT, "a header of # bytes is too long", payload.size);
-    bool brief = payload.size > 1 && payload.data[0] == 0x81 && payload.data[1] == BRIEF;
-    if (brief && !parse_brief(context, payload, scratch, &record, &faces, &values)) return false;
+    bool brief = payload.size > 2 && payload.data[0] == 0x81 && payload.data[1] == BRIEF;
+    if (brief && !parse_brief(context, payload, &record, &faces, &values)) return false;
     if (!brief && !parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record))
         return false;
     set_header(&record, header);

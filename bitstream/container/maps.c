@@ -54,7 +54,7 @@ static Value negative_value(Cursor *cursor, int size) {
     return (Value){.kind = INTEGER, .whole = value, .number = (double)value};
 }
 
-Value take_real(Cursor *cursor, bool is_double) {
+static Value real_value(Cursor *cursor, bool is_double) {
     double number;
     if (is_double) {
         uint64_t bits = take_unsigned(cursor, 8);
@@ -71,8 +71,7 @@ Value take_real(Cursor *cursor, bool is_double) {
     return (Value){.kind = REAL, .number = number};
 }
 
-/* A value that holds no other; what else begins with `tag` is corrupt. */
-static Value take_single(Cursor *cursor, uint8_t tag) {
+Value take_single(Cursor *cursor, uint8_t tag) {
     static const uint64_t TEXTS[] = {32, 256, 65536}, BINARIES[] = {0, 256, 65536},
         LONGER[] = {128, 256, 65536, UINT64_C(1) << 32};
     if (tag < 0x80) return unsigned_value(tag);
@@ -88,7 +87,7 @@ static Value take_single(Cursor *cursor, uint8_t tag) {
         require_shortest(cursor, size >= TEXTS[tag - 0xd9]);
         return bytes_value(cursor, TEXT, (int64_t)size);
     }
-    if (tag == 0xca || tag == 0xcb) return take_real(cursor, tag == 0xcb);
+    if (tag == 0xca || tag == 0xcb) return real_value(cursor, tag == 0xcb);
     if (tag >= 0xcc && tag <= 0xcf) {
         uint64_t bits = take_unsigned(cursor, 1 << (tag - 0xcc));
         require_shortest(cursor, bits >= LONGER[tag - 0xcc]);

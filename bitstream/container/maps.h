@@ -23,6 +23,8 @@ typedef struct {
 
 /* Whether bytes are UTF-8: no form longer than needed, no surrogates, nothing above U+10FFFF. */
 bool is_text(Span bytes);
+/* A value that holds no other, behind its first byte; what else begins with that is corrupt. */
+Value take_single(Cursor *cursor, uint8_t tag);
 /* The entries of a payload, whose bytes they point to. */
 bool parse_map(Context *context, Span payload, Map *map);
 
@@ -46,8 +48,6 @@ typedef struct {
 } Record;
 
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record);
-/* A number in single or double precision, the highest byte first. */
-Value take_real(Cursor *cursor, bool is_double);
 /* Give what is not stored its default, and compare everything with its range. */
 bool complete_record(Context *context, const Field *fields, int count, Record *record);
 

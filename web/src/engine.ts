@@ -71,8 +71,7 @@ export class Engine extends Memory {
 
     /** Bytes that were made use of, work that was charged, vertices that the faces so far have. */
     get state(): readonly [position: number, work: number, vertices: number] {
-        const [position, work, vertices] = this.doubles(this.call("page_state"), 3);
-        return [position, work, vertices];
+        return [...this.doubles(this.call("page_state"), 3)] as [number, number, number];
     }
 
     header(): Header {

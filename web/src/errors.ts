@@ -31,16 +31,12 @@ export class BsmError extends Error {
 
     /** Fill in the places that are not known yet, and return the same error. */
     located(place: Place): this {
-        this.place.offset ??= place.offset;
-        this.place.frame ??= place.frame;
-        this.place.block ??= place.block;
-        const { offset, frame, block } = this.place;
         const problem = this.problem || "this stream is wrong; bsm.js says how";
-        const parts = [
-            ["byte", offset],
-            ["frame", frame],
-            ["block", block],
-        ].flatMap(([name, value]) => (value === undefined ? [] : [`${name} ${value}`]));
+        const parts: string[] = [];
+        for (const key of ["offset", "frame", "block"] as const) {
+            const value = (this.place[key] ??= place[key]);
+            if (value !== undefined) parts.push(`${key === "offset" ? "byte" : key} ${value}`);
+        }
         this.message = parts.length ? `${problem} [${parts.join(", ")}]` : problem;
         return this;
     }
