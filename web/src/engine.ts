@@ -167,7 +167,7 @@ export class Engine extends Memory {
         new Int32Array(this.buffer, vertices).set(block.vertices);
         new Float64Array(this.buffer, positions).set(block.positions);
         new Float64Array(this.buffer, weights).set(block.weights);
-        if (!this.call("page_add", index)) throw new RangeError("a block that is none of this mesh");
+        if (!this.call("page_add", index)) throw new RangeError("a block of another mesh");
     }
 
     /** Leave the memory to the next decoder. */

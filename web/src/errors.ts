@@ -32,12 +32,12 @@ export class BsmError extends Error {
     /** Fill in the places that are not known yet, and return the same error. */
     located(place: Place): this {
         const problem = this.problem || "this stream is wrong; bsm.js says how";
-        const parts: string[] = [];
+        let where = "";
         for (const key of ["offset", "frame", "block"] as const) {
             const value = (this.place[key] ??= place[key]);
-            if (value !== undefined) parts.push(`${key === "offset" ? "byte" : key} ${value}`);
+            if (value !== undefined) where += `${where && ", "}${key === "offset" ? "byte" : key} ${value}`;
         }
-        this.message = parts.length ? `${problem} [${parts.join(", ")}]` : problem;
+        this.message = where ? `${problem} [${where}]` : problem;
         return this;
     }
 }

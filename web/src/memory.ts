@@ -52,7 +52,7 @@ export class Memory {
     /** The result of `work` with some bytes of the memory, which are free afterwards. */
     protected lent<Result>(size: number, work: (at: number) => Result): Result {
         const at = this.call("page_take", size);
-        if (at === 0) throw new LimitError(`this machine has no ${size} bytes of memory for the decoder`);
+        if (at === 0) throw new LimitError(`this machine has no ${size} bytes for the decoder`);
         try {
             return work(at);
         } finally {
