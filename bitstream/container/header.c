@@ -151,7 +151,8 @@ static bool parse_brief(Context *context, Span payload, Record *record, Span *fa
     static const uint8_t KEYS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE, SCALE, CENTER, CENTER, CENTER};
     Cursor cursor = {context, {payload.data + 3, payload.size - 3}};
     Value value = take_single(&cursor, payload.data[2]);
-    if (!agrees(context, value.kind == BINARY && cursor.left.size == 0, "a brief header that is not one value of bytes"))
+    if (!agrees(context, value.kind == BINARY && cursor.left.size == 0,
+            "a brief header that is not one value of bytes"))
         return false;
     cursor.left = value.bytes;
     *record = (Record){.stored = OF_A_BRIEF};
