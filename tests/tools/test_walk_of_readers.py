@@ -5,14 +5,16 @@ import os
 import sys
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from bsm import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.files.wall import lack
-from tools.attack.doors import Apart, attempt, compared
+from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth
 from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up, written
 from tools.attack.taken import Taken
@@ -120,3 +122,50 @@ def test_usd_core_reads_our_samples_as_we_do():
 def test_a_reader_that_is_missing_or_fails_reads_nothing(tmp_path):
     (tmp_path / "a.ply").write_bytes(b"no mesh")
     assert attempt("trimesh", tmp_path / "a.ply") is None
+
+
+L_SHAPE = ("0 0 0", "2 0 0", "2 1 0", "1 1 0", "1 2 0", "0 2 0")
+LS = {
+    "off": "OFF\n6 1 0\n" + "\n".join(L_SHAPE) + "\n6 5 0 1 2 3 4\n",
+    "obj": "".join(f"v {point}\n" for point in L_SHAPE) + "f 6 1 2 3 4 5\n",
+    "usda": f"""#usda 1.0
+def Mesh "a" {{
+    point3f[] points = [{", ".join(f"({point.replace(' ', ',')})" for point in L_SHAPE)}]
+    int[] faceVertexCounts = [6]
+    int[] faceVertexIndices = [5, 0, 1, 2, 3, 4]
+}}
+""",
+}
+
+
+@pytest.mark.parametrize("kind", LS)
+def test_polygons_settle_what_their_cuts_do_not(kind, tmp_path, monkeypatch):
+    """A polygon that is not convex, whose fan has another area, is judged by its area vector."""
+    if kind == "usda":
+        pytest.importorskip("pxr")
+    path = tmp_path / f"a.{kind}"
+    path.write_text(LS[kind])
+    by_area = next(name for name in EVEN if name.startswith(kind[:3]))
+    reader = OTHERS[by_area][0]
+    fan = reader(path)
+    fan.normals = None
+    monkeypatch.setitem(OTHERS, "fan", (lambda path: fan, (kind,)))
+    apart = SimpleNamespace(read=lambda name, path: OTHERS[name][0](path))
+    found = list(compared(path, [by_area, "fan"], apart))
+    assert found[0] == (by_area, "same", "")
+    assert {result for name, result, _ in found if name == "fan"} == {"settled"}
+    assert {result for _, result, _ in compared(path, ["fan"], apart)} <= {"differs", "noted"}
+    fan.normals = reader(path).normals
+    fan.triangles = fan.triangles * [1, 1.001, 1]
+    found = list(compared(path, ["fan"], apart))
+    assert ("fan", "differs") in {(name, result) for name, result, _ in found}
+
+
+def test_a_quad_that_is_not_flat_may_differ_by_what_its_height_adds():
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    corners = np.arange(4)
+    assert of_polygons(square, [4], corners).uneven == 0
+    bent = square + np.array([[0, 0, 0], [0, 0, 0.01], [0, 0, 0], [0, 0, 0]])
+    both = [of_polygons(bent, [4], np.roll(corners, by)) for by in (0, 1)]
+    away = max(np.abs(a - b).max() for a, b in zip(*(read.moments().values() for read in both), strict=True))
+    assert 1e-5 < away < both[0].uneven < 0.05

@@ -744,6 +744,16 @@ def test_a_3mf_file_has_colors_materials_and_an_error_where_its_build_is_empty(t
         read_mesh(three_mf(chained_objects(1), ""), "3mf")
 
 
+@pytest.mark.parametrize("use", ["model", "support", "solidsupport", "surface"])
+def test_what_objects_of_a_3mf_are_for_is_named(use):
+    """Supports are printed in another way; as a stream, they are like any part."""
+    pytest.importorskip("lib3mf")
+    given = read_mesh(three_mf(chained_objects(0) + box_3mf(1, f'type="{use}"'), '<item objectid="1"/>'), "3mf")
+    assert len(given.mesh.faces) == 2
+    named = [note for note in given.notes if "the object type" in note]
+    assert len(named) == (use != "model") and all(use in note.lower() for note in named), given.notes
+
+
 def box_3mf(number, of_object="", of_second=""):
     """An object of two triangles, with properties of itself and of its second triangle."""
     corners = "".join(f'<vertex x="{x}" y="{y}" z="0"/>' for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))

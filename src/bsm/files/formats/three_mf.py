@@ -96,8 +96,7 @@ class _Model:
         ]
         if not placed:
             raise MeshError("this 3MF file places no object: its build has no item")
-        meshes = (self._objects[number] for number, *_ in shown)
-        counts = [(mesh.GetVertexCount(), mesh.GetTriangleCount()) for mesh in meshes]
+        counts = [((mesh := self._objects[n]).GetVertexCount(), mesh.GetTriangleCount()) for n, *_ in shown]
         parts = (self._part(number, name).placed(matrix) for number, matrix, name in shown)
         found = joined_parts(parts, counts, self._limits, size)
         metadata: dict[str, Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())], **self._about()}
@@ -131,6 +130,8 @@ class _Model:
                 self._left["beams"] = None
             if item.HasSlices(False):
                 self._left["slices"] = None
+            if (use := item.GetType().name) not in ("Model", "Other"):
+                self._left[f"the object type {use}"] = None
             columns, materials = self._painted(item, len(corners))
             sizes = np.full(len(corners), 3)
             self._made[number] = Part(points, sizes, corners.reshape(-1), columns, materials, "")
@@ -199,15 +200,14 @@ class _Model:
 
     def _about(self) -> dict[str, Value]:
         group = self._model.GetMetaDataGroup()
-        entries = (group.GetMetaData(i) for i in range(group.GetMetaDataCount()))
-        return {str(entry.GetName()): str(entry.GetValue()) for entry in entries}
+        return {str((e := group.GetMetaData(i)).GetName()): str(e.GetValue()) for i in range(group.GetMetaDataCount())}
 
 
 def _material(group: Any, place: int) -> Material:
     color = group.GetDisplayColor(place)
     shares = [f"{byte / 255:.6g}" for byte in (color.Red, color.Green, color.Blue, color.Alpha)]
-    opacity: Material = {"d": shares[3]} if color.Alpha < 255 else {}
-    return {"name": str(group.GetName(place)), "Kd": " ".join(shares[:3]), **opacity}
+    opaque = color.Alpha == 255
+    return {"name": str(group.GetName(place)), "Kd": " ".join(shares[:3]), **({} if opaque else {"d": shares[3]})}
 
 
 def _matrix(transform: Any) -> Doubles:
