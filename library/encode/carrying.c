@@ -40,7 +40,9 @@ static bool take_used(Writer *writer, const CodedMesh *coded, const bsmenc_attri
     return true;
 }
 
-int64_t join_values(Corners corners, const int32_t *number, Bytes seams, Ints joined, Ints first) {
+/* The seams of numbered corners: where they differ on the two sides of an edge, at either end. Joined between them,
+ * corners have values: that of each is in `joined`, and the first corner of each in `first`. Returns how many. */
+static int64_t join_values(Corners corners, const int32_t *number, Bytes seams, Ints joined, Ints first) {
     const int32_t *vertex = corners.faces.data;
     for (int32_t k = 0; k < (int32_t)seams.size; k++) {
         int32_t beyond = corners.opposite.data[k];
@@ -161,15 +163,20 @@ bool carry_attribute(Writer *writer, const CodedMesh *coded, const bsmenc_attrib
     return done || name_attribute(&writer->context, d->name);
 }
 
-bool write_seams(Writer *writer, Corners corners, ConstBytes own, const uint8_t *last, const uint8_t *before_last,
-    Writing *writing) {
+bool write_seams(Writer *writer, const CodedMesh *coded, int index, const Carried *all, Writing *writing) {
     Context *context = &writer->context;
     Arena *scratch = &writer->scratch;
+    Corners corners = coded->corners;
+    ConstBytes own = const_bytes(all[index].seams);
+    const uint8_t *last = NULL, *before_last = NULL; /* seams of attributes before it (D 2.5) */
     Bytes others, seams;
     Ints2 ends;
     Bank bank;
     Coding coding;
     Mark mark = mark_of(scratch);
+    if (own.size == 0) return true;
+    for (int k = 0; k < index; k++)
+        if (all[k].seams.size > 0) before_last = last, last = all[k].seams.data;
     context->writing = writing;
     bool done = take_bytes(scratch, own.size, &others) && take_bytes(scratch, own.size, &seams)
         && take_ints2(scratch, corners.rank.size, 3, &ends) && make_bank(scratch, EDGE_BANK, &bank)
@@ -189,13 +196,9 @@ bool write_seams(Writer *writer, Corners corners, ConstBytes own, const uint8_t 
 bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream) {
     Context *context = &writer->context;
     Buffer entries = {.context = context};
-    ConstBytes own = const_bytes(all[index].seams);
-    const uint8_t *last[2] = {NULL, NULL}; /* seams of attributes before it (D 2.5) */
     Writing seams;
-    for (int k = 0; k < index; k++)
-        if (all[k].seams.size > 0) last[1] = last[0], last[0] = all[k].seams.data;
-    bool done = begin_payloads(context, own.size + 64, &seams)
-        && (own.size == 0 || write_seams(writer, coded->corners, own, last[0], last[1], &seams));
+    bool done = begin_payloads(context, all[index].seams.size + 64, &seams)
+        && write_seams(writer, coded, index, all, &seams);
     if (done) {
         put_declaration(&entries, &all[index].quantized.declaration);
         put_varint(&stream->payload, index);

@@ -27,14 +27,10 @@ typedef struct {
     Ints vertices;         /* of each coded row, -1 for one of a loose vertex */
 } Carried;
 
-/* The seams of numbered corners: where they differ on the two sides of an edge, at either end. Joined between them,
- * corners have values: that of each is in `joined`, and the first corner of each in `first`. Returns how many. */
-int64_t join_values(Corners corners, const int32_t *number, Bytes seams, Ints joined, Ints first);
-/* Write seams after those of the last two attributes with seams, or NULL. */
-bool write_seams(Writer *writer, Corners corners, ConstBytes own, const uint8_t *last, const uint8_t *before_last,
-    Writing *writing);
 /* Carry attribute `index`; those before it are carried. */
 bool carry_attribute(Writer *writer, const CodedMesh *coded, const bsmenc_attribute *given, int index, Carried *all);
+/* Write the seams of its own of a carried attribute. */
+bool write_seams(Writer *writer, const CodedMesh *coded, int index, const Carried *all, Writing *writing);
 /* Write the ATTRIBUTE section of a carried attribute. */
 bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Carried *all, StreamWriter *stream);
 /* Write the payloads of VALUES, chunk by chunk, into a buffer, and where each ends; `places`: of vertices on a grid. */

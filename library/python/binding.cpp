@@ -343,61 +343,52 @@ nb::object order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<in
     return output.payloads()[0];
 }
 
-// The corners of faces, whose values are joined between seams.
-class Corners : public Shared, Output {
+// A mesh in the order of coding, and the attributes that are carried there (see inside.h).
+class Place : public Shared, Output {
   public:
-    Corners(Rows<int32_t, 3> faces, int64_t vertices) : faces(faces) {
-        run([&] { return encode_corners(encoding, faces.data(), (int64_t)faces.shape(0), vertices); });
+    Place(ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order, ConstBytes turns, ConstInts2 faces,
+        int64_t vertices, bool keeps)
+        : faces(faces.rows) {
+        run([&] { return encode_place(encoding, given, index, kept, face_order, turns, faces, vertices, keeps); });
     }
-    // Seams of the numbers of corners, the value of each corner, and the first corner of each value.
-    nb::tuple join(Rows<int32_t, 3> numbers) {
-        size_t size = 3 * faces.shape(0);
-        if (3 * numbers.shape(0) != size) throw nb::value_error("each corner has a number");
-        Array seams = array_of("uint8", size), joined = array_of("int32", size / 3, 3), first = array_of("int32", size);
-        int64_t count = unlocked([&] {
-            return encode_joins(encoding, numbers.data(), (uint8_t *)seams.data, (int32_t *)joined.data,
-                (int32_t *)first.data);
-        });
-        return nb::make_tuple(seams.numpy, joined.numpy, copy_of(first.data, "int32", (size_t)count));
-    }
-    nb::object seams(Row<uint8_t> own, std::optional<Row<uint8_t>> last, std::optional<Row<uint8_t>> before_last) {
-        size_t size = 3 * faces.shape(0);
-        if (own.size() != size || (last && last->size() != size) || (before_last && before_last->size() != size))
-            throw nb::value_error("each corner has a seam or none");
-        run([&] {
-            return encode_seams(encoding, own.data(), last ? last->data() : nullptr,
-                before_last ? before_last->data() : nullptr);
-        });
-        return payloads()[0];
+    // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; levels, the value of each
+    // corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of integers, bits,
+    // normals without length, whether others had another length than 1.
+    nb::tuple carry(bool first, const std::string &name,
+        nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int domain, int semantic, std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {
+        if (kind < 0 || kind > 7 || values.itemsize() != bsmdec_kind_size(kind) || values.shape(0) < 1
+            || values.shape(1) < 1 || values.shape(1) > 4)
+            throw nb::value_error("values are not of this kind");
+        bsmenc_attribute given = {};
+        given.name = name.c_str();
+        given.values = values.data();
+        given.rows = (int64_t)values.shape(0);
+        given.components = (int)values.shape(1);
+        given.kind = kind;
+        given.domain = domain;
+        given.semantic = semantic;
+        given.indices = indices ? (const uint32_t *)indices->data() : nullptr;
+        given.quality = (bsmenc_quality)quality;
+        given.amount = amount;
+        Whole whole;
+        run([&] { return encode_carried(encoding, &given, first, &whole); });
+        const Writing &seams = *encoding_payloads(encoding);
+        nb::list largest, offset;
+        for (int i = 0; i < whole.words; i++) {
+            largest.append(whole.largest[i]);
+            offset.append(whole.offset[i]);
+        }
+        return nb::make_tuple(whole.coding, whole.domain, whole.origin, whole.seams_of,
+            nb::bytes(seams.data, (size_t)seams.size), largest, offset, whole.step,
+            copy_of(whole.levels, "int64", (size_t)whole.rows, (size_t)whole.words),
+            whole.faces == nullptr ? nb::none() : copy_of(whole.faces, "int32", (size_t)faces, 3),
+            copy_of(whole.vertices, "int32", (size_t)whole.vertices_count),
+            nb::make_tuple(whole.error, whole.whole_step, whole.bits, whole.zeros, whole.scaled));
     }
 
   private:
-    Rows<int32_t, 3> faces;
+    int64_t faces;
 };
-
-// An attribute's values as whole numbers: coding, largest levels, offsets, step, levels, and the outcome: error, step
-// of integers, bits, normals without length, whether others had another length than 1.
-nb::tuple quantized(nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int semantic,
-    int quality, double amount) {
-    if (kind < 0 || kind > 7 || values.itemsize() != bsmdec_kind_size(kind) || values.shape(0) < 1
-        || values.shape(1) < 1 || values.shape(1) > 4)
-        throw nb::value_error("values are not of this kind");
-    Output output;
-    Whole whole;
-    size_t rows = values.shape(0);
-    output.run([&] {
-        return encode_quantized(output.encoding, values.data(), (int64_t)rows, semantic, kind, (int)values.shape(1),
-            quality, amount, &whole);
-    });
-    nb::list largest, offset;
-    for (int i = 0; i < whole.words; i++) {
-        largest.append((int64_t)whole.largest[i]);
-        offset.append(whole.offset[i]);
-    }
-    return nb::make_tuple(whole.coding, largest, offset, whole.step,
-        copy_of(whole.levels, "int64", whole.words > 0 ? rows : 0, (size_t)whole.words),
-        nb::make_tuple(whole.error, whole.whole_step, whole.bits, (int64_t)whole.zeros, whole.scaled != 0));
-}
 
 // Positions on a grid: its origin, step and largest places, and the places.
 nb::tuple rounded(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
@@ -641,20 +632,19 @@ NB_MODULE(_core, m) {
         "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none(),
         SIG("write_order(faces: " INTS ", coded: " INTS ", vertices: " INTS ", face_places: " INTS ", source: " INTS
             " | None = None, corners: " INTS " | None = None, loose: " DOUBLES " | None = None) -> bytes"));
-    m.def("quantized", quantized, "values"_a, "kind"_a, "semantic"_a, "quality"_a, "amount"_a,
-        SIG("quantized(values: typing.Any, kind: int, semantic: int, quality: int, amount: float) -> tuple[int, "
-            "list[int], list[float], float, " LONGS ", tuple[float, float, int, int, bool]]"));
     m.def("rounded", rounded, "positions"_a, "bits"_a, "cell"_a, "origin"_a,
         SIG("rounded(positions: " DOUBLES ", bits: int, cell: float, origin: " DOUBLES
             ") -> tuple[tuple[float, float, float], float, tuple[int, int, int], " INTS "]"));
-    nb::class_<Corners>(m, "Corners")
-        .def(nb::init<Rows<int32_t, 3>, int64_t>(), "faces"_a, "vertices"_a)
-        .def("join", in_turn(&Corners::join), "numbers"_a,
-            SIG("join(self, numbers: " INTS ") -> tuple[" BYTES ", " INTS ", " INTS "]"))
-        .def("seams", in_turn(&Corners::seams), "own"_a, "last"_a.none() = nb::none(),
-            "before_last"_a.none() = nb::none(),
-            SIG("seams(self, own: " BYTES ", last: " BYTES " | None = None, before_last: " BYTES
-                " | None = None) -> bytes"));
+    nb::class_<Place>(m, "Place")
+        .def(nb::init<ConstInts2, ConstInts, ConstInts, ConstInts, ConstBytes, ConstInts2, int64_t, bool>(), "given"_a,
+            "index"_a, "kept"_a, "face_order"_a, "turns"_a, "faces"_a, "vertices"_a, "keeps"_a, nb::keep_alive<1, 2>(),
+            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+            nb::keep_alive<1, 7>())
+        .def("carry", in_turn(&Place::carry), "first"_a, "name"_a, "values"_a, "kind"_a, "domain"_a, "semantic"_a,
+            "indices"_a.none(), "quality"_a, "amount"_a,
+            SIG("carry(self, first: bool, name: str, values: typing.Any, kind: int, domain: int, semantic: int, indices: "
+                INTS " | None, quality: int, amount: float) -> tuple[int, int, int, int, bytes, list[int], list[float], "
+                "float, " LONGS ", " INTS " | None, " INTS ", tuple[float, float, int, int, bool]]"));
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),

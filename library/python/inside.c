@@ -51,7 +51,12 @@ bool decoder_skim(bsmdec *decoder, SkimmedPacket *packet) {
 struct Encoding {
     Writer writer;
     CodedField field;
-    Corners corners;
+    GivenMesh given;
+    JoinedMesh joined;
+    CodedMesh coded;
+    Carried *carried;
+    int carried_count;
+    Mark mark; /* before what carried attributes have */
     Writing payloads;
     CodedChain *chain;
 };
@@ -126,24 +131,56 @@ bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, co
     return !failed(&writer->context);
 }
 
-bool encode_corners(Encoding *encoding, const int32_t *faces, int64_t faces_count, int64_t vertices) {
+bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order,
+    ConstBytes turns, ConstInts2 faces, int64_t vertices, bool keeps) {
     Writer *writer = &encoding->writer;
-    if (!are_below(faces, 3 * faces_count, 0, vertices))
-        return FAIL(&writer->context, MISUSED, "a face has a vertex beyond the last");
-    return link_mesh(&writer->context, (ConstInts2){faces, faces_count, 3}, vertices, &writer->arena, &writer->scratch,
-        &encoding->corners);
+    int64_t m = faces.rows;
+    if (given.columns != 3 || faces.columns != 3 || m < 1 || face_order.size != m || turns.size != m
+        || !are_below(given.data, 3 * given.rows, 0, index.size) || !are_below(kept.data, kept.size, 0, given.rows)
+        || !are_below(face_order.data, m, 0, kept.size) || !are_below(faces.data, 3 * m, 0, vertices))
+        return FAIL(&writer->context, MISUSED, "a mesh and its order of coding do not fit together");
+    encoding->given = (GivenMesh){index.size, given.rows, {NULL, 0, 3}, (const uint32_t *)given.data};
+    encoding->joined = (JoinedMesh){.index = {(int32_t *)index.data, index.size},
+        .kept = {(int32_t *)kept.data, kept.size}}; /* only read */
+    encoding->coded = (CodedMesh){.given = &encoding->given, .joined = &encoding->joined, .keeps = keeps,
+        .faces = {(int32_t *)faces.data, m, 3}, .vertex_order = {NULL, vertices},
+        .face_order = {(int32_t *)face_order.data, m}, .turns = {(uint8_t *)turns.data, m}};
+    bool done = TAKE_ZEROS(&writer->arena, MOST_ATTRIBUTES, encoding->carried)
+        && link_mesh(&writer->context, faces, vertices, &writer->arena, &writer->scratch, &encoding->coded.corners);
+    encoding->mark = mark_of(&writer->arena);
+    return done;
 }
 
-int64_t encode_joins(const Encoding *encoding, const int32_t *numbers, uint8_t *seams, int32_t *joined,
-    int32_t *first) {
-    int64_t size = encoding->corners.corners.size;
-    return join_values(encoding->corners, numbers, (Bytes){seams, size}, (Ints){joined, size}, (Ints){first, size});
-}
-
-bool encode_seams(Encoding *encoding, const uint8_t *own, const uint8_t *last, const uint8_t *before_last) {
-    ConstBytes seams = {own, encoding->corners.corners.size};
-    return begin_again(encoding, seams.size + 64)
-        && write_seams(&encoding->writer, encoding->corners, seams, last, before_last, &encoding->payloads);
+bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole) {
+    Writer *writer = &encoding->writer;
+    const CodedMesh *coded = &encoding->coded;
+    bool by_vertex = given->domain == BSMDEC_VERTEX, by_face = given->domain == BSMDEC_FACE;
+    int64_t rows = by_vertex ? encoding->given.vertices : by_face ? encoding->given.faces : given->rows;
+    if (first) encoding->carried_count = 0;
+    int number = encoding->carried_count;
+    Carried *carried = encoding->carried + number;
+    if (given->rows != rows || number >= MOST_ATTRIBUTES || strlen(given->name) > MOST_NAME
+        || (!by_vertex && !by_face
+            && (given->indices == NULL
+                || !are_below((const int32_t *)given->indices, 3 * encoding->given.faces, 0, rows))))
+        return FAIL(&writer->context, MISUSED, "values and faces do not fit together");
+    if (first) release_to(&writer->arena, encoding->mark);
+    memset(carried, 0, sizeof *carried);
+    if (!carry_attribute(writer, coded, given, number, encoding->carried)
+        || !begin_again(encoding, carried->seams.size + 64)
+        || !write_seams(writer, coded, number, encoding->carried, &encoding->payloads))
+        return false;
+    encoding->carried_count++;
+    const Declaration *d = &carried->quantized.declaration;
+    const bsmenc_outcome *outcome = &carried->quantized.outcome;
+    *whole = (Whole){d->coding, d->domain, d->origin, d->words, outcome->bits, d->rows, (int64_t)d->seams_of,
+        outcome->zeros, d->step[0], outcome->error, outcome->step, outcome->scaled != 0, {0}, {0}, carried->levels.data,
+        d->domain == BSMDEC_CORNER ? carried->faces.data : NULL, carried->vertices.data, carried->vertices.size};
+    for (int i = 0; i < d->words; i++) {
+        whole->largest[i] = d->largest[i];
+        whole->offset[i] = d->offset[i];
+    }
+    return true;
 }
 
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
@@ -171,22 +208,6 @@ bool encode_chunk(Encoding *encoding, int64_t first, int64_t count) {
 
 bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size) {
     return code_chunk(&encoding->field, first, count, (Span){payload, size}, NULL);
-}
-
-bool encode_quantized(Encoding *encoding, const void *values, int64_t rows, int semantic, int kind, int components,
-    int quality, double amount, Whole *whole) {
-    Writer *writer = &encoding->writer;
-    Quantized found = {.declaration = {.semantic = semantic, .kind = kind, .components = components}};
-    const Declaration *d = &found.declaration;
-    if (!quantize(&writer->context, values, rows, (bsmenc_quality)quality, amount, &writer->arena, &found))
-        return false;
-    *whole = (Whole){d->coding, d->words, found.outcome.bits, d->step[0], found.outcome.error, found.outcome.step,
-        (double)found.outcome.zeros, found.outcome.scaled, {0}, {0}, found.levels.data};
-    for (int i = 0; i < d->words; i++) {
-        whole->largest[i] = d->largest[i];
-        whole->offset[i] = d->offset[i];
-    }
-    return true;
 }
 
 bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "library/bsmdec.h"
+#include "library/bsmenc.h"
 #include "library/python/chaining.h"
 #include "bitstream/payloads/payloads.h"
 
@@ -48,10 +48,25 @@ bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *
 /* ORDER of joined faces, which `values` has as they are coded, and of given vertices and faces, or NULL. */
 bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
     const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count);
-/* Link the corners of faces; see library/encode/carrying.h for what they are joined and written with. */
-bool encode_corners(Encoding *encoding, const int32_t *faces, int64_t faces_count, int64_t vertices);
-int64_t encode_joins(const Encoding *encoding, const int32_t *numbers, uint8_t *seams, int32_t *joined, int32_t *first);
-bool encode_seams(Encoding *encoding, const uint8_t *own, const uint8_t *last, const uint8_t *before_last);
+/* A given mesh and its faces in the order of coding: which given vertex was joined (-1: loose), the given face of each
+ * joined one, the joined one of each coded one, and its corner that is the first. Arrays must outlive this. */
+bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order,
+    ConstBytes turns, ConstInts2 faces, int64_t vertices, bool keeps);
+/* The numbers of the declaration and of the outcome of an attribute in such a place (library/encode/carrying.h), and
+ * arrays of the encoding: levels, the coded value of each corner of faces (NULL: its vertex), the vertex of each. */
+typedef struct {
+    int coding, domain, origin, words, bits;
+    int64_t rows, seams_of, zeros;
+    double step, error, whole_step;
+    bool scaled;
+    int64_t largest[8];
+    double offset[8];
+    const int64_t *levels;
+    const int32_t *faces, *vertices;
+    int64_t vertices_count;
+} Whole;
+/* Carry an attribute, the first or the next one; its seams are the payload. */
+bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);
 /* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
     double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
@@ -61,16 +76,6 @@ bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declarat
 /* Write the payloads of rows, or read that of one kind of values. */
 bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
 bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
-/* Values of an attribute as whole numbers (library/encode/quantizing.h): the numbers of the declaration and of the
- * outcome; `levels` are the encoding's, `words` for each of the rows. */
-typedef struct {
-    int coding, words, bits;
-    double step, error, whole_step, zeros, scaled;
-    double largest[8], offset[8];
-    const int64_t *levels;
-} Whole;
-bool encode_quantized(Encoding *encoding, const void *values, int64_t rows, int semantic, int kind, int components,
-    int quality, double amount, Whole *whole);
 /* Positions on a grid (library/encode/rounding.h): of so many bits, of cells if there are no bits, of exact floats if
  * there are no cells. `grid`: origin, step, and the largest place of each axis. */
 bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,

@@ -11,19 +11,23 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Corners, write_faces
+from bsm._core import Place as Core
+from bsm._core import write_faces
 from bsm.bitstream.coefficients.matrices import Levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
-from bsm.bitstream.container.header import AS_CODED, CORNER, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
+from bsm.bitstream.container.header import AS_CODED, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
 from bsm.bitstream.container.packets import WRITERS
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.attributes.levels import field_of, surface_of, write_values
+from bsm.codec.static.attributes.encoding import Place, carry
+from bsm.codec.static.attributes.levels import Surface, field_of, write_values
+from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
 from tools.payloads import encode_levels
@@ -354,7 +358,8 @@ def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fi
         declared.append(_written(packets.Attribute(index, declaration, b"")))
         if declaration.rows == 0:
             continue
-        surface = surface_of(declaration.domain, shape.faces, np.arange(rows * columns, dtype=np.int32))
+        vertices = 0 if declaration.domain == FACE else rows * columns
+        surface = Surface(shape.faces, np.arange(vertices, dtype=np.int32))
         encoder = field_of(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None)
         for first in range(0, size, chunk):
             some = min(chunk, size - first)
@@ -376,18 +381,24 @@ def _moving(rows: int, columns: int, count: int, gops: Iterable[GopBody], *, par
 
 
 def _seamed(rows: int, columns: int, count: int) -> bytes:
-    """Return a number of attributes of corners, each with empty seams of its own and no values."""
+    """Return a number of attributes of corners, each with seams of its own around a corner, and no values."""
     size = rows * columns
     blocks = {"blocks": 1 + size // 4000, "block_size": min(size, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
     faces = _coded("torus", rows, columns).faces
-    corners = Corners(faces, size)
-    none, *_ = corners.join(np.zeros_like(faces))
-    seams = [corners.seams(none, *[none] * earlier) for earlier in range(3)]
-    values: dict[str, Any] = {"rows": size, "largest": (1,), "kind": 0, "domain": CORNER}
+    order = np.arange(len(faces), dtype=np.int32)
+    core = Core(
+        faces, np.arange(size, dtype=np.int32), order, order, np.zeros(len(faces), np.uint8), faces, size, False
+    )
+    place, values, exact = Place(core, faces, order, order), np.arange(2, dtype=np.uint8)[:, None], Quality("exact")
+    own = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
+    wanted = [(Attribute("0", values, "corner", indices=at), exact) for at in own]
+    # Three in turn, of which each follows the other two.
+    turns = [carry(place, wanted[turn:] + wanted[:turn]) for turn in range(3)]
+    carried = [*turns[0], *(turns[(index + 1) % 3][2] for index in range(3, count))][:count]
     declared = [
-        _written(packets.Attribute(index, Declaration(name=f"{index}", **values), seams[min(index, 2)]))
-        for index in range(count)
+        _written(packets.Attribute(index, replace(one.declaration, name=f"{index}"), one.seams))
+        for index, one in enumerate(carried)
     ]
     return stream_of([*frames[:2], *declared, *frames[2:]])
 

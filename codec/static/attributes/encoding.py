@@ -4,27 +4,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
-from bsm._core import Corners
+from bsm._core import Place as Core
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import (
-    AS_CODED,
-    CORNER,
-    FACE,
-    MOST_ATTRIBUTES,
-    OTHERWISE,
-    RECOMPUTED,
-    VERTEX,
-    Declaration,
-)
+from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
 from bsm.codec.geometry.attributes import KINDS, Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import of_length_1, painted
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.levels import (
@@ -32,36 +21,29 @@ from bsm.codec.static.attributes.levels import (
     Words,
     field_of,
     leans,
-    quantized,
+    noted,
     recomputed,
     restored,
-    surface_of,
     to_pieces,
     write_values,
 )
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
-Flags = npt.NDArray[np.uint8]
 CHUNK = 1 << 15  # values of a frame
-AGAIN = Quality("bits", 8)  # normals that are the same so are made as one
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
+DOMAINS = ("vertex", "corner", "face")
+WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
 
 
 @dataclass(frozen=True, eq=False)
 class Place:
     """Where a given mesh's vertices, faces and corners are in the order of coding."""
 
-    given: TriangleMesh
+    core: Core
     coded: Faces
-    vertices: int
-    faces: Order
+    faces: Indices
     turns: Order
-    loose: Order
-
-    @cached_property
-    def corners(self) -> Corners:
-        return Corners(self.coded, self.vertices)
 
     def of_corners(self, rows: Indices) -> Indices:
         """What corners of the given faces have, shape (m', 3), in the order of coding, shape (m, 3)."""
@@ -71,10 +53,12 @@ class Place:
 
 def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Place:
     """Where values of a mesh lie that was joined and prepared."""
-    held = joined.splits is not None and len(joined.splits.loose)
-    loose = np.flatnonzero(joined.index < 0) if held else np.zeros(0, np.int64)
-    vertices, kept = len(prepared.mesh.positions), joined.kept[prepared.coding_faces]
-    return Place(given, prepared.mesh.faces, vertices, kept, prepared.turns, loose)
+    coded, turns = prepared.mesh.faces, prepared.turns
+    keeps = joined.splits is not None and len(joined.splits.loose) > 0
+    kept, order = joined.kept.astype(np.int32), prepared.coding_faces.astype(np.int32)
+    index, vertices = np.ascontiguousarray(joined.index, np.int32), len(prepared.mesh.positions)
+    core = Core(given.faces, index, kept, order, turns.astype(np.uint8), coded, vertices, keeps)
+    return Place(core, coded, kept[order], turns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,73 +106,37 @@ def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Pr
     wanted = tuple(wanted)
     if len(wanted) > MOST_ATTRIBUTES:
         raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(wanted)}: leave some out")
-    carried: list[PreparedAttribute] = []
-    known: dict[int, Flags] = {}
-    for attribute, quality in wanted:
-        carried.append(_carry(place, attribute, quality, known, len(carried)))
-    return tuple(carried)
+    return tuple(_carry(place, not number, *each) for number, each in enumerate(wanted))
 
 
-def _carry(
-    place: Place, attribute: Attribute, quality: Quality, known: dict[int, Flags], number: int
-) -> PreparedAttribute:
-    """The attribute of a number; `known` has the seams of those before it, and gets its own."""
-    used, rows, loose = _rows(place, attribute)
-    values = attribute.values[used]
-    result = quantized(values, attribute.semantic, quality, attribute.name)
-    recompute = result.fields["coding"] == RECOMPUTED
-    domain, origin, seams, seams_of = FACE, AS_CODED, b"", 0
-    faces, at = place.coded, np.arange(place.vertices, dtype=np.int32)
-    chosen: Order
-    if attribute.domain == "face":
-        chosen = rows.astype(np.int64)
-    else:
-        apart = quantized(values, "normal", AGAIN, attribute.name).levels if recompute else result.levels
-        numbers = row_numbers(apart)[rows]
-        chosen = np.zeros(place.vertices, np.int64)
-        chosen[faces.ravel()] = rows.ravel()
-        differ = numbers != row_numbers(apart)[chosen][faces]
-        domain = CORNER if differ.any() else VERTEX
-        origin = AS_CODED if domain == {"vertex": VERTEX, "corner": CORNER}[attribute.domain] else OTHERWISE
-        if domain == CORNER:
-            own, faces, first = place.corners.join(np.ascontiguousarray(numbers))
-            same = [index for index, other in known.items() if (other == own).all()]
-            seams_of = same[0] + 1 if same else 0
-            if not same:
-                seams = place.corners.seams(own, *list(known.values())[:-3:-1])
-                known[number] = own
-            chosen, at = rows.ravel()[first], place.coded.ravel()[first]
-        chosen = np.concatenate([chosen, loose])
-    levels = result.levels[:0] if recompute else result.levels[chosen]
+def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) -> PreparedAttribute:
+    """The first attribute, or the next one."""
+    kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
+    domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
+    values = np.ascontiguousarray(attribute.values)
+    coding, domain, origin, seams_of, seams, largest, offset, step, levels, corners, vertices, outcome = (
+        place.core.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
+    )
     declaration = Declaration(
         name=attribute.name,
         domain=domain,
         origin=origin,
-        semantic=SEMANTICS.index(attribute.semantic),
-        kind=KINDS.index(attribute.values.dtype.name),
+        semantic=semantic,
+        kind=kind,
         components=attribute.components,
+        coding=coding,
         rows=len(levels),
+        largest=tuple(largest),
+        offset=tuple(offset) if any(offset) else (),
+        step=(step,) if largest and step != 1.0 else (),
         seams_of=seams_of,
-        **result.fields,
     )
-    surface = surface_of(domain, faces, at, len(loose))
+    surface = Surface(place.coded if corners is None else corners, vertices)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
-    note = f"{attribute.name}: {what}per {attribute.domain}, {result.note}"
-    return PreparedAttribute(declaration, seams, surface, levels, note)
-
-
-def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
-    """The rows of an attribute's values that are coded; which of these faces or corners have, and loose vertices."""
-    loose = place.loose if attribute.domain == "vertex" else np.zeros(0, np.int64)
-    rows: Indices | Order
-    if attribute.domain == "face":
-        rows = place.faces
-    else:
-        rows = place.of_corners(place.given.faces if attribute.indices is None else attribute.indices)
-    every = np.concatenate([rows.ravel(), loose])
-    used, inverse = np.unique(every, return_inverse=True)
-    numbers = np.asarray(inverse, np.int64).ravel()
-    return used, numbers[: rows.size].reshape(rows.shape), numbers[rows.size :]
+    became = "recomputed from the decoded mesh" if coding == RECOMPUTED else noted(*outcome)
+    return PreparedAttribute(
+        declaration, seams, surface, levels, f"{attribute.name}: {what}per {attribute.domain}, {became}"
+    )
 
 
 def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metadata: Metadata) -> Draft:

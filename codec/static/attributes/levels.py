@@ -7,14 +7,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import Field
-from bsm._core import quantized as whole_numbers
 from bsm._core.bitstream import constant
-from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration, entries_of
+from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration, entries_of
 from bsm.bitstream.container.wire import with_lengths, write_map
-from bsm.bitstream.errors import OptionError, TargetError
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 from bsm.codec.geometry.attributes import KINDS
-from bsm.codec.static.attributes.quality import Quality
 
 Values = npt.NDArray[Any]
 Words = npt.NDArray[np.int64]
@@ -28,13 +25,6 @@ class Surface:
     vertices: Indices
 
 
-def surface_of(domain: int, faces: Faces, at: Indices, loose: int = 0) -> Surface:
-    """The surface on which values of a domain lie, of which each is `at` a vertex."""
-    if domain == FACE:
-        return Surface(faces, np.zeros(0, np.int32))
-    return Surface(faces, np.concatenate([at, np.full(loose, -1, np.int32)]).astype(np.int32))
-
-
 def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
     places = positions[surface.vertices] if len(surface.vertices) else positions
@@ -46,15 +36,6 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
             normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
-
-
-@dataclass(frozen=True, eq=False)
-class QuantizedValues:
-    """Values as whole numbers."""
-
-    fields: dict[str, Any]
-    levels: Words
-    note: str
 
 
 def octahedral_normals(levels: Words, size: int) -> Matrix:
@@ -83,28 +64,7 @@ def restored(declaration: Declaration, levels: Words) -> Values:
     return values.astype(kind) if declaration.is_float else values.astype(np.int64).astype(kind)
 
 
-def quantized(values: Values, semantic: str, quality: Quality, name: str) -> QuantizedValues:
-    """Return values, shape (k, c), as integers that keep the requested quality."""
-    kind = KINDS.index(values.dtype.name)
-    try:
-        coding, largest, offset, step, levels, outcome = whole_numbers(
-            np.ascontiguousarray(values), kind, SEMANTICS.index(semantic), WAYS.index(quality.way), quality.amount
-        )
-    except (OptionError, TargetError) as error:
-        raise type(error)(f"{name!r}: {error}") from None
-    if coding == RECOMPUTED:
-        return QuantizedValues({"coding": RECOMPUTED}, np.zeros((0, 0), np.int64), "recomputed from the decoded mesh")
-    fields: dict[str, Any] = {"coding": coding, "largest": tuple(largest)}
-    if coding != OCTAHEDRAL:
-        fields |= {"offset": tuple(offset) if any(offset) else (), "step": (step,) if step != 1.0 else ()}
-    return QuantizedValues(fields, levels, _noted(*outcome))
-
-
-WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
-SEMANTICS = ("generic", "color", "normal", "texcoord")
-
-
-def _noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str:
+def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str:
     """What became of values, in words."""
     if not bits:
         return f"in steps of {step:g}" if step else f"within {error:.3g}" if error else "exact"

@@ -7,15 +7,25 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm._core import Corners
-from bsm.codec.static.attributes.levels import octahedral_normals, quantized
-from bsm.codec.static.attributes.quality import Quality
+from bsm._core import Place
+from bsm.bitstream.container.header import CORNER, FACE, GENERIC, NORMAL
+from bsm.codec.static.attributes.encoding import WAYS
+from bsm.codec.static.attributes.levels import octahedral_normals
 from tests.bitstream.fields.fields import decode, encode, field_of
 from tools.measure.grids import welded
 
 
+def place_of(faces):
+    """The mesh of these faces, whose order of coding is that of the faces."""
+    order, vertices = np.arange(len(faces), dtype=np.int32), int(faces.max()) + 1
+    index, turns = np.arange(vertices, dtype=np.int32), np.zeros(len(faces), np.uint8)
+    return Place(faces, index, order, order, turns, faces, vertices, False)
+
+
 def places(normals, bits):
-    return quantized(normals, "normal", Quality("bits", bits), "normals").levels
+    faces = np.arange(3 * len(normals), dtype=np.int32).reshape(-1, 3)
+    way = WAYS.index("bits")
+    return place_of(faces).carry(True, "normals", np.asarray(normals), 7, FACE, NORMAL, None, way, bits)[8]
 
 
 @given(st.lists(st.tuples(*[st.floats(-1e300, 1e300)] * 3), min_size=1, max_size=40), st.sampled_from([2, 8, 16]))
@@ -51,7 +61,14 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
 def test_seams_of_an_attribute_before_cost_next_to_nothing():
     random = np.random.default_rng(3)
     faces = np.array([[i, i + 1, i + 2] for i in range(2000)], np.int32)
-    corners = Corners(faces, 2002)
-    seams, *_ = corners.join(random.integers(0, 2, faces.shape, np.int32))
-    alone, known = corners.seams(seams), corners.seams(seams, seams)
-    assert len(known) < len(alone) / 8
+    place, values = place_of(faces), np.arange(2, dtype=np.uint8)[:, None]
+    indices = random.integers(0, 2, faces.shape, np.int32)
+
+    def seams(first, indices):
+        return place.carry(first, "a", values, 0, CORNER, GENERIC, indices, WAYS.index("exact"), 0.0)[3:5]
+
+    whose, alone = seams(True, indices)
+    assert whose == 0 and seams(False, indices) == (1, b"")
+    indices[1000, 0] ^= 1
+    whose, known = seams(False, indices)
+    assert whose == 0 and len(known) < len(alone) / 8
