@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 
@@ -204,7 +203,6 @@ _REFUSALS: dict[int, type[BsmError]] = {
     10: TargetError,
     12: TruncatedError,
 }
-_BEYOND = re.compile(r"(\w+) = (\d+) is over the limit of \d+$")
 
 
 def decoder_error(
@@ -213,17 +211,19 @@ def decoder_error(
     offset: int,
     frame: int,
     block: int,
+    limit: str,
+    value: float,
     limits: Limits,
     shown: int,
     present: int,
     received: float,
 ) -> Exception:
-    """The error that the decoder in C reports, as an exception; places of -1 are not known."""
+    """The error that the decoder in C reports, as an exception; places of -1 and an empty `limit` are not known."""
     if status not in _REFUSALS:
         return MemoryError(message)
     error = _REFUSALS[status](message)
-    if isinstance(error, LimitError) and (beyond := _BEYOND.match(message)):
-        error = LimitError(f"{message}; {_cure_of(beyond[1], float(beyond[2]), shown, present, received)}")
+    if limit:
+        error = LimitError(f"{message}; {_cure_of(limit, value, shown, present, received)}")
     places = {"offset": offset, "frame": frame, "block": block}
     return error.located(**{name: place for name, place in places.items() if place >= 0})
 

@@ -18,6 +18,14 @@ BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts,
 
 using namespace nb::literals;
 
+#define NUMBER(name) std::pair<const char *, int>{#name, name}
+
+template <typename T, size_t count> static nb::tuple tuple_of(const T (&numbers)[count]) {
+    nb::list all;
+    for (T number : numbers) all.append(number);
+    return nb::tuple(all);
+}
+
 void bind_codec(nb::module_ &m) {
     m.def("vertex_faces", &vertex_faces, "faces"_a, "starts"_a, "members"_a, Unlocked());
     m.def("normals_apart", &normals_apart, "original"_a, "decoded"_a, "faces"_a, "around"_a, Unlocked());
@@ -70,6 +78,13 @@ void bind_codec(nb::module_ &m) {
           "smoothed"_a, Unlocked());
     m.def("weigh_by_cotangents", &weigh_by_cotangents, "offsets"_a, "neighbors"_a, "faces"_a, "positions"_a,
           "weights"_a, Unlocked());
+    // What both sides of a sequence have.
+    for (const auto &[name, number] : {NUMBER(BENDING), NUMBER(INHERITED), NUMBER(BATCH), NUMBER(LEAST_KEPT),
+             NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})
+        m.attr(name) = number;
+    m.def("lags", [] { return tuple_of(LAG); }, nb::sig("def lags() -> tuple[int, ...]"));
+    m.def("quarters", [] { return tuple_of(QUARTERS); }, nb::sig("def quarters() -> tuple[float, ...]"));
+    m.def("frames_kept", &frames_kept, "vertices"_a);
     m.def("bend_columns", &bend_columns, "part"_a, "positions"_a, "columns"_a, Unlocked());
     m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "mean"_a, "row"_a,
         Unlocked());

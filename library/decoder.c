@@ -244,36 +244,34 @@ bsmdec_status find_places(bsmdec *decoder) {
         decoder->sequence.active ? "positions are known after FRAME" : "positions are known after the first BLOCK");
 }
 
-/* Whether positions may be written to an array of a caller. */
-static bsmdec_status show_in(bsmdec *decoder, const void *to, size_t count) {
+/* Write positions to an array of a caller, in either precision. */
+static bsmdec_status show_in(bsmdec *decoder, double *wide, float *narrow, size_t count) {
     if (decoder == NULL) return BSMDEC_MISUSED;
     bsmdec_status status = find_places(decoder);
     if (status != BSMDEC_OK) return status;
-    return fits(decoder, to, count, 3 * decoder->mesh.numbering.size) ? BSMDEC_OK : BSMDEC_MISUSED;
+    if (!fits(decoder, wide != NULL ? (void *)wide : narrow, count, 3 * decoder->mesh.numbering.size))
+        return BSMDEC_MISUSED;
+    int64_t loose = 0;
+    for (size_t v = 0; v < count / 3; v++) {
+        const double *place = place_of(decoder, (int64_t)v, &loose);
+        for (size_t i = 0; i < 3; i++) {
+            if (wide != NULL) wide[3 * v + i] = place[i];
+            else narrow[3 * v + i] = (float)place[i];
+        }
+    }
+    return BSMDEC_OK;
 }
 
 EXACTLY(bsmdec_status, bsmdec_positions,
     (bsmdec *decoder, double *coordinates, size_t count),
     (decoder, coordinates, count)) {
-    bsmdec_status status = show_in(decoder, coordinates, count);
-    if (status != BSMDEC_OK) return status;
-    int64_t loose = 0;
-    for (size_t v = 0; v < count / 3; v++)
-        memcpy(coordinates + 3 * v, place_of(decoder, (int64_t)v, &loose), 3 * sizeof(double));
-    return BSMDEC_OK;
+    return show_in(decoder, coordinates, NULL, count);
 }
 
 EXACTLY(bsmdec_status, bsmdec_positions_single,
     (bsmdec *decoder, float *coordinates, size_t count),
     (decoder, coordinates, count)) {
-    bsmdec_status status = show_in(decoder, coordinates, count);
-    if (status != BSMDEC_OK) return status;
-    int64_t loose = 0;
-    for (size_t v = 0; v < count / 3; v++) {
-        const double *place = place_of(decoder, (int64_t)v, &loose);
-        for (int d = 0; d < 3; d++) coordinates[3 * v + (size_t)d] = (float)place[d];
-    }
-    return BSMDEC_OK;
+    return show_in(decoder, NULL, coordinates, count);
 }
 
 static bsmdec_metadata entry_of(const MetadataEntry *own) {

@@ -14,7 +14,7 @@ typedef struct {
 
 enum { SPACE = 3 }; /* components of positions */
 
-static const bsmdec_error NO_ROOM = {BSMDEC_NO_MEMORY, -1, -1, -1, "there is no memory for a decoder"};
+static const bsmdec_error NO_ROOM = {BSMDEC_NO_MEMORY, -1, -1, -1, "there is no memory for a decoder", NULL, 0};
 static const bsmdec_mesh NOTHING = {.error = &NO_ROOM};
 
 static size_t packed_size(const bsmdec_field *field) { return (size_t)field->components * kind_size(field->kind); }

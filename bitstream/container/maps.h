@@ -48,7 +48,7 @@ typedef struct {
 } Record;
 
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record);
-/* Give what is not stored its default, and compare everything with its range. */
+/* Set the fields that are not stored to their defaults, and check that every value is in its range. */
 bool complete_record(Context *context, const Field *fields, int count, Record *record);
 
 #endif

@@ -5,8 +5,7 @@
 #include "codec/signal/signal.h"
 
 /* How much powers count beside positions; half and twice cost 0.2 to 0.5 %. */
-static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24, TRACK_MEMORY = 40;
-static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
+static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24;
 
 /* Some columns of a matrix, in a matrix of their own or as part of one, from column `to` on. */
 static void copy_columns(ConstDoubles2 from, int64_t first, int64_t count, Doubles2 into, int64_t to) {
@@ -125,7 +124,7 @@ bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph 
     for (int k = 0; k <= count; k++) {
         Track *track = gops->track + k;
         track->width = k > 0 ? moving[k - 1].width : 3;
-        track->kept = k > 0 ? 2 : least(MOST_KEPT, largest(2, (1 << 19) / graph->size));
+        track->kept = k > 0 ? LEAST_KEPT : frames_kept(graph->size);
         if (!take_doubles2(&gops->arena, gops->parts.rows, k > 0 ? track->width : BENDING, &track->known)) return false;
         track->starts_at_first = k == 0;
         columns += k > 0 ? track->width : 0;

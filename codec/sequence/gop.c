@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { MOST_EXPONENT = 400, POSITIONS_KEPT = 1 << 19 };
+enum { MOST_EXPONENT = 400 };
 
 static int64_t zigzag(int64_t code) { return code % 2 == 0 ? code / 2 : -(code / 2) - 1; }
 
@@ -119,8 +119,6 @@ bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const 
         return false;
     return parse_field(context, take_rest(&cursor), gop, arena, gop->field);
 }
-
-static int64_t frames_kept(int64_t vertices) { return least(MOST_KEPT, largest(2, POSITIONS_KEPT / vertices)); }
 
 static double columns_of_gop(const Gop *gop) {
     double columns = 0;

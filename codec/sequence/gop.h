@@ -4,9 +4,9 @@
 
 #include "bitstream/payloads/coding.h"
 #include "codec/sequence/parts.h"
+#include "codec/sequence/temporal.h"
 
 enum { LEARNED, KEY_FRAMES, NEXT_FRAMES, LEARNED_NEXT };
-enum { INHERITED = 24, MOST_KEPT = 64, BATCH = 8 };
 
 /* A field of a GOP: positions, or an attribute that moves; it is not coded if `step` is 0. */
 typedef struct {
@@ -39,8 +39,6 @@ bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const 
     bool tolerant, Arena *arena, Gop *gop);
 double gop_memory(int64_t vertices, const Gop *gop, double around);
 /* The number of earlier changes between frames that predict those of a GOP, if `kept` are available (S 7.2). */
-enum { LAGS = 8 };
-static const int LAG[LAGS] = {1, 2, 3, 5, 8, 13, 21, 34};
 INLINE int64_t lags_of(int64_t kept) {
     int64_t count = 0;
     while (count < LAGS && LAG[count] < kept) count++;

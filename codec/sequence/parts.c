@@ -3,9 +3,9 @@
 
 #include "codec/signal/signal.h"
 #include "codec/basis/dictionary_costs.h"
+#include "codec/sequence/temporal.h"
 
-static const double TETHER = 0x1p-16, SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4,
-                    SPARE_MEMORY = 4 * 0x1p20;
+static const double TETHER = 0x1p-16, SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4;
 
 static void sift(int32_t *heap, int64_t root, int64_t count) {
     for (int64_t child; (child = 2 * root + 1) < count; root = child) {

@@ -18,7 +18,6 @@ from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 
 OCTAVE = 4  # exponents of the steps of a basis are in units of 1 / OCTAVE octaves
-QUARTERS = (1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605)  # 2^(-q / OCTAVE)
 WORTH = 0.4
 """A component is kept if its energy is above WORTH * dT * step^2: below, it costs more than it brings. 0.35 and 0.5
 cost 0.3 % more, 0.8 costs 1 %."""
@@ -26,7 +25,7 @@ PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
 LEAST = 1e-9  # of a column's length on the diagonal, at least: below 0 it would be another reflection
-BATCH = 8  # frames that are reconstructed at a time, as many as a vector of the kernel has numbers
+BATCH = _kernels.BATCH  # frames that are reconstructed at a time
 FINEST_EXPONENT = OCTAVE * 23 - 1  # with a finer step the levels of a column of length one could not be coded
 
 
@@ -60,7 +59,7 @@ def time_cosines(frames: int) -> Matrix:
 
 def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
     """Quantization step of each component of a learnt basis, shape (r,): 2^(-exponent / OCTAVE)."""
-    return np.asarray(np.ldexp(np.array(QUARTERS)[exponents % OCTAVE], -(exponents // OCTAVE)))
+    return np.asarray(np.ldexp(np.array(_kernels.quarters())[exponents % OCTAVE], -(exponents // OCTAVE)))
 
 
 def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> Matrix:

@@ -31,7 +31,8 @@ typedef struct {
     Ints2 expectations;
 } Chains;
 
-/* A block before its levels are known: its patch on springs to what is known around it, and what continues that. */
+/* A block whose levels have not been read yet: its patch, the springs to known positions around it, and the smooth
+ * continuation of these positions. */
 typedef struct {
     Patch patch;
     Doubles springs;

@@ -90,8 +90,8 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
 
 nb::object error_of(const bsmdec_error &error, const nb::object &limits, const DecoderState &state) {
     return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
-        (int)error.status, text_of(error.message), error.offset, error.frame, error.block, limits,
-        state.shown, state.present, state.received);
+        (int)error.status, text_of(error.message), error.offset, error.frame, error.block,
+        error.limit != nullptr ? error.limit : "", error.value, limits, state.shown, state.present, state.received);
 }
 
 // Python threads that share an object take turns: results are copied before the next call begins.
@@ -655,6 +655,7 @@ NB_MODULE(_core, m) {
         .def("read", in_turn(&Field::read), "payload"_a, "count"_a,
             SIG("read(self, payload: bytes, count: int) -> " INTS))
         .def_prop_ro("order", in_turn(&Field::order), SIG("order(self) -> typing.Any"));
+    m.def("gop_memory", &memory_of_gop, "method"_a, "frames"_a, "fields"_a, "vertices"_a, "around"_a);
     nb::class_<Chain>(m, "Chain")
         .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,
                  int, int64_t, int64_t, double>(),

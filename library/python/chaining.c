@@ -2,7 +2,7 @@
 
 #include "codec/signal/signal.h"
 #include "codec/signal/chain.h"
-#include "codec/sequence/parts.h"
+#include "codec/sequence/gop.h"
 #include "library/writing.h"
 
 struct CodedChain {
@@ -49,7 +49,7 @@ static bool is_graph(ConstInts offsets, ConstInts neighbors) {
 
 static bool take_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors) {
     chain->graph = (Graph){offsets.size - 1, offsets, neighbors};
-    return is_graph(offsets, neighbors) || FAIL(&chain->writer->context, MISUSED, "offsets and neighbors are no graph");
+    return is_graph(offsets, neighbors) || FAIL(&chain->writer->context, MISUSED, "the offsets and neighbors do not form a graph");
 }
 
 bool label_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors, int64_t parts, Ints labels) {
@@ -64,8 +64,13 @@ bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, Const
     Blocks blocks;
     Header header = {.blocks = parts, .block_size = size};
     if (!take_graph(chain, offsets, neighbors)) return false;
-    if (labels.size != chain->graph.size || parts < 1 || size < 1 || !are_within(labels, parts))
-        return FAIL(&writer->context, MISUSED, "labels of parts do not fit the graph");
+    bool fits = labels.size == chain->graph.size && parts > 0 && parts <= labels.size && size > 0
+        && are_within(labels, parts);
+    Bytes there;
+    if (!zero_bytes(&writer->scratch, fits ? parts : 0, &there)) return false;
+    for (int64_t v = 0; fits && v < labels.size; v++) there.data[labels.data[v]] = 1;
+    for (int64_t p = 0; fits && p < parts; p++) fits = there.data[p];
+    if (!fits) return FAIL(&writer->context, MISUSED, "labels do not fit the graph, or a part is empty");
     if (!make_blocks(&writer->context, &header, &chain->graph, (Ints){(int32_t *)labels.data, labels.size},
             &writer->arena, &writer->scratch, &blocks))
         return false;
@@ -277,4 +282,15 @@ bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int
     return iterate_columns(context, &chain->block.patch, &chain->block.factor,
         (Singles2){(float *)start.data, n, start.columns}, (Schedule){power, iterations, n, apart},
         &chain->writer->scratch, subspace);
+}
+
+double memory_of_gop(int method, int64_t frames, ConstLongs2 fields, int64_t vertices, double around) {
+    GopField field[MOST_ATTRIBUTES + 1] = {{0}};
+    Gop gop = {.method = method, .frames = frames, .count = (int)fields.rows, .field = field};
+    if (fields.columns != 2 || fields.rows > MOST_ATTRIBUTES + 1 || vertices < 1) return -1.0;
+    for (int k = 0; k < gop.count; k++) {
+        field[k].width = fields.data[2 * k];
+        field[k].components = fields.data[2 * k + 1];
+    }
+    return gop_memory(vertices, &gop, around);
 }

@@ -38,6 +38,8 @@ class Failure(Structure):
         ("frame", c_int64),
         ("block", c_int64),
         ("message", c_char * 160),
+        ("limit", c_char_p),
+        ("value", c_double),
     ]
 
 

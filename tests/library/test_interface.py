@@ -137,6 +137,22 @@ def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
         library.bsmdec_close(decoder)
 
 
+def test_an_error_names_the_limit_and_what_the_stream_needs(library: ctypes.CDLL) -> None:
+    stream, limits, event = (VECTORS / "good-keys.bsm").read_bytes(), Limits(), Event()
+    library.bsmdec_default_limits(byref(limits), ctypes.sizeof(limits))
+    vertices = len(bsm.decode(stream).positions)
+    for bound, data, named in ((vertices - 1.0, stream, (b"vertices", vertices)), (1e9, stream[:-1], (None, 0.0))):
+        limits.bounds[0] = bound
+        decoder = library.bsmdec_open(byref(Options(ctypes.addressof(limits), None, False, 0)))
+        library.bsmdec_push(decoder, data, len(data))
+        library.bsmdec_finish(decoder)
+        while library.bsmdec_next(decoder, byref(event)) == 0 and event.type != END_OF_STREAM:
+            pass
+        error = library.bsmdec_last_error(decoder).contents
+        assert error.status and (error.limit, error.value) == named
+        library.bsmdec_close(decoder)
+
+
 @pytest.mark.parametrize(
     ("name", "start"), [("end-positions", 0), ("end-positions", 5), ("sequence-end-positions", -1)]
 )

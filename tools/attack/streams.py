@@ -390,7 +390,11 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     core = Core(
         faces, np.arange(size, dtype=np.int32), order, order, np.zeros(len(faces), np.uint8), faces, size, False
     )
-    place, values, exact = Place(core, faces, order, order), np.arange(2, dtype=np.uint8)[:, None], Quality("exact")
+    place, values, exact = (
+        Place(core, faces, order, order.astype(np.int64)),
+        np.arange(2, dtype=np.uint8)[:, None],
+        Quality("exact"),
+    )
     own = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
     wanted = [(Attribute("0", values, "corner", indices=at), exact) for at in own]
     # Three in turn, of which each follows the other two.

@@ -15,6 +15,8 @@ pub struct bsmdec_error {
     pub frame: i64,
     pub block: i64,
     pub message: [c_char; 160],
+    pub limit: *const c_char,
+    pub value: f64,
 }
 
 /// Upper bounds for a stream. One that needs more fails with [`Status::Limit`](crate::Status::Limit) before the memory

@@ -145,7 +145,7 @@ def test_rows_keep_neighbors_together():
         assert np.ptp(part // rows) + np.ptp(part % rows) < 48
 
 
-@pytest.mark.parametrize(("labels", "size"), [([0, 1, 2, -1], 4), ([0, 0, 0], 4), ([0, 0, 0, 1], 2)])
+@pytest.mark.parametrize(("labels", "size"), [([0, 1, 2, -1], 4), ([0, 0, 0], 4), ([0, 0, 0, 1], 2), ([0] * 4, 4)])
 def test_parts_that_do_not_fit_are_refused(labels, size):
     graph = graph_of(tetrahedron())
     with pytest.raises(BsmError, match=r"fit|blocks of"):
