@@ -355,7 +355,8 @@ class Place : public Shared, Output {
     // corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of integers, bits,
     // normals without length, whether others had another length than 1.
     nb::tuple carry(bool first, const std::string &name,
-        nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int domain, int semantic, std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {
+        nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int domain,
+        int semantic, std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {
         if (kind < 0 || kind > 7 || values.itemsize() != bsmdec_kind_size(kind) || values.shape(0) < 1
             || values.shape(1) < 1 || values.shape(1) > 4)
             throw nb::value_error("values are not of this kind");
@@ -642,9 +643,10 @@ NB_MODULE(_core, m) {
             nb::keep_alive<1, 7>())
         .def("carry", in_turn(&Place::carry), "first"_a, "name"_a, "values"_a, "kind"_a, "domain"_a, "semantic"_a,
             "indices"_a.none(), "quality"_a, "amount"_a,
-            SIG("carry(self, first: bool, name: str, values: typing.Any, kind: int, domain: int, semantic: int, indices: "
-                INTS " | None, quality: int, amount: float) -> tuple[int, int, int, int, bytes, list[int], list[float], "
-                "float, " LONGS ", " INTS " | None, " INTS ", tuple[float, float, int, int, bool]]"));
+            SIG("carry(self, first: bool, name: str, values: typing.Any, kind: int, domain: int, semantic: int, "
+                "indices: " INTS " | None, quality: int, amount: float) -> tuple[int, int, int, int, bytes, "
+                "list[int], list[float], float, " LONGS ", " INTS " | None, " INTS
+                ", tuple[float, float, int, int, bool]]"));
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),

@@ -49,7 +49,8 @@ static bool is_graph(ConstInts offsets, ConstInts neighbors) {
 
 static bool take_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors) {
     chain->graph = (Graph){offsets.size - 1, offsets, neighbors};
-    return is_graph(offsets, neighbors) || FAIL(&chain->writer->context, MISUSED, "the offsets and neighbors do not form a graph");
+    return is_graph(offsets, neighbors)
+        || FAIL(&chain->writer->context, MISUSED, "the offsets and neighbors do not form a graph");
 }
 
 bool label_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors, int64_t parts, Ints labels) {

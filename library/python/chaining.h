@@ -66,7 +66,7 @@ const CodedPart *present_part(const CodedChain *part);
 bool part_coefficients(CodedChain *part, ConstDoubles2 values, ConstDoubles2 ends, Doubles2 coefficients);
 bool part_values(CodedChain *part, ConstDoubles2 coefficients, ConstDoubles2 ends, Doubles2 values);
 
-/* Bytes for decoding a GOP whose fields have these widths and components, in two columns; `around`: rows around parts. */
+/* Bytes for decoding a GOP whose fields have these widths and components; `around`: rows around parts. */
 double memory_of_gop(int method, int64_t frames, ConstLongs2 fields, int64_t vertices, double around);
 
 /* A graph whose L + shift is factorized, row by row; U after iterations of Algorithm 1 from a start. */

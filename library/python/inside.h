@@ -76,9 +76,9 @@ bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declarat
 /* Write the payloads of rows, or read that of one kind of values. */
 bool encode_chunk(Encoding *encoding, int64_t first, int64_t count);
 bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_t *payload, int64_t size);
-/* Round positions to a grid (library/encode/rounding.h). If `bits` is 0, the grid has cells of this size from this origin;
- * if `cell` is 0 as well, it is the grid for exact floats. `grid` gets the origin, the step and the largest place of each
- * axis. */
+/* Round positions to a grid (library/encode/rounding.h). If `bits` is 0, the grid has cells of this size from this
+ * origin; if `cell` is 0 as well, it is the grid for exact floats. `grid` gets the origin, the step and the largest
+ * place of each axis. */
 bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,
     const double *origin, double *grid, int32_t *places);
 const int32_t *encoding_order(const Encoding *encoding);
