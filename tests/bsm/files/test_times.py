@@ -8,7 +8,8 @@ import pytest
 
 from bsm import FormatError, MeshError, TriangleMesh
 from bsm.files.conventions import FORMATS
-from bsm.files.mesh import write_mesh
+from bsm.files.mesh import read_cut, write_mesh
+from bsm.files.motion import folder
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from tests.bsm.program import run as bsm
@@ -69,6 +70,18 @@ def test_times_of_files_and_of_lists_go_in_and_out(form, times, tmp_path):
     metadata = {**source.metadata, **({"frame_rate": source.frame_rate} if source.frame_rate else {})}
     assert written(tmp_path / "out", "vtp", metadata) == []
     assert timing(opened(tmp_path / "out")) == pytest.approx(times)
+
+
+def test_a_file_that_a_list_names_for_many_times_is_read_once(tmp_path, monkeypatch):
+    read = []
+    monkeypatch.setattr(
+        folder, "read_cut", lambda name, *given, **words: read.append(name) or read_cut(name, *given, **words)
+    )
+    write_mesh(tmp_path / "a.ply", SHAPE)
+    rows = [{"name": "a.ply", "time": time} for time in range(50)]
+    (tmp_path / "a.series").write_text(json.dumps({"files": rows}))
+    frames = list(opened(tmp_path / "a.series").frames)
+    assert len(frames) == 50 and len(read) == 1 and all(np.array_equal(frame, SHAPE.positions) for frame in frames)
 
 
 @pytest.mark.parametrize(

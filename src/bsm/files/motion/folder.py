@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import lru_cache
 from itertools import chain
 from pathlib import Path
 
@@ -161,10 +162,14 @@ def read_files(names: Sequence[str], file_format: str | None, limits: Limits, wa
     runs, rate, times = wanted.runs, wanted.rate, wanted.times
     cut = CutAlike()
 
+    @lru_cache(maxsize=1)  # a list may name one file for many times
+    def read_named(name: str) -> TriangleMesh:
+        return read_cut(name, file_format, limits, cut, isolated=False).mesh
+
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
             try:
-                return read_cut(names[number], file_format, limits, cut, isolated=False).mesh
+                return read_named(names[number])
             except NoFacesError as error:
                 if runs:
                     return empty_frame()
