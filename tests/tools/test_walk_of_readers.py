@@ -169,3 +169,5 @@ def test_a_quad_that_is_not_flat_may_differ_by_what_its_height_adds():
     both = [of_polygons(bent, [4], np.roll(corners, by)) for by in (0, 1)]
     away = max(np.abs(a - b).max() for a, b in zip(*(read.moments().values() for read in both), strict=True))
     assert 1e-5 < away < both[0].uneven < 0.05
+    tie = of_polygons(square, [4], np.array([0, 2, 1, 3]))
+    assert tie.uneven > 0.05, "edges that cross"

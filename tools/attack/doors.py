@@ -4,7 +4,8 @@ Each file is read, encoded with `lossless` (or `grid14`, where single precision 
 with what trimesh, meshio, PyMeshLab, Open3D and usd-core read: area, orientation, places, colors, texture coordinates
 and normals as moments, which do not depend on the order of faces; the number of triangles; and names of materials.
 The polygons of OBJ, OFF and USD are also read here. Their area vectors do not depend on the cut, and if ours are the
-same, another reader's triangles are not a finding. Polygons that are not flat have a tolerance: what their heights add.
+same, another reader's triangles are not a finding. Polygons that are not flat, and quads whose edges cross, have a
+tolerance: what their heights and the milder cut add.
 A difference is right if a note of ours names it, or explained in `doors.json`, or a finding.
 
 Files are those of packages of Debian and PyPI, listed in `doors.json` with licence and SHA-256, and of folders.
@@ -45,7 +46,7 @@ from tools.replicate.fetch import unpacked
 Array = npt.NDArray[Any]
 LIST = Path(__file__).parent / "doors.json"
 EXACT, ON_GRID = 1e-5, 1e-3  # by how much moments may differ, relative to what they add up
-UNEVEN = 0.05  # the most that is added to that for polygons that are not flat
+UNEVEN = 0.05  # the most that polygons which are not flat, or cross themselves, add to that
 LARGEST = 3_000_000  # bytes of a file
 USD = ("usd", "usda", "usdc", "usdz")
 KINDS = ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf", "vtp", *USD)
@@ -193,7 +194,12 @@ def of_polygons(points: Array, sizes: Sequence[int], corners: Array) -> Read:
     areas = np.linalg.norm(vectors, axis=1)
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 1.0
     added = areas * heights / (size or 1.0) + areas - np.abs((vectors * normals[faces]).sum(axis=1))
-    return Read(triangles, normals=normals[faces], uneven=2 * float(added.sum() / (areas.sum() or 1.0)))
+    quads = np.flatnonzero(counts == 4)
+    turned = points[corners[first[quads][:, None] + [[1, 2, 3, 1, 3, 0]]]].reshape(-1, 2, 3, 3)
+    other = np.linalg.norm(np.cross(turned[:, :, 1] - turned[:, :, 0], turned[:, :, 2] - turned[:, :, 0]), axis=2)
+    cut = np.minimum(np.bincount(faces, areas, len(counts))[quads], other.sum(axis=1))  # more where edges cross
+    crossed = (cut - np.linalg.norm(whole, axis=1)[quads]).sum()
+    return Read(triangles, normals=normals[faces], uneven=2 * float((added.sum() + crossed) / (areas.sum() or 1.0)))
 
 
 def of_off(path: Path) -> Read:

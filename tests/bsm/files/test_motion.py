@@ -231,6 +231,40 @@ def test_stages_of_others(tmp_path):
     assert len(fine) == 25 and np.allclose(fine[::2], frames)
 
 
+@pytest.mark.parametrize(
+    ("start", "end", "first", "count", "outside"), [(4, 8, 1.5, 5, 3), (-4, 12, 1, 17, 0), (12, 0, 1, 13, 0)]
+)
+def test_a_stage_begins_where_it_says(tmp_path, start, end, first, count, outside):
+    """A range that ends before it begins says nothing."""
+    pytest.importorskip("pxr.Usd")
+    mesh, stage = stage_of(tmp_path / "a.usda", [SQUARE, SQUARE, 2 * SQUARE, 2 * SQUARE], (0, 2, 6, 12))
+    mesh.CreateDisplayColorPrimvar("vertex").Set([(0, 0, 0)] * 4, 0)
+    mesh.GetDisplayColorPrimvar().Set([(1, 1, 1)] * 4, 4)
+    stage.SetStartTimeCode(start)
+    stage.SetEndTimeCode(end)
+    stage.Save()
+    source, frames = frames_of(tmp_path / "a.usda")
+    assert len(frames) == count and np.allclose(frames[0], first * SQUARE)
+    assert [note for note in source.notes if "outside" in note] == (
+        [f"{outside} time samples lie outside {start} to {end}"] if outside else []
+    )
+    still = read_mesh(tmp_path / "a.usda").mesh
+    assert np.allclose(still.positions, frames[0])
+    assert still.attributes[0].values.max() == (255 if start == 4 else 0)
+
+
+def test_a_stage_without_time_codes_per_second_is_refused(tmp_path):
+    """usd-core itself would count samples for ever, for a layer below, too."""
+    pytest.importorskip("pxr.Usd")
+    _, stage = stage_of(tmp_path / "a.usda", [SQUARE, 2 * SQUARE], (0, 6))
+    stage.SetTimeCodesPerSecond(0)
+    stage.Save()
+    (tmp_path / "b.usda").write_text("#usda 1.0\n(\n    subLayers = [@a.usda@]\n)\n")
+    for name in "ab":
+        with pytest.raises(FormatError, match="timeCodesPerSecond"):
+            read_mesh(tmp_path / f"{name}.usda")
+
+
 def area_vectors(mesh):
     first, second, third = (mesh.positions[corner] for corner in mesh.faces.T)
     return np.cross(second - first, third - first)

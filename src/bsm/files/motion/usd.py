@@ -371,11 +371,10 @@ class _Shape:
 class _Instancer:
     """The instances of a point instancer, which are placed at any time."""
 
-    def __init__(self, pxr: Any, prim: Any) -> None:
+    def __init__(self, pxr: Any, prim: Any, first: Any) -> None:
         self._pxr, self.prim = pxr, prim
         self._instancer = pxr.UsdGeom.PointInstancer(prim)
         self._placed: tuple[float, Doubles] = (np.nan, np.empty((0, 4, 4)))
-        first = pxr.Usd.TimeCode.EarliestTime()
         self._kinds: Ints = np.array(self._instancer.GetProtoIndicesAttr().Get(first) or [], np.int64)
         mask = self._instancer.ComputeMaskAtTime(first)
         self._numbers = np.flatnonzero(np.array(mask, np.bool_)) if mask else np.arange(len(self._kinds))
@@ -503,10 +502,16 @@ class _Stage:
         self.pxr = pxr = import_usd()
         with as_library_error("usd-core"), _quiet(pxr):
             self.stage = pxr.Usd.Stage.Open(path)
+        if not all(layer.timeCodesPerSecond > 0 for layer in self.stage.GetUsedLayers()):  # usd-core would not end
+            raise FormatError("timeCodesPerSecond of this stage, or of a layer of it, is not above 0")
         if any(prim.IsA(pxr.UsdSkel.Root) for prim in self.stage.Traverse()):
             # Skeletons move the points, in a layer that is not saved.
             self.stage.SetEditTarget(self.stage.GetSessionLayer())
             pxr.UsdSkel.BakeSkinning(self.stage.Traverse())
+        self.span: tuple[float, ...] = ()  # codes that the stage says it shows
+        if self.stage.HasAuthoredTimeCodeRange() and self.stage.GetStartTimeCode() <= self.stage.GetEndTimeCode():
+            self.span = float(self.stage.GetStartTimeCode()), float(self.stage.GetEndTimeCode())
+        self.first = pxr.Usd.TimeCode(self.span[0]) if self.span else pxr.Usd.TimeCode.EarliestTime()
         self._materials = Materials(pxr, path)
         lost = [" ".join(str(error).split()) for error in self.stage.GetCompositionErrors()]
         self.notes: list[str] = [f"left out, a layer or reference: {text[:200]}" for text in lost[:MOST_NAMED]]
@@ -521,7 +526,7 @@ class _Stage:
         for prim, instance in self._placed():
             key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
             if key not in known:
-                known[key] = _Shape(self.pxr, prim, self.pxr.Usd.TimeCode.EarliestTime())
+                known[key] = _Shape(self.pxr, prim, self.first)
             shape = known[key]
             if shape.rows["face"] or shape.rows["corner"]:
                 yield _Part(shape, prim, instance)
@@ -540,7 +545,7 @@ class _Stage:
                 left.setdefault(hidden, []).append(str(prim.GetPath()))
             elif prim.IsA(pxr.UsdGeom.PointInstancer):
                 every.PruneChildren()
-                instancer = _Instancer(pxr, prim)
+                instancer = _Instancer(pxr, prim, self.first)
                 if instancer.inner:
                     left.setdefault("instancers in prototypes", []).extend(instancer.inner)
                 yield from instancer.instances()
@@ -564,8 +569,7 @@ class _Stage:
         if geom.Imageable(prim).ComputePurpose() == geom.Tokens.guide:
             return "guides"
         times = _times_of_visibility(geom, prim)
-        first = self.pxr.Usd.TimeCode.EarliestTime()
-        shown = any(self.seen(prim, time) for time in (times if self._runs else ()) or [first.GetValue()])
+        shown = any(self.seen(prim, time) for time in (times if self._runs else ()) or [self.first.GetValue()])
         if times and shown:
             self.blinking.append(str(prim.GetPath()))
         return "" if shown else "hidden" if not times or self._runs else "they appear later (--runs)"
@@ -646,11 +650,9 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     times = stage.times
     if len(times) < 2:
         return None
-    codes = float(stage.stage.GetTimeCodesPerSecond()) or USUAL_RATE
+    codes = float(stage.stage.GetTimeCodesPerSecond())
     rate = wanted.rate or codes
-    first, last = times[0], times[-1]
-    if stage.stage.HasAuthoredTimeCodeRange():
-        first, last = float(stage.stage.GetStartTimeCode()), float(stage.stage.GetEndTimeCode())
+    first, last = stage.span or (times[0], times[-1])
     if not np.isfinite([first, last, codes, (last - first) * rate / codes]).all():
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
@@ -664,6 +666,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     every = [first + number * codes / rate for number in range(count)]
     samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
     off = between("time samples", samples, rate)
+    off += [f"{len(times) - len(samples)} time samples lie outside {first:g} to {last:g}"] * (len(samples) < len(times))
     mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *off, *still.notes)
     meshes = None
     if (wanted.runs and stage.changes) or any(part.shape.painted for part in stage.parts):
@@ -691,7 +694,7 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile
     """The mesh of a stage at its first time; errors as of `read_usd`."""
     stage = _Stage(path, limits)
     times = stage.times
-    found = stage.mesh(times[0] if times else 0.0)
+    found = stage.mesh(*stage.span[:1] or times[:1] or [0.0])
     note = ("of the motion, the first time was taken",) if len(times) > 1 else ()
     return replace(found, notes=(*found.notes, *note))
 
