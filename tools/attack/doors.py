@@ -236,7 +236,9 @@ def of_usd(path: Path) -> Read:
     stage = usd.Stage.Open(str(path))
     stage.SetEditTarget(stage.GetSessionLayer())
     skel.BakeSkinning(stage.Traverse())
-    code, points = usd.TimeCode(stage.GetStartTimeCode()), [np.zeros((0, 3))]
+    forward = stage.GetStartTimeCode() <= stage.GetEndTimeCode()
+    code = usd.TimeCode(stage.GetStartTimeCode()) if forward else usd.TimeCode.EarliestTime()
+    points = [np.zeros((0, 3))]
     sizes, corners, many = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
     cache = geom.XformCache(code)
     for prim in usd.PrimRange(stage.GetPseudoRoot(), usd.TraverseInstanceProxies(usd.PrimDefaultPredicate)):

@@ -314,9 +314,7 @@ class Input:
             self.close()
             return b""
         if not isinstance(piece, (bytes, bytearray, memoryview)):
-            raise errors.ArgumentError(
-                f"a binary file is expected, whose read() gives bytes, not {type(piece).__name__}"
-            )
+            raise errors.ArgumentError(f"a binary file is expected: read() must give bytes, not {type(piece).__name__}")
         return bytes(piece)
 
     def close(self) -> None:

@@ -245,10 +245,9 @@ def _plays(path: str, faces: Faces) -> bool:
         known = read_mesh(path).mesh.faces if os.path.isfile(path) else faces[:0]
     except (BsmError, OSError):
         return False
-    own_edges, other_edges = (
-        np.unique(np.sort(some[some[:, 0] != some[:, 1]], axis=1), axis=0) for some in (known, faces)
-    )
-    return np.array_equal(own_edges, other_edges)
+    pairs = (some[some[:, 0] != some[:, 1]] for some in (known, faces))
+    own, other = (np.unique(np.sort(some, axis=1), axis=0) for some in pairs)
+    return np.array_equal(own, other)
 
 
 def _is_folder(path: str) -> bool:

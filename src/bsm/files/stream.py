@@ -110,9 +110,7 @@ class SequenceStream:
         """Number and positions, shape (n, 3), of one frame after the other."""
         for index, positions in self.changing_frames():
             if self.run_starts:
-                raise MeshError(
-                    f"this command does not support changing faces (frame {index}); use bsm decode or bsm compare"
-                )
+                raise MeshError(f"faces change at frame {index}; this command cannot: use bsm decode or bsm compare")
             yield index, positions
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:

@@ -129,9 +129,7 @@ def _library(kind: str) -> str:
 def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
     """The error of a child that a signal has ended."""
     if number == signal.SIGXCPU:
-        return LimitError(
-            f"reading this file takes more than {asked['seconds']} s of processor time (Limits.work, most_work)"
-        )
+        return LimitError(f"reading takes more than {asked['seconds']} s of processor time (Limits.work, most_work)")
     if number == signal.SIGALRM:
         return LimitError(f"reading this file takes more than {_PATIENCE * asked['seconds']} s")
     if number == signal.SIGKILL:
@@ -196,9 +194,7 @@ def end_of_child(memory: int, library: str, seconds: int) -> tuple[int, int, flo
     try:
         return _server().read(memory, library, seconds)
     except ConnectionError as error:
-        raise UnsupportedError(
-            f"a file from strangers is read in a process of its own, and that does not start: {error}"
-        ) from error
+        raise UnsupportedError(f"the process that reads files from strangers does not start: {error}") from error
 
 
 def serve(number: int) -> None:

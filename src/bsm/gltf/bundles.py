@@ -247,9 +247,8 @@ def code_bundle(found: Carried | str, pieces: int, options: Mapping[str, Any]) -
     qualities = {} if "*" in asked else found.qualities
     order = {"keep_order": True} if found.opens else {}
     try:
-        encoder = Encoder(
-            found.mesh, encode_options(**{"threads": 1, **options, **order, "attributes": {**qualities, **asked}})
-        )
+        given = {"threads": 1, **options, **order, "attributes": {**qualities, **asked}}
+        encoder = Encoder(found.mesh, encode_options(**given))
         stream = encoder.encode()
         decoded = decode(stream)
     except BsmError as error:

@@ -271,9 +271,7 @@ class Document:
         offset, item = _count(where, "byteOffset"), np.dtype(kind).itemsize * width
         stride = _count(self.item("bufferViews", where["bufferView"]), "byteStride") or item
         if stride < item or (count and offset + stride * (count - 1) + item > len(data)):
-            raise TruncatedError(
-                f"{count} values of {item} bytes do not fit into {len(data)} bytes of their buffer view"
-            )
+            raise TruncatedError(f"{count} values of {item} bytes do not fit into {len(data)} bytes of their view")
         return np.array(np.ndarray((count, width), kind, data, offset, (stride, np.dtype(kind).itemsize)))
 
     def _replace(self, found: Array, sparse: Tree, kind: str, width: int) -> None:

@@ -130,9 +130,8 @@ class Rewritten(gltf.Growing):
             view = self._view(stream, name, stored(name, array, component), component)
             more: Tree = {"normalized": True} if normalized else {}
             more |= gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {}
-            places[name] = self.accessor(
-                component, len(array), array.shape[1], view, **more, **_words(entries[given[name]])
-            )
+            more |= _words(entries[given[name]])
+            places[name] = self.accessor(component, len(array), array.shape[1], view, **more)
         component, _ = coded.accessors.get("indices", (UINT, False))
         corners = stored("indices", coded.shape.index, component)
         view = self._view(stream, "indices", corners, component)

@@ -289,9 +289,8 @@ class Scene:
             mirrored = np.median(sides[faces], axis=1) < 0
             turned = np.where(mirrored[:, None], np.arange(3)[::-1], np.arange(3)) + 3 * np.arange(len(faces))[:, None]
             faces = faces.reshape(-1)[turned]
-            columns = tuple(
-                c if c.indices is None else replace(c, indices=c.indices[turned.reshape(-1)]) for c in columns
-            )
+            rows = turned.reshape(-1)
+            columns = tuple(c if c.indices is None else replace(c, indices=c.indices[rows]) for c in columns)
             found.append(replace(part, faces=faces, columns=columns))
         return found
 
@@ -390,9 +389,7 @@ class Scene:
         given, document = primitive["attributes"], self._document
         count = document.count(given["POSITION"])
         base = self._of(given["POSITION"], count, 3, "positions")
-        targets = [
-            self._of(target.get("POSITION"), count, 3, "a morph target") for target in primitive.get("targets", [])
-        ]
+        targets = [self._of(one.get("POSITION"), count, 3, "a morph target") for one in primitive.get("targets", [])]
         shades = []
         if self._painted:
             shades = [self._shade(given.get("COLOR_0"), count, 1.0)]
@@ -479,9 +476,8 @@ class Scene:
                 upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
                 found.append(shapes.Column(f"texcoord{later}", shapes.compact(upright), "vertex", "texcoord"))
             else:
-                found.append(
-                    shapes.Column(number, shapes.compact(values), "vertex", shapes.meaning_of(number, values.shape[1]))
-                )
+                meaning = shapes.meaning_of(number, values.shape[1])
+                found.append(shapes.Column(number, shapes.compact(values), "vertex", meaning))
         return tuple(found)
 
 
@@ -522,9 +518,8 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
         counts = [f"{note}: {count}" for note, count in lost.items()]
         counts += [f"compressed already, by {name}: errors add up" for name in document.compressed]
         dropped = (*_unread(document, still=True), *([f"points and lines ({points})"] if points else []))
-        return replace(found, notes=(*found.notes, *counts), dropped=dropped).checked(
-            document.limits, document.received
-        )
+        found = replace(found, notes=(*found.notes, *counts), dropped=dropped)
+        return found.checked(document.limits, document.received)
 
 
 _MOVED = ("POSITION", "NORMAL", "TANGENT", "COLOR_0")  # by morph targets
@@ -546,9 +541,8 @@ def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
         skinned = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
         found += [name for name in primitive["attributes"] if not is_read(name) and not name.startswith(skinned or "?")]
         moved = dict.fromkeys(chain.from_iterable(primitive.get("targets", ())))
-        found += (
-            (["morph targets"] if moved else []) if still else [f"how {n} changes" for n in moved if n not in _MOVED]
-        )
+        changes = [f"how {name} changes" for name in moved if name not in _MOVED]
+        found += changes if not still else ["morph targets"] if moved else []
         found += ["extras of primitives"] if primitive.get("extras") else []
     for material in document.items("materials"):
         given = {**material, **material.get("pbrMetallicRoughness", {})}
@@ -604,9 +598,8 @@ def _frames(document: Document, wanted: Wanted, limits: Limits) -> Frames:
 def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:
     """The mesh at a time, its colors, too."""
     color = _color(scene.colors(time), "color", [])
-    now = [
-        replace(a, values=color.values) if a.name == "color" and a.domain == "vertex" else a for a in mesh.attributes
-    ]
+    given = mesh.attributes
+    now = (replace(a, values=color.values) if (a.name, a.domain) == ("color", "vertex") else a for a in given)
     return replace(mesh, positions=scene.at(time), attributes=tuple(now))
 
 

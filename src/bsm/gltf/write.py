@@ -76,9 +76,8 @@ class _Scene(Growing):
         placed, expressed = placed_node(mesh.metadata)
         names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
         images = formats.images_in(mesh.metadata)
-        materials = {
-            n: self._material(n, words, images, written) for n, words in formats.materials_in(mesh.metadata).items()
-        }
+        known = formats.materials_in(mesh.metadata)
+        materials = {n: self._material(n, words, images, written) for n, words in known.items()}
         opacity = next((a.values[:, 3:] for a in held if a.semantic == "color"), np.zeros((0, 1)))
         if opacity.size and conventions.shares_of(opacity).min() < 1:
             self._blend(kinds[:, 1].tolist(), materials)
@@ -131,10 +130,8 @@ class _Scene(Growing):
 
     def _moved(self, words: formats.Material, name: str, place: str, written: set[str]) -> Tree:
         """Return the extension by which a texture is moved and scaled, as options of MTL do; they count from below."""
-        options = next(
-            (f"{key}.options" for key in words if formats.as_gltf({key: words[key]}).get(name) is not None), ""
-        )
-        found = formats.scale_and_offset(str(words.get(options, "")))
+        key = next((key for key in words if formats.as_gltf({key: words[key]}).get(name) is not None), "")
+        found = formats.scale_and_offset(str(words.get(options := f"{key}.options", "")))
         if found is None:
             return {}
         (across, up), (right, above) = found
@@ -155,9 +152,8 @@ class _Scene(Growing):
         if kind not in ("image/png", "image/jpeg", "image/webp"):
             return None
         if data not in self._images:
-            self._images[data] = self.add(
-                "images", {"bufferView": self.view(data), "mimeType": kind, **({"name": name} if name else {})}
-            )
+            named = {"name": name} if name else {}
+            self._images[data] = self.add("images", {"bufferView": self.view(data), "mimeType": kind, **named})
         texture: Tree = {"source": self._images[data]}
         if kind == "image/webp":
             texture = {"extensions": {WEBP: texture}}
@@ -307,9 +303,8 @@ class _Moving(_Scene):
         self.frames += 1
         for primitive, rows in run.primitives:
             moved = zip(("POSITION", "NORMAL", "COLOR_0"), deltas, strict=False)
-            primitive["targets"].append(
-                {n: self.numbers(d[rows], bounds=True) for n, d in moved if n != "COLOR_0" or d.any()}
-            )
+            seen = {n: self.numbers(d[rows], bounds=True) for n, d in moved if n != "COLOR_0" or d.any()}
+            primitive["targets"].append(seen)
 
     def animate(self, shown: Doubles) -> None:
         """Show each frame from its time on, in seconds, shape (T,)."""

@@ -115,9 +115,7 @@ def _entries(metadata: Metadata) -> Iterable[tuple[str, int, str, Value]]:
 
 
 def described(materials: Mapping[int, Material]) -> dict[str, Value]:
-    return {
-        f"material.{number}.{name}": value for number, material in materials.items() for name, value in material.items()
-    }
+    return {f"material.{n}.{name}": value for n, material in materials.items() for name, value in material.items()}
 
 
 # ------------------------------------------------------------------------------------------------------- MTL and glTF

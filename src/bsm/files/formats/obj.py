@@ -69,9 +69,8 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
     metadata: dict[str, materials.Value] = {**names}
     libraries = dict.fromkeys(materials.text_of(library) for library in lines.of(b"mtllib"))
     metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
-    metadata |= materials.parse_remarks(
-        comment.decode(errors="replace") for comment in re.findall(rb"^#([^\r\n]*)", data, re.M)
-    )
+    remarks = (text.decode(errors="replace") for text in re.findall(rb"^#([^\r\n]*)", data, re.M))
+    metadata |= materials.parse_remarks(remarks)
     found = (*columns, *states)
     return Polygons(points.columns(0, 3), sizes, placed(0, b"v"), tuple(notes), tuple(dropped), found, metadata)
 
@@ -170,16 +169,14 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     numbers = {what: materials.face_numbers(mesh, what) for what in STATES}
     names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
     library = materials.Library(mesh, stem)
-    mtl = materials.write_mtl(
-        {n: m for n, m in library.materials.items() if len(m) > 1}, names["material"], library.images
-    )
+    said = {n: m for n, m in library.materials.items() if len(m) > 1}
+    mtl = materials.write_mtl(said, names["material"], library.images)
     libraries = str(mesh.metadata.get("mtllib", "")).split("\n")
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
         libraries = [f"{stem}.mtl"]
-        library.written |= {
-            f"material.{n}.{key}" for n, m in library.materials.items() for key in m if materials.as_mtl({key: m[key]})
-        }
+        every = [(n, key, value) for n, m in library.materials.items() for key, value in m.items()]
+        library.written |= {f"material.{n}.{key}" for n, key, value in every if materials.as_mtl({key: value})}
     library.written |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
     library.written |= {f"{what}.names" for what in STATES if names[what]}
     lines, omitted = materials.remarks(mesh.metadata, library.written | {"mtllib"})
@@ -233,10 +230,8 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
     if what == "material":  # a library may hold some that no face has
         used = list(dict.fromkeys([*used, *materials.materials_in(mesh.metadata)]))
     known = {number: names.get(number) for number in used}
-    spoken_of = (
-        attribute is not None or any(known.values()) or (what == "material" and materials.materials_in(mesh.metadata))
-    )
-    if not spoken_of:
+    has = what == "material" and materials.materials_in(mesh.metadata)
+    if attribute is None and not any(known.values()) and not has:
         return {}
     found: dict[int, str] = {}
     taken: dict[str, int] = {}

@@ -107,10 +107,8 @@ def read_om(data: bytes, limits: Limits = DEFAULT_LIMITS) -> Polygons:
                 if absent is None:
                     raise FormatError("openmesh cannot read this file") from error
                 del asked[absent]
-    if (mesh.n_vertices(), mesh.n_faces()) != (vertices, faces):
-        raise CorruptError(
-            f"openmesh reads {mesh.n_vertices()} of {vertices} vertices and {mesh.n_faces()} of {faces} faces"
-        )
+    if (there := (mesh.n_vertices(), mesh.n_faces())) != (vertices, faces):
+        raise CorruptError(f"openmesh reads {there[0]} of {vertices} vertices and {there[1]} of {faces} faces")
     return of_openmesh(mesh)
 
 

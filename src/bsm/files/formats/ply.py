@@ -304,9 +304,8 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
     for element in (vertex.element, face.element):
         names = [column.name for column in element.properties]
-        dropped += [
-            f"the first {name}, of which there are several" for name in {n: 0 for n in names if names.count(n) > 1}
-        ]
+        repeated = {name: 0 for name in names if names.count(name) > 1}
+        dropped += [f"the first {name}, of which there are several" for name in repeated]
     flat = as_integers(items, "a vertex index")
     return Polygons(positions, sizes, flat, tuple(notes), (*dropped, *others), columns, header.metadata)
 
@@ -355,9 +354,8 @@ def _wedges(table: _TextTable | _BinaryTable, corners: int, sizes: Ints) -> tupl
         rows[np.repeat(present, sizes)] = values.reshape(-1, width)
         found.append(Column(column.name, rows, "corner", meaning_of(column.name, width)))
         if not present.all():
-            notes.append(
-                f"faces without {PLURALS.get(column.name, column.name)} were given zeros: {int((~present).sum())}"
-            )
+            what = PLURALS.get(column.name, column.name)
+            notes.append(f"faces without {what} were given zeros: {int((~present).sum())}")
     return found, dropped, notes
 
 

@@ -136,9 +136,8 @@ def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) 
     """Return the columns of parts as one; parts that have none get zeros, or white."""
     there = [column for column in given if column is not None]
     shares = there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1  # bytes here, floats there
-    model = replace(
-        there[0], name=name, values=shares_of(there[0].values).astype(np.float32) if shares else there[0].values
-    )
+    values = shares_of(there[0].values).astype(np.float32) if shares else there[0].values
+    model = replace(there[0], name=name, values=values)
     blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
     tables, places, begin = [], [], 0
     for part, column in zip(parts, given, strict=True):
@@ -177,9 +176,8 @@ def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
     """Transform normals, shape (n, 3), by one matrix or by one each; mirrors turn the faces, not the normals."""
     rows = np.swapaxes(linear, -1, -2)
     cofactors = np.stack([np.cross(rows[..., (i + 1) % 3, :], rows[..., (i + 2) % 3, :]) for i in range(3)], axis=-1)
-    turned = (
-        np.einsum("...ij,...j->...i", cofactors, normals) * np.where(np.linalg.det(linear) < 0, -1.0, 1.0)[..., None]
-    )
+    side = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)[..., None]
+    turned = np.einsum("...ij,...j->...i", cofactors, normals) * side
     lengths = np.linalg.norm(turned, axis=-1, keepdims=True)
     unit: Doubles = np.divide(turned, lengths, out=np.zeros_like(turned), where=lengths > 0)
     return unit
@@ -418,9 +416,8 @@ def _finite(column: Column, notes: list[str]) -> Column:
     lost = ~np.isfinite(column.values) if column.values.dtype.kind == "f" else np.zeros(0, np.bool_)
     if not lost.any() or lost.all():
         return column
-    notes.append(
-        f"values of {PLURALS.get(column.name, column.name)} that are not finite were set to zero: {int(lost.sum())}"
-    )
+    what = PLURALS.get(column.name, column.name)
+    notes.append(f"values of {what} that are not finite were set to zero: {int(lost.sum())}")
     return replace(column, values=np.where(lost, column.values.dtype.type(0), column.values))
 
 
@@ -515,9 +512,8 @@ def _flattened(points: Doubles, normals: Doubles) -> Doubles:
 def _clipper() -> Callable[[Doubles, Sequence[int]], Ints]:
     """Return what makes triangles of a polygon and its holes, whose corners end at given places."""
     library = imported("mapbox_earcut", "polygons that are not convex are cut with mapbox-earcut", "formats")
-    return lambda flat, ends: (
-        library.triangulate_float64(flat, np.array(ends, np.uint32)).reshape(-1, 3).astype(np.int64)
-    )
+    cut = library.triangulate_float64
+    return lambda flat, ends: cut(flat, np.array(ends, np.uint32)).reshape(-1, 3).astype(np.int64)
 
 
 def _filled(found: Ints, size: int) -> Ints:

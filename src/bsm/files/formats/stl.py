@@ -41,9 +41,7 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
     if held < claimed and claimed not in _UNKNOWN and (kind := other_kind(head)):
         raise FormatError(f"this is not an STL file: it is {kind}; give it the right name, or name its format")
     if held < claimed and claimed not in _UNKNOWN:
-        raise TruncatedError(
-            f"the STL file is cut short (or not an STL file): its header claims {claimed} triangles, {held} are there"
-        )
+        raise TruncatedError(f"the STL file is cut short (or is not one): it has {held} of {claimed} triangles")
     if held == claimed or (claimed not in _UNKNOWN and rest):
         beyond = size - HEAD - RECORD.itemsize * claimed
         return claimed, f"{beyond} bytes after the last triangle" if beyond else ""

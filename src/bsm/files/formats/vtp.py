@@ -200,9 +200,8 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
         if around in ("Points", "Polys")
     }
     try:
-        coordinates, corners, ends = (
-            numbers.of(shape[key]) for key in (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))
-        )
+        needed = (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))
+        coordinates, corners, ends = (numbers.of(shape[key]) for key in needed)
     except KeyError:
         raise NoFacesError("this VTP file has no faces; point clouds are not supported") from None
     if coordinates.shape != (points, 3) or len(ends) != polygons or {corners.dtype.kind, ends.dtype.kind} - {*"iu"}:

@@ -58,9 +58,8 @@ def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
     """Join the surfaces of a scene, each as often and where the scene places it; `received` is the size of the file."""
     order = {name: place for place, name in enumerate(scene.geometry)}  # that of the file; the graph has none
     places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])
-    surfaces = [
-        (matrix, scene.geometry[name], name) for matrix, name in places if hasattr(scene.geometry[name], "faces")
-    ]
+    every = [(matrix, scene.geometry[name], name) for matrix, name in places]
+    surfaces = [one for one in every if hasattr(one[1], "faces")]
     found = _polygons(surfaces, scene.metadata, limits, received)
     lost = len(places) - len(surfaces)
     return replace(found, dropped=(*found.dropped, *([f"curves and point clouds ({lost})"] if lost else [])))

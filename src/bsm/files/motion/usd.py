@@ -95,9 +95,8 @@ class Materials:
         surface = material.ComputeSurfaceSource()[0]
         if not surface or surface.GetIdAttr().Get() != _SURFACE:
             return words
-        values = {
-            name: self._value(surface, name, 3 if kind == "Color3f" else 1) for name, (kind, _, _) in _INPUTS.items()
-        }
+        sizes = {name: 3 if kind == "Color3f" else 1 for name, (kind, _, _) in _INPUTS.items()}
+        values = {name: self._value(surface, name, size) for name, size in sizes.items()}
         for name, (_, _, painted) in _INPUTS.items():
             texture = self._texture(surface, name) if painted else None
             if texture is None:
@@ -107,9 +106,8 @@ class Materials:
                 words[painted] = self._images.setdefault(str(image.path), len(self._images))
             if name == "diffuseColor":
                 values[name] = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
-        opacity, cut = (
-            self._value(surface, name, 1) or [usual] for name, usual in (("opacity", 1.0), ("opacityThreshold", 0.0))
-        )
+        usual = (("opacity", 1.0), ("opacityThreshold", 0.0))
+        opacity, cut = (self._value(surface, name, 1) or [value] for name, value in usual)
         if opacity != [1.0] and values["diffuseColor"] is None:
             values["diffuseColor"] = [0.18] * 3  # as UsdPreviewSurface has it
         if color := values["diffuseColor"]:
@@ -283,9 +281,8 @@ class _Shape:
         mesh = pxr.UsdGeom.Mesh(prim)
         self._pxr, self.prim, self.time, self.points = pxr, prim, time, mesh.GetPointsAttr()
         self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
-        self.vertices, faces, corners = (
-            len(attr.Get(time) or []) for attr in (self.points, self.counts_attr, self.corners_attr)
-        )
+        tables = (self.points, self.counts_attr, self.corners_attr)
+        self.vertices, faces, corners = (len(attr.Get(time) or []) for attr in tables)
         self.triangles = corners - 2 * faces
         self.left_handed = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
         self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": faces, "corner": corners}
@@ -295,9 +292,8 @@ class _Shape:
             self.left_out.append(f"subdivision ({scheme}; the mesh is its cage)")
         creased = mesh.GetCreaseIndicesAttr().Get(time) or mesh.GetCornerIndicesAttr().Get(time)
         self.left_out += ["creases"] if creased else []
-        self._primvars = [
-            p for p in pxr.UsdGeom.PrimvarsAPI(prim).FindPrimvarsWithInheritance() if p.HasAuthoredValue()
-        ]
+        given = pxr.UsdGeom.PrimvarsAPI(prim).FindPrimvarsWithInheritance()
+        self._primvars = [primvar for primvar in given if primvar.HasAuthoredValue()]
         self.frozen = [
             str(primvar.GetPrimvarName())
             for primvar in self._primvars
@@ -324,9 +320,8 @@ class _Shape:
             rows = [c.values if c.indices is None else c.values[c.indices] for c in (color, opacity)]
             shades = np.hstack([conventions.shares_of(rows[0][:, :3]), rows[1]])
             indices = None if color.indices is None else np.arange(len(shades))
-            found[color.name] = replace(
-                color, values=conventions.srgb_colors(conventions.to_linear(shades)), indices=indices
-            )
+            shades = conventions.srgb_colors(conventions.to_linear(shades))
+            found[color.name] = replace(color, values=shades, indices=indices)
             del found[opacity.name]
         return [*found.values()]
 
@@ -450,9 +445,7 @@ class _Part:
         arrays = (("counts", shape.counts_attr, shape.counts), ("corners", shape.corners_attr, shape.corners))
         for name, attr, known in arrays:
             if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(time), np.int64), known):
-                raise MeshError(
-                    f"{self.name} has other faces {when} than before (their {name}); if they may change, --runs"
-                )
+                raise MeshError(f"{self.name} has other faces {when} (their {name}); if they may change, --runs")
         if len(points) != shape.vertices:
             raise MeshError(f"{self.name} has {len(points)} points {when} and {shape.vertices} before")
         matrix = self.matrix(time, cache)
@@ -535,6 +528,7 @@ class _Stage:
         """Yield the visible meshes, and the instances of instancers."""
         pxr, left = self.pxr, dict[str, list[str]]()
         self.blinking: list[str] = []
+        others = (pxr.UsdGeom.Gprim, pxr.UsdGeom.Camera)
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
         for count, prim in enumerate(every):
             if count == MOST_PRIMS:
@@ -551,14 +545,11 @@ class _Stage:
                 yield from instancer.instances()
             elif prim.IsA(pxr.UsdGeom.Mesh):
                 yield prim, None
-            elif (
-                prim.IsA(pxr.UsdGeom.Gprim) or prim.IsA(pxr.UsdGeom.Camera) or str(prim.GetTypeName()).endswith("Light")
-            ):
+            elif any(map(prim.IsA, others)) or str(prim.GetTypeName()).endswith("Light"):
                 left.setdefault(f"{prim.GetTypeName()}, which is not a mesh", []).append(str(prim.GetPath()))
         if self.blinking and not self._runs:
-            self.notes.append(
-                f"these vanish, and are always shown; --runs lets them: {', '.join(self.blinking[:MOST_NAMED])}"
-            )
+            names = ", ".join(self.blinking[:MOST_NAMED])
+            self.notes.append(f"these vanish, and are always shown; --runs lets them: {names}")
         self.notes += [f"left out, {why}: {', '.join(paths[:MOST_NAMED])}" for why, paths in left.items()]
 
     def _hidden(self, prim: Any) -> str:
