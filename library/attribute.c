@@ -86,7 +86,7 @@ static double number_of_bits(const int64_t *word, const double *offset, bool is_
     return number - number == 0.0 ? number : 0.0;
 }
 
-static void restore(const Declaration *d, const int64_t *word, int64_t row, void *values) {
+void restore(const Declaration *d, const int64_t *word, int64_t row, void *values) {
     double number[MOST_COMPONENTS];
     bool is_double = d->kind == BSMDEC_FLOAT64;
     if (d->coding == OCTAHEDRAL) unfold_direction(word, d->largest[0] / 2, number);

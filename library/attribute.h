@@ -50,6 +50,8 @@ void relative_values(const Attribute *attribute, Doubles2 beyond);
 bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved);
 
 /* Values of rows from their pieces (D 3.2, D 4). */
+/* Store the value of a row of levels. */
+void restore(const Declaration *d, const int64_t *word, int64_t row, void *values);
 bool restore_values(Context *context, Attribute *attribute, int64_t first, int64_t count);
 INLINE size_t kind_size(int kind) {
     static const size_t SIZES[] = {1, 1, 2, 2, 4, 4, 4, 8};

@@ -267,17 +267,3 @@ class Declaration:
         return {OCTAHEDRAL: 2, RECOMPUTED: 0, BITS: self.components * (self.kind - FLOAT32 + 1)}.get(
             self.coding, self.components
         )
-
-    @property
-    def is_float(self) -> bool:
-        return self.kind >= FLOAT32
-
-    @property
-    def offsets(self) -> tuple[float, ...]:
-        """The value of level 0 of each coded number."""
-        return self.offset or (0.0,) * self.words
-
-    @property
-    def steps(self) -> tuple[float, ...]:
-        """One level of each coded number."""
-        return self.step * self.words if len(self.step) == 1 else self.step or (1.0,) * self.words

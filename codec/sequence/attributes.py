@@ -17,7 +17,7 @@ from bsm.codec.sequence.frames import distinct_frames
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.attributes.encoding import PreparedAttribute
-from bsm.codec.static.attributes.levels import Values, restored
+from bsm.codec.static.attributes.levels import Values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.targets import secant
 from bsm.codec.static.units import single
@@ -144,7 +144,7 @@ class MovingAttributeEncoder:
     def __init__(self, number: int, carried: PreparedAttribute, given: Values, bound: Bound) -> None:
         self.number = number
         self.name, self.bound = carried.declaration.name, bound
-        self.first: Values = restored(carried.declaration, carried.levels)
+        self.first: Values = carried.values
         self._carried = carried
         self._given = given
         self._encoder: GopEncoder | None = None

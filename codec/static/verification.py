@@ -15,7 +15,6 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.static.attributes.encoding import SEMANTICS, PreparedAttribute
-from bsm.codec.static.attributes.levels import restored
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
 ROUNDING = 1e-6
@@ -118,7 +117,7 @@ def require_attributes(
         if declared.coding == RECOMPUTED:
             require(bool(np.isfinite(found.values).all()), f"{name} is not finite after decoding")
             continue
-        values = restored(declared, wanted.levels)
+        values = wanted.values
         if declared.domain == FACE:
             at = found.values[prepared.coding_faces] if prepared.order else found.values
             require(_alike(at, values), f"{name} has other values after decoding")

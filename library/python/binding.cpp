@@ -351,8 +351,8 @@ class Place : public Shared, Output {
         : faces(faces.rows) {
         run([&] { return encode_place(encoding, given, index, kept, face_order, turns, faces, vertices, keeps); });
     }
-    // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; levels, the value of each
-    // corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of integers, bits,
+    // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; levels, decoded values, the
+    // value of each corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of integers, bits,
     // normals without length, whether others had another length than 1.
     nb::tuple carry(bool first, const std::string &name,
         nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int domain,
@@ -374,6 +374,8 @@ class Place : public Shared, Output {
         Whole whole;
         run([&] { return encode_carried(encoding, &given, first, &whole); });
         const Writing &seams = *encoding_payloads(encoding);
+        Array decoded = array_of(KINDS[kind], (size_t)whole.rows, values.shape(1));
+        carried_values(encoding, decoded.data);
         nb::list largest, offset;
         for (int i = 0; i < whole.words; i++) {
             largest.append(whole.largest[i]);
@@ -381,7 +383,7 @@ class Place : public Shared, Output {
         }
         return nb::make_tuple(whole.coding, whole.domain, whole.origin, whole.seams_of,
             nb::bytes(seams.data, (size_t)seams.size), largest, offset, whole.step,
-            copy_of(whole.levels, "int64", (size_t)whole.rows, (size_t)whole.words),
+            copy_of(whole.levels, "int64", (size_t)whole.rows, (size_t)whole.words), decoded.numpy,
             whole.faces == nullptr ? nb::none() : copy_of(whole.faces, "int32", (size_t)faces, 3),
             copy_of(whole.vertices, "int32", (size_t)whole.vertices_count),
             nb::make_tuple(whole.error, whole.whole_step, whole.bits, whole.zeros, whole.scaled));
@@ -645,7 +647,7 @@ NB_MODULE(_core, m) {
             "indices"_a.none(), "quality"_a, "amount"_a,
             SIG("carry(self, first: bool, name: str, values: typing.Any, kind: int, domain: int, semantic: int, "
                 "indices: " INTS " | None, quality: int, amount: float) -> tuple[int, int, int, int, bytes, "
-                "list[int], list[float], float, " LONGS ", " INTS " | None, " INTS
+                "list[int], list[float], float, " LONGS ", typing.Any, " INTS " | None, " INTS
                 ", tuple[float, float, int, int, bool]]"));
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)

@@ -210,6 +210,12 @@ bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_
     return code_chunk(&encoding->field, first, count, (Span){payload, size}, NULL);
 }
 
+void carried_values(const Encoding *encoding, void *values) {
+    const Carried *carried = encoding->carried + encoding->carried_count - 1;
+    const Declaration *d = &carried->quantized.declaration;
+    for (int64_t r = 0; r < d->rows; r++) restore(d, carried->levels.data + d->words * r, r, values);
+}
+
 bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,
     const double *origin, double *grid, int32_t *places) {
     Context *context = &encoding->writer.context;

@@ -65,8 +65,9 @@ typedef struct {
     const int32_t *faces, *vertices;
     int64_t vertices_count;
 } Whole;
-/* Carry an attribute, the first or the next one; its seams are the payload. */
+/* Carry an attribute, the first or the next one; its seams are the payload. Then write the values that decoders have. */
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);
+void carried_values(const Encoding *encoding, void *values);
 /* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
     double step, const double *exact, const int32_t *transforms, int64_t transforms_count);

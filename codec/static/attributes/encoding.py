@@ -18,12 +18,12 @@ from bsm.codec.look.measure import of_length_1, painted
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.levels import (
     Surface,
+    Values,
     Words,
     field_of,
     leans,
     noted,
     recomputed,
-    restored,
     to_pieces,
     write_values,
 )
@@ -69,19 +69,21 @@ class PreparedAttribute:
     seams: bytes
     surface: Surface
     levels: Words
+    values: Values
+    """As decoders have them."""
     note: str
 
     @property
     def at_corners(self) -> Matrix:
         """What `AttributeLook` is given: the values of a decoder at corners, shape (m, 3 c)."""
-        values, declaration = restored(self.declaration, self.levels), self.declaration
+        values, declaration = self.values, self.declaration
         corners = values[:, None].repeat(3, axis=1) if declaration.domain == FACE else values[self.surface.faces]
         return painted(SEMANTICS[declaration.semantic], corners)
 
     def normals(self, positions: Matrix) -> Normals:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
         recompute = self.declaration.coding == RECOMPUTED
-        values = recomputed(self.surface, positions) if recompute else restored(self.declaration, self.levels)
+        values = recomputed(self.surface, positions) if recompute else self.values
         return of_length_1(values[self.surface.faces])
 
     @property
@@ -114,7 +116,7 @@ def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) ->
     kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
-    coding, domain, origin, seams_of, seams, largest, offset, step, levels, corners, vertices, outcome = (
+    coding, domain, origin, seams_of, seams, largest, offset, step, levels, decoded, corners, vertices, outcome = (
         place.core.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
     )
     declaration = Declaration(
@@ -135,7 +137,7 @@ def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) ->
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     became = "recomputed from the decoded mesh" if coding == RECOMPUTED else noted(*outcome)
     return PreparedAttribute(
-        declaration, seams, surface, levels, f"{attribute.name}: {what}per {attribute.domain}, {became}"
+        declaration, seams, surface, levels, decoded, f"{attribute.name}: {what}per {attribute.domain}, {became}"
     )
 
 

@@ -8,10 +8,9 @@ import numpy.typing as npt
 
 from bsm._core import Field
 from bsm._core.bitstream import constant
-from bsm.bitstream.container.header import BITS, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration, entries_of
+from bsm.bitstream.container.header import FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration, entries_of
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix
-from bsm.codec.geometry.attributes import KINDS
 
 Values = npt.NDArray[Any]
 Words = npt.NDArray[np.int64]
@@ -38,52 +37,12 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
 
 
-def octahedral_normals(levels: Words, size: int) -> Matrix:
-    """The unit vectors, shape (n, 3), of levels, shape (n, 2): points on an octahedron (Meyer et al., EGSR 2010)."""
-    points = unfolded(levels, size).astype(np.float64)
-    return np.asarray(points / np.sqrt((points * points).sum(axis=1, keepdims=True)))
-
-
-def unfolded(levels: Words, size: int) -> Words:
-    """The points of levels on an octahedron of this size."""
-    flat = np.asarray(levels, np.int64) - size
-    height = size - np.abs(flat).sum(axis=1, keepdims=True)
-    inside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
-    return np.hstack([np.where(height < 0, inside, flat), height])
-
-
-def restored(declaration: Declaration, levels: Words) -> Values:
-    """Values of levels, shape (k, words) (A 5)."""
-    kind = np.dtype(KINDS[declaration.kind])
-    if declaration.coding == OCTAHEDRAL:
-        return octahedral_normals(levels, declaration.largest[0] // 2).astype(kind)
-    offset = np.array(declaration.offsets)
-    if declaration.coding == BITS:
-        return _of_bits(levels + offset.astype(np.int64), kind)
-    values = offset + np.array(declaration.steps) * levels
-    return values.astype(kind) if declaration.is_float else values.astype(np.int64).astype(kind)
-
-
 def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str:
     """What became of values, in words."""
     if not bits:
         return f"in steps of {step:g}" if step else f"within {error:.3g}" if error else "exact"
     note = [f"{bits} bits, within {error:.2g} degrees"]
     return ", ".join([*note, *[f"{zeros} of no length"] * (zeros > 0), *["all of length one now"] * scaled])
-
-
-def _of_bits(words: Words, kind: np.dtype[Any]) -> Values:
-    """Floats of bits as whole numbers that ascend with them; values that are not finite become 0."""
-    unsigned = np.dtype(f"u{kind.itemsize}")
-    if kind.itemsize == 8:
-        pairs = words.reshape(len(words), -1, 2).astype(np.uint64)
-        ordered = pairs[:, :, 0] << np.uint64(32) | pairs[:, :, 1]
-    else:
-        ordered = words.astype(np.uint32)
-    top = unsigned.type(1) << unsigned.type(8 * kind.itemsize - 1)
-    bits = np.where(ordered & top, ordered ^ top, ~ordered)
-    values = np.ascontiguousarray(bits.astype(unsigned)).view(kind)
-    return np.where(np.isfinite(values), values, kind.type(0))
 
 
 MOST_WHOLE, PIECE_BITS = constant("MOST_WHOLE"), constant("PIECE_BITS")  # larger levels are coded in two pieces

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from bsm._core import Place
 from bsm.bitstream.container.header import CORNER, FACE, GENERIC, NORMAL
 from bsm.codec.static.attributes.encoding import WAYS
-from bsm.codec.static.attributes.levels import octahedral_normals
-from tests.bitstream.fields.fields import decode, encode, field_of
+from tests.bitstream.fields.fields import decode, encode, field_of, unfolded
 from tools.measure.grids import welded
 
 
@@ -22,10 +21,11 @@ def place_of(faces):
     return Place(faces, index, order, order, turns, faces, vertices, False)
 
 
-def places(normals, bits):
+def carried(normals, bits):
+    """The levels of normals, and the decoded ones."""
     faces = np.arange(3 * len(normals), dtype=np.int32).reshape(-1, 3)
     way = WAYS.index("bits")
-    return place_of(faces).carry(True, "normals", np.asarray(normals), 7, FACE, NORMAL, None, way, bits)[8]
+    return place_of(faces).carry(True, "normals", np.asarray(normals), 7, FACE, NORMAL, None, way, bits)[8:10]
 
 
 @given(st.lists(st.tuples(*[st.floats(-1e300, 1e300)] * 3), min_size=1, max_size=40), st.sampled_from([2, 8, 16]))
@@ -34,10 +34,12 @@ def test_levels_of_normals(normals, bits):
     size = 2 ** (bits - 1) - 1
     unit = vectors / np.abs(vectors).max(axis=1, keepdims=True)
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
-    levels = places(vectors, bits)
+    levels, decoded = carried(vectors, bits)
     assert (levels >= 0).all() and (levels <= 2 * size).all()
-    np.testing.assert_array_equal(places(octahedral_normals(levels, size), bits), levels)
-    assert (np.linalg.norm(np.cross(unit, octahedral_normals(levels, size)), axis=1) < 2.2 / size).all()
+    points = unfolded(levels, size)
+    np.testing.assert_array_equal(decoded, points / np.sqrt(np.square(points).sum(axis=1, keepdims=True)))
+    np.testing.assert_array_equal(carried(decoded, bits)[0], levels)
+    assert (np.linalg.norm(np.cross(unit, decoded), axis=1) < 2.2 / size).all()
 
 
 @pytest.mark.real
@@ -50,7 +52,7 @@ def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
     for corner in range(3):
         np.add.at(normals, faces[:, corner], across)
     normals[np.abs(normals).max(axis=1) == 0] = 1
-    levels = places(normals, 8).astype(np.int32)
+    levels = carried(normals, 8)[0].astype(np.int32)
     at = np.rint(positions / edge * 32).astype(np.int32)
     field = field_of("normal", faces, len(levels), (254, 254), at)
     chunks = encode(field, levels)

@@ -19,7 +19,7 @@ from bsm.bitstream.container.header import (
     VERTEX,
     Declaration,
 )
-from bsm.codec.static.attributes.levels import Surface, unfolded
+from bsm.codec.static.attributes.levels import Surface
 from bsm.codec.static.attributes.levels import field_of as attribute_field
 from bsm.codec.static.ways.grid import grid_field, levels_field
 from tests.shapes import Faces, grid_faces
@@ -30,6 +30,14 @@ Chunks = list[tuple[bytes, int]]
 NAMES = ("grid", "light", "levels", "plain", "color", "texcoord", "normal", "faces")
 COLUMNS = {"grid": 3, "light": 3, "levels": 3, "texcoord": 2, "normal": 2}
 """Columns of kinds with a fixed number."""
+
+
+def unfolded(levels: npt.NDArray[np.int64], size: int) -> npt.NDArray[np.int64]:
+    """The points of levels on an octahedron of this size (Meyer et al., EGSR 2010)."""
+    flat = levels - size
+    height = size - np.abs(flat).sum(axis=1, keepdims=True)
+    inside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
+    return np.hstack([np.where(height < 0, inside, flat), height])
 
 
 def canonical_levels(levels: Ints, size: int) -> Ints:
