@@ -352,8 +352,8 @@ class Place : public Shared, Output {
         run([&] { return encode_place(encoding, given, index, kept, face_order, turns, faces, vertices, keeps); });
     }
     // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; levels, decoded values, the
-    // value of each corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of integers, bits,
-    // normals without length, whether others had another length than 1.
+    // value of each corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of
+    // integers, bits, normals without length, whether others had another length than 1.
     nb::tuple carry(bool first, const std::string &name,
         nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int domain,
         int semantic, std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {

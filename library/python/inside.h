@@ -65,7 +65,7 @@ typedef struct {
     const int32_t *faces, *vertices;
     int64_t vertices_count;
 } Whole;
-/* Carry an attribute, the first or the next one; its seams are the payload. Then write the values that decoders have. */
+/* Carry an attribute, the first or the next one; its seams are the payload. Then write the decoded values. */
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);
 void carried_values(const Encoding *encoding, void *values);
 /* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
