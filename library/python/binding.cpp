@@ -11,6 +11,8 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include "bitstream/kernel.hpp"
 
@@ -20,6 +22,31 @@ extern "C" {
 
 namespace nb = nanobind;
 using namespace nb::literals;
+
+// An array of numpy that is made here, with its kind in signatures; void: of any kind.
+template <typename T> struct Made {
+    nb::object numpy;
+    T *data;
+};
+
+template <typename T> struct Kind;
+#define KIND(type, text, word)                                                                                         \
+    template <> struct Kind<type> {                                                                                    \
+        static constexpr const char *name = text;                                                                      \
+        static constexpr auto signature = nb::detail::const_name(word);                                                \
+    };
+KIND(void, "", "typing.Any")
+KIND(bool, "bool", "numpy.typing.NDArray[numpy.bool_]")
+KIND(int32_t, "int32", "numpy.typing.NDArray[numpy.int32]")
+KIND(int64_t, "int64", "numpy.typing.NDArray[numpy.int64]")
+KIND(float, "float32", "numpy.typing.NDArray[numpy.float32]")
+KIND(double, "float64", "numpy.typing.NDArray[numpy.float64]")
+#undef KIND
+
+template <typename T> struct nb::detail::type_caster<Made<T>> {
+    NB_TYPE_CASTER(Made<T>, Kind<T>::signature)
+    static handle from_cpp(const Made<T> &made, rv_policy, cleanup_list *) noexcept { return made.numpy.inc_ref(); }
+};
 
 namespace {
 
@@ -44,25 +71,23 @@ void find_numpy() {
     if (!numpy_empty) numpy_empty = nb::object(nb::module_::import_("numpy").attr("empty")).release();
 }
 
-struct Array {
-    nb::object numpy;
-    void *data;
-    size_t bytes;
-};
-
-Array array_of(const char *kind, size_t rows, size_t columns = 0) {
+template <typename T> Made<T> made_of(int64_t rows, int64_t columns = 0, const char *kind = Kind<T>::name) {
     nb::object shape = columns > 0 ? nb::object(nb::make_tuple(rows, columns)) : nb::object(nb::int_(rows));
     find_numpy();
     nb::object made = numpy_empty(shape, kind);
     auto view = nb::cast<nb::ndarray<nb::c_contig, nb::device::cpu>>(made);
-    return {made, view.data(), view.nbytes()};
+    return {made, (T *)view.data()};
 }
 
-nb::object copy_of(const void *data, const char *kind, size_t rows, size_t columns = 0) {
-    Array made = array_of(kind, rows, columns);
-    if (made.bytes > 0) std::memcpy(made.data, data, made.bytes);
-    return made.numpy;
+template <typename T> Made<T> copy_of(const T *data, int64_t rows, int64_t columns = 0) {
+    Made<T> made = made_of<T>(rows, columns);
+    size_t bytes = (size_t)(columns > 0 ? rows * columns : rows) * sizeof(T);
+    if (bytes > 0) std::memcpy(made.data, data, bytes);
+    return made;
 }
+
+template <typename Row> auto copied(Row from) { return copy_of(from.data, from.size); }
+auto copied(ConstDoubles2 from) { return copy_of(from.data, from.rows, 3); }
 
 // Text that a message may have cut inside a character.
 nb::object text_of(const char *text) {
@@ -149,7 +174,7 @@ class Decoder : public Shared {
     }
 
     // The next event of a wanted type, or one that nothing follows for now: type, index, count, vertices, faces.
-    nb::tuple next(uint32_t wanted) {
+    auto next(uint32_t wanted) {
         wanted |= 1u << BSMDEC_NEED_DATA | 1u << BSMDEC_END_OF_STREAM;
         bsmdec_event event;
         bsmdec_status status;
@@ -164,7 +189,7 @@ class Decoder : public Shared {
             if (PyErr_CheckSignals() != 0) throw nb::python_error();
             if (status != BSMDEC_OK) raise_error();
         } while (!(wanted >> event.type & 1));
-        return nb::make_tuple((int)event.type, event.index, event.count, event.vertices, event.faces);
+        return std::make_tuple((int)event.type, event.index, event.count, event.vertices, event.faces);
     }
 
     // The next packet; None: it has not come as a whole.
@@ -175,63 +200,66 @@ class Decoder : public Shared {
         return found ? std::optional(packet) : std::nullopt;
     }
 
-    nb::object faces(size_t count) {
-        Array made = array_of("int32", count, 3);
+    auto faces(size_t count) {
+        Made<int32_t> made = made_of<int32_t>((int64_t)count, 3);
         check(unlocked([&] { return bsmdec_faces(decoder, (uint32_t *)made.data, 3 * count); }));
-        return made.numpy;
+        return made;
     }
 
-    nb::object positions(size_t count) {
-        Array made = array_of("float64", count, 3);
-        check(unlocked([&] { return bsmdec_positions(decoder, (double *)made.data, 3 * count); }));
-        return made.numpy;
+    auto positions(size_t count) {
+        Made<double> made = made_of<double>((int64_t)count, 3);
+        check(unlocked([&] { return bsmdec_positions(decoder, made.data, 3 * count); }));
+        return made;
     }
 
-    nb::tuple changes() { return changed_by(bsmdec_read_changes); }
+    auto changes() { return changed_by(bsmdec_read_changes); }
 
-    nb::tuple loose() { return changed_by(bsmdec_read_loose); }
+    auto loose() { return changed_by(bsmdec_read_loose); }
 
-    nb::tuple losses() {
+    auto losses() {
         bsmdec_losses found;
         check(unlocked([&] { return bsmdec_read_losses(decoder, &found); }));
-        return nb::make_tuple(copy_of(found.missing, "int32", (size_t)found.missing_count),
-            copy_of(found.degraded, "int32", (size_t)found.degraded_count));
+        return std::make_tuple(
+            copy_of(found.missing, found.missing_count), copy_of(found.degraded, found.degraded_count));
     }
 
-    nb::tuple metadata(int64_t index) {
+    auto metadata(int64_t index) {
         bsmdec_metadata entry;
         check(unlocked([&] { return bsmdec_metadata_at(decoder, index, &entry); }));
         const char *bytes = (const char *)entry.bytes;
         nb::object value = entry.type == BSMDEC_WHOLE ? nb::object(nb::int_(entry.whole))
             : entry.type == BSMDEC_NUMBER             ? nb::object(nb::float_(entry.number)) : entry.type == BSMDEC_TEXT
             ? nb::object(nb::str(bytes, entry.size)) : nb::object(nb::bytes(bytes, entry.size));
-        return nb::make_tuple(nb::str(entry.name), value);
+        return std::make_tuple(nb::str(entry.name), Made<void>{value, nullptr});
     }
 
     int attribute_count() { return bsmdec_attribute_count(decoder); }
 
     // (name, domain, semantic, values, indices or None, whether it moves); None if it is not whole.
-    nb::object attribute(int index) {
+    std::optional<std::tuple<const char *, int, int, Made<void>, Made<void>, bool>> attribute(int index) {
         bsmdec_attribute shape;
-        if (unlocked([&] { return bsmdec_attribute_at(decoder, index, &shape); }) != BSMDEC_OK) return nb::none();
-        Array made = array_of(KINDS[shape.kind], (size_t)shape.rows, (size_t)shape.components);
-        check(unlocked([&] { return bsmdec_attribute_values(decoder, index, made.data, made.bytes); }));
-        return nb::make_tuple(shape.name, shape.domain, shape.semantic, made.numpy, indices(index, shape),
-            shape.moves != 0);
+        if (unlocked([&] { return bsmdec_attribute_at(decoder, index, &shape); }) != BSMDEC_OK) return std::nullopt;
+        Made<void> made = made_of<void>(shape.rows, shape.components, KINDS[shape.kind]);
+        size_t bytes = (size_t)(shape.rows * shape.components) * bsmdec_kind_size(shape.kind);
+        check(unlocked([&] { return bsmdec_attribute_values(decoder, index, made.data, bytes); }));
+        return std::make_tuple(
+            shape.name, shape.domain, shape.semantic, made, indices(index, shape), shape.moves != 0);
     }
 
     // The part that came last: (name, domain, semantic, indices or None, rows, values).
-    nb::tuple values(int index) {
+    auto values(int index) {
         bsmdec_values found;
         check(unlocked([&] { return bsmdec_read_values(decoder, index, &found); }));
         const bsmdec_attribute &shape = found.attribute;
-        return nb::make_tuple(shape.name, shape.domain, shape.semantic, indices(index, shape),
-            copy_of(found.rows, "int32", (size_t)found.count),
-            copy_of(found.values, KINDS[shape.kind], (size_t)found.count, (size_t)shape.components));
+        Made<void> own = made_of<void>(found.count, shape.components, KINDS[shape.kind]);
+        size_t bytes = (size_t)(found.count * shape.components) * bsmdec_kind_size(shape.kind);
+        if (bytes > 0) std::memcpy(own.data, found.values, bytes);
+        return std::make_tuple(
+            shape.name, shape.domain, shape.semantic, indices(index, shape), copy_of(found.rows, found.count), own);
     }
 
     // The numbers of bitstream/container/header.h by their names there.
-    nb::dict header() {
+    nb::typed<nb::dict, nb::str, double> header() {
         double numbers[MOST_HEADER_NUMBERS];
         const char *const *names;
         int count = unlocked([&] { return decoder_header(decoder, &names, numbers); });
@@ -245,26 +273,25 @@ class Decoder : public Shared {
     }
 
     // The loss of the last LOSS event, as an error.
-    nb::object loss() { return error_of(*bsmdec_last_loss(decoder), given, state()); }
+    Made<void> loss() { return {error_of(*bsmdec_last_loss(decoder), given, state()), nullptr}; }
 
   private:
     bsmdec *decoder;
     nb::object given;
 
-    nb::tuple changed_by(bsmdec_status (*read)(bsmdec *, bsmdec_changes *)) {
+    std::tuple<Made<int32_t>, Made<double>, Made<bool>> changed_by(bsmdec_status (*read)(bsmdec *, bsmdec_changes *)) {
         bsmdec_changes found;
         check(unlocked([&] { return read(decoder, &found); }));
-        size_t count = (size_t)found.count;
-        return nb::make_tuple(copy_of(found.vertices, "int32", count), copy_of(found.positions, "float64", count, 3),
-            copy_of(found.final, "bool", count));
+        return {copy_of(found.vertices, found.count), copy_of(found.positions, found.count, 3),
+            copy_of((const bool *)found.final, found.count)};
     }
 
-    nb::object indices(int index, const bsmdec_attribute &shape) {
-        if (shape.indices == 0) return nb::none();
-        Array made = array_of("int32", (size_t)shape.indices / 3, 3);
+    Made<void> indices(int index, const bsmdec_attribute &shape) {
+        if (shape.indices == 0) return {nb::none(), nullptr};
+        Made<void> made = made_of<void>(shape.indices / 3, 3, "int32");
         check(unlocked(
             [&] { return bsmdec_attribute_indices(decoder, index, (uint32_t *)made.data, (size_t)shape.indices); }));
-        return made.numpy;
+        return made;
     }
 
     [[noreturn]] void raise_error() { raise(error_of(*bsmdec_last_error(decoder), given, state())); }
@@ -296,7 +323,7 @@ class Output {
         raise(error_of(*encoding_error(encoding), limits, DecoderState{}));
     }
 
-    nb::list payloads() const {
+    nb::typed<nb::list, nb::bytes> payloads() const {
         const Writing &written = *encoding_payloads(encoding);
         nb::list all;
         for (int i = 0; i < written.count; i++) {
@@ -310,22 +337,19 @@ class Output {
 };
 
 // The payload of faces, the order of vertices and of faces in it, and the decoded faces (see writing.h).
-nb::tuple faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional<Row<int32_t>> merged) {
+auto faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional<Row<int32_t>> merged) {
     Output output;
-    size_t count = faces.shape(0);
-    Written given = {faces.data(), merged ? merged->data() : nullptr, (int64_t)count,
+    int64_t count = (int64_t)faces.shape(0);
+    Written given = {faces.data(), merged ? merged->data() : nullptr, count,
         merged ? (int64_t)merged->size() : vertices, 1};
-    Array order = array_of("int32", (size_t)vertices), face_order = array_of("int32", count);
-    Array coded = array_of("int32", count, 3);
-    output.run([&] {
-        return encode_faces(output.encoding, given, vertices, (int32_t *)order.data, (int32_t *)face_order.data,
-            (int32_t *)coded.data);
-    });
-    return nb::make_tuple(output.payloads()[0], order.numpy, face_order.numpy, coded.numpy);
+    Made<int32_t> order = made_of<int32_t>(vertices), face_order = made_of<int32_t>(count);
+    Made<int32_t> coded = made_of<int32_t>(count, 3);
+    output.run([&] { return encode_faces(output.encoding, given, vertices, order.data, face_order.data, coded.data); });
+    return std::make_tuple(nb::bytes(output.payloads()[0]), order, face_order, coded);
 }
 
 // The payload of ORDER (see inside.h); a mesh whose vertices are several given ones, or none, has `source`.
-nb::object order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<int32_t> vertices,
+nb::bytes order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<int32_t> vertices,
     Row<int32_t> face_places, std::optional<Row<int32_t>> source, std::optional<Rows<int32_t, 3>> corners,
     std::optional<Rows<double, 3>> loose) {
     size_t count = faces.shape(0);
@@ -340,7 +364,7 @@ nb::object order_to_bytes(Rows<int32_t, 3> faces, Rows<int32_t, 3> coded, Row<in
             corners ? corners->data() : nullptr, loose ? loose->data() : nullptr,
             loose ? (int64_t)loose->shape(0) : 0);
     });
-    return output.payloads()[0];
+    return nb::bytes(output.payloads()[0]);
 }
 
 // A mesh in the order of coding, and the attributes that are carried there (see inside.h).
@@ -354,9 +378,9 @@ class Place : public Shared, Output {
     // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; levels, decoded values, the
     // value of each corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of
     // integers, bits, normals without length, whether others had another length than 1.
-    nb::tuple carry(bool first, const std::string &name,
-        nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu> values, int kind, int domain,
-        int semantic, std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {
+    auto carry(bool first, const std::string &name, nb::object array, int kind, int domain, int semantic,
+        std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {
+        auto values = nb::cast<nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu>>(array);
         if (kind < 0 || kind > 7 || values.itemsize() != bsmdec_kind_size(kind) || values.shape(0) < 1
             || values.shape(1) < 1 || values.shape(1) > 4)
             throw nb::value_error("values are not of this kind");
@@ -374,19 +398,16 @@ class Place : public Shared, Output {
         Whole whole;
         run([&] { return encode_carried(encoding, &given, first, &whole); });
         const Writing &seams = *encoding_payloads(encoding);
-        Array decoded = array_of(KINDS[kind], (size_t)whole.rows, values.shape(1));
+        Made<void> decoded = made_of<void>(whole.rows, (int64_t)values.shape(1), KINDS[kind]);
         carried_values(encoding, decoded.data);
-        nb::list largest, offset;
-        for (int i = 0; i < whole.words; i++) {
-            largest.append(whole.largest[i]);
-            offset.append(whole.offset[i]);
-        }
-        return nb::make_tuple(whole.coding, whole.domain, whole.origin, whole.seams_of,
-            nb::bytes(seams.data, (size_t)seams.size), largest, offset, whole.step,
-            copy_of(whole.levels, "int64", (size_t)whole.rows, (size_t)whole.words), decoded.numpy,
-            whole.faces == nullptr ? nb::none() : copy_of(whole.faces, "int32", (size_t)faces, 3),
-            copy_of(whole.vertices, "int32", (size_t)whole.vertices_count),
-            nb::make_tuple(whole.error, whole.whole_step, whole.bits, whole.zeros, whole.scaled));
+        return std::make_tuple(whole.coding, whole.domain, whole.origin, whole.seams_of,
+            nb::bytes(seams.data, (size_t)seams.size),
+            std::vector<int64_t>(whole.largest, whole.largest + whole.words),
+            std::vector<double>(whole.offset, whole.offset + whole.words), whole.step,
+            copy_of(whole.levels, whole.rows, whole.words), decoded,
+            whole.faces == nullptr ? std::nullopt : std::optional(copy_of(whole.faces, faces, 3)),
+            copy_of(whole.vertices, whole.vertices_count),
+            std::make_tuple(whole.error, whole.whole_step, whole.bits, whole.zeros, whole.scaled));
     }
 
   private:
@@ -394,18 +415,18 @@ class Place : public Shared, Output {
 };
 
 // Positions on a grid: its origin, step and largest places, and the places.
-nb::tuple rounded(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
+auto rounded(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
     if (origin.size() != 3 || positions.shape(0) < 1 || bits < 0 || bits > 20)
         throw nb::value_error("a grid has three axes, and at most 20 bits");
     Output output;
     double grid[7];
-    Array places = array_of("int32", positions.shape(0), 3);
+    Made<int32_t> places = made_of<int32_t>((int64_t)positions.shape(0), 3);
     output.run([&] {
         return encode_rounded(output.encoding, positions.data(), (int64_t)positions.shape(0), bits, cell,
-            origin.data(), grid, (int32_t *)places.data);
+            origin.data(), grid, places.data);
     });
-    return nb::make_tuple(nb::make_tuple(grid[0], grid[1], grid[2]), grid[3],
-        nb::make_tuple((int)grid[4], (int)grid[5], (int)grid[6]), places.numpy);
+    return std::make_tuple(std::make_tuple(grid[0], grid[1], grid[2]), grid[3],
+        std::make_tuple((int)grid[4], (int)grid[5], (int)grid[6]), places);
 }
 
 // Writes or reads the values of one field, chunk after chunk.
@@ -439,22 +460,22 @@ class Field : public Shared, Output {
     }
 
     // The payloads of the next rows.
-    nb::list write(int64_t count) {
+    auto write(int64_t count) {
         code(count, [&](int64_t first) { return encode_chunk(encoding, first, count); });
         return payloads();
     }
 
     // Read the next rows; all values, as far as they are known.
-    nb::object read(nb::bytes payload, int64_t count) {
+    auto read(nb::bytes payload, int64_t count) {
         const uint8_t *data = (const uint8_t *)payload.c_str();
         int64_t size = (int64_t)payload.size();
         code(count, [&](int64_t first) { return decode_chunk(encoding, first, count, data, size); });
-        return copy_of(encoding_values(encoding), "int32", rows(), values.shape(1));
+        return copy_of(encoding_values(encoding), (int64_t)rows(), (int64_t)values.shape(1));
     }
 
-    nb::object order() {
+    auto order() {
         const int32_t *all = encoding_order(encoding);
-        return all == nullptr ? nb::none() : copy_of(all, "int32", rows());
+        return all == nullptr ? std::nullopt : std::optional(copy_of(all, (int64_t)rows()));
     }
 
   private:
@@ -506,25 +527,26 @@ class Chain : public Steps {
         run([&] { return hang_parts(chain, faces, first_frame); });
     }
     // Vertices of the next block, what continues the known ones, and weights in a blend.
-    nb::tuple begin(int64_t index) {
+    auto begin(int64_t index) {
         run([&] { return begin_coded_block(chain, index); });
         const CodedBlock &block = *present_block(chain);
-        return nb::make_tuple(copy(block.vertices), copy(block.continued), copy(block.weights));
+        return std::make_tuple(copied(block.vertices), copied(block.continued), copied(block.weights));
     }
     // Its graph, springs and pulls.
-    nb::tuple site() {
+    auto site() {
         const CodedBlock &block = *present_block(chain);
-        return nb::make_tuple(copy(block.offsets), copy(block.neighbors), copy(block.springs), copy(block.pulls));
+        return std::make_tuple(
+            copied(block.offsets), copied(block.neighbors), copied(block.springs), copied(block.pulls));
     }
-    nb::tuple costs(int64_t width) {
+    auto costs(int64_t width) {
         if (present_block(chain)->vertices.size < 1) throw nb::value_error("no block has begun");
-        return nb::make_tuple(dictionary_work_of(chain, width), block_work_of(chain, width),
+        return std::make_tuple(dictionary_work_of(chain, width), block_work_of(chain, width),
             block_memory_of(chain, width));
     }
-    nb::object dictionary(int64_t width) {
+    auto dictionary(int64_t width) {
         run([&] { return make_coded_dictionary(chain, width); });
         ConstSingles2 made = present_dictionary(chain);
-        return copy_of(made.data, "float32", (size_t)made.rows, (size_t)made.columns);
+        return copy_of(made.data, made.rows, made.columns);
     }
     void give(ConstSingles2 own) {
         run([&] { return give_dictionary(chain, own); });
@@ -534,10 +556,6 @@ class Chain : public Steps {
     }
 
     friend class Part;
-    static nb::object copy(ConstLongs from) { return copy_of(from.data, "int64", (size_t)from.size); }
-    static nb::object copy(ConstInts from) { return copy_of(from.data, "int32", (size_t)from.size); }
-    static nb::object copy(ConstDoubles from) { return copy_of(from.data, "float64", (size_t)from.size); }
-    static nb::object copy(ConstDoubles2 from) { return copy_of(from.data, "float64", (size_t)from.rows, 3); }
 };
 
 // A part of a mesh whose frames move, of a chain that stays, and its dictionary.
@@ -548,8 +566,8 @@ class Part : public Steps {
         part = present_part(chain);
     }
     // Vertices, those around it, columns, and bytes that decoders keep of it and take for making its dictionary.
-    nb::tuple facts() {
-        return nb::make_tuple(Chain::copy(part->vertices), Chain::copy(part->around), part->width, part->memory,
+    auto facts() {
+        return std::make_tuple(copied(part->vertices), copied(part->around), part->width, part->memory,
             part->making);
     }
     void coefficients(ConstDoubles2 values, ConstDoubles2 ends, Doubles2 found) {
@@ -567,23 +585,23 @@ class Part : public Steps {
 class Cut : public Steps {
   public:
     Cut(ConstInts offsets, ConstInts neighbors) : offsets(offsets), neighbors(neighbors) {}
-    nb::object labels(int64_t parts) {
-        Array made = array_of("int32", (size_t)offsets.size - 1);
-        run([&] { return label_graph(chain, offsets, neighbors, parts, {(int32_t *)made.data, offsets.size - 1}); });
-        return made.numpy;
+    auto labels(int64_t parts) {
+        Made<int32_t> made = made_of<int32_t>(offsets.size - 1);
+        run([&] { return label_graph(chain, offsets, neighbors, parts, {made.data, offsets.size - 1}); });
+        return made;
     }
     // Of blocks in the order of their chain: vertices of their parts, where members begin, edges, and members.
-    nb::tuple blocks(ConstInts labels, int64_t parts, int64_t size) {
+    auto blocks(ConstInts labels, int64_t parts, int64_t size) {
         GrownBlocks grown;
         run([&] { return grow_parts(chain, offsets, neighbors, labels, parts, size, &grown); });
-        return nb::make_tuple(Chain::copy(grown.cores), Chain::copy(grown.starts), Chain::copy(grown.edges),
-            Chain::copy(grown.members));
+        return std::make_tuple(copied(grown.cores), copied(grown.starts), copied(grown.edges),
+            copied(grown.members));
     }
     // Vertices of a block in the order of its rows, and the graph among them.
-    nb::tuple rows(ConstInts members) {
+    auto rows(ConstInts members) {
         run([&] { return order_rows(chain, offsets, neighbors, members); });
         const CodedBlock &block = *present_block(chain);
-        return nb::make_tuple(Chain::copy(block.vertices), Chain::copy(block.offsets), Chain::copy(block.neighbors));
+        return std::make_tuple(copied(block.vertices), copied(block.offsets), copied(block.neighbors));
     }
 
   private:
@@ -596,25 +614,15 @@ class Solver : public Steps {
     Solver(ConstInts offsets, ConstInts neighbors, ConstDoubles shift) {
         run([&] { return begin_solver(chain, offsets, neighbors, shift); });
     }
-    nb::object iterate(ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart) {
-        Array made = array_of("float32", (size_t)start.rows, (size_t)start.columns);
-        Singles2 subspace = {(float *)made.data, start.rows, start.columns};
+    auto iterate(ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart) {
+        Made<float> made = made_of<float>(start.rows, start.columns);
+        Singles2 subspace = {made.data, start.rows, start.columns};
         run([&] { return solve_iterations(chain, start, power, iterations, apart, subspace); });
-        return made.numpy;
+        return made;
     }
 };
 
 }  // namespace
-
-// Types of Python in signatures.
-#define SIG(text) nb::sig("def " text)
-#define ARRAY(kind) "numpy.typing.NDArray[numpy." #kind "]"
-#define BYTES ARRAY(uint8)
-#define INTS ARRAY(int32)
-#define LONGS ARRAY(int64)
-#define SINGLES ARRAY(float32)
-#define DOUBLES ARRAY(float64)
-#define CHANGES "tuple[" INTS ", " DOUBLES ", " ARRAY(bool_) "]"
 
 // The kernels of each room (kernels.cpp there).
 void bind_bitstream(nb::module_ &m);
@@ -628,37 +636,26 @@ NB_MODULE(_core, m) {
     bind_bitstream(bitstream);
     bind_codec(codec);
     bind_bsm(m);
-    m.def("write_faces", faces_to_bytes, "faces"_a, "vertices"_a, "merged"_a.none() = nb::none(),
-        SIG("write_faces(faces: " INTS ", vertices: int, merged: " INTS " | None = None) -> tuple[bytes, " INTS ", "
-            INTS ", " INTS "]"));
+    m.def("write_faces", faces_to_bytes, "faces"_a, "vertices"_a, "merged"_a.none() = nb::none());
     m.def("write_order", order_to_bytes, "faces"_a, "coded"_a, "vertices"_a, "face_places"_a,
-        "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none(),
-        SIG("write_order(faces: " INTS ", coded: " INTS ", vertices: " INTS ", face_places: " INTS ", source: " INTS
-            " | None = None, corners: " INTS " | None = None, loose: " DOUBLES " | None = None) -> bytes"));
-    m.def("rounded", rounded, "positions"_a, "bits"_a, "cell"_a, "origin"_a,
-        SIG("rounded(positions: " DOUBLES ", bits: int, cell: float, origin: " DOUBLES
-            ") -> tuple[tuple[float, float, float], float, tuple[int, int, int], " INTS "]"));
+        "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none());
+    m.def("rounded", rounded, "positions"_a, "bits"_a, "cell"_a, "origin"_a);
     nb::class_<Place>(m, "Place")
         .def(nb::init<ConstInts2, ConstInts, ConstInts, ConstInts, ConstBytes, ConstInts2, int64_t, bool>(), "given"_a,
             "index"_a, "kept"_a, "face_order"_a, "turns"_a, "faces"_a, "vertices"_a, "keeps"_a, nb::keep_alive<1, 2>(),
             nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
             nb::keep_alive<1, 7>())
         .def("carry", in_turn(&Place::carry), "first"_a, "name"_a, "values"_a, "kind"_a, "domain"_a, "semantic"_a,
-            "indices"_a.none(), "quality"_a, "amount"_a,
-            SIG("carry(self, first: bool, name: str, values: typing.Any, kind: int, domain: int, semantic: int, "
-                "indices: " INTS " | None, quality: int, amount: float) -> tuple[int, int, int, int, bytes, "
-                "list[int], list[float], float, " LONGS ", typing.Any, " INTS " | None, " INTS
-                ", tuple[float, float, int, int, bool]]"));
+            "indices"_a.none(), "quality"_a, "amount"_a);
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
             "transforms"_a.none() = nb::none())
         .def("levels", in_turn(&Field::levels))
         .def("attribute", in_turn(&Field::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
-        .def("write", in_turn(&Field::write), "count"_a, SIG("write(self, count: int) -> list[bytes]"))
-        .def("read", in_turn(&Field::read), "payload"_a, "count"_a,
-            SIG("read(self, payload: bytes, count: int) -> " INTS))
-        .def_prop_ro("order", in_turn(&Field::order), SIG("order(self) -> typing.Any"));
+        .def("write", in_turn(&Field::write), "count"_a)
+        .def("read", in_turn(&Field::read), "payload"_a, "count"_a)
+        .def_prop_ro("order", in_turn(&Field::order));
     m.def("gop_memory", &memory_of_gop, "method"_a, "frames"_a, "fields"_a, "vertices"_a, "around"_a);
     nb::class_<Chain>(m, "Chain")
         .def(nb::init<ConstInts, ConstInts, ConstInts, ConstLongs, ConstLongs, ConstInts, bool, bool, int, int, int,
@@ -668,41 +665,33 @@ NB_MODULE(_core, m) {
             "shift"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
             nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
         .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a)
-        .def("begin", in_turn(&Chain::begin), "index"_a,
-            SIG("begin(self, index: int) -> tuple[" INTS ", " DOUBLES ", " DOUBLES "]"))
-        .def("site", in_turn(&Chain::site), SIG("site(self) -> tuple[" INTS ", " INTS ", " DOUBLES ", " DOUBLES "]"))
-        .def("costs", in_turn(&Chain::costs), "width"_a, SIG("costs(self, width: int) -> tuple[float, float, float]"))
-        .def("dictionary", in_turn(&Chain::dictionary), "width"_a, SIG("dictionary(self, width: int) -> " SINGLES))
-        .def("give", in_turn(&Chain::give), "own"_a, SIG("give(self, own: " SINGLES ") -> None"))
-        .def("commit", in_turn(&Chain::commit), "width"_a, "positions"_a,
-            SIG("commit(self, width: int, positions: " DOUBLES ") -> None"));
+        .def("begin", in_turn(&Chain::begin), "index"_a)
+        .def("site", in_turn(&Chain::site))
+        .def("costs", in_turn(&Chain::costs), "width"_a)
+        .def("dictionary", in_turn(&Chain::dictionary), "width"_a)
+        .def("give", in_turn(&Chain::give), "own"_a)
+        .def("commit", in_turn(&Chain::commit), "width"_a, "positions"_a);
     nb::class_<Part>(m, "Part")
         .def(nb::init<const Chain &, int64_t>(), "whole"_a, "index"_a, nb::keep_alive<1, 2>())
-        .def("facts", in_turn(&Part::facts),
-            SIG("facts(self) -> tuple[" INTS ", " INTS ", int, float, float]"))
+        .def("facts", in_turn(&Part::facts))
         .def("coefficients", in_turn(&Part::coefficients), "values"_a, "ends"_a, "found"_a)
         .def("values", in_turn(&Part::values), "coefficients"_a, "ends"_a, "found"_a);
     nb::class_<Cut>(m, "Cut")
         .def(nb::init<ConstInts, ConstInts>(), "offsets"_a, "neighbors"_a, nb::keep_alive<1, 2>(),
             nb::keep_alive<1, 3>())
-        .def("labels", in_turn(&Cut::labels), "parts"_a, SIG("labels(self, parts: int) -> " INTS))
-        .def("blocks", in_turn(&Cut::blocks), "labels"_a, "parts"_a, "size"_a,
-            SIG("blocks(self, labels: " INTS ", parts: int, size: int) -> tuple[" INTS ", " LONGS ", " LONGS ", " INTS
-                "]"))
-        .def("rows", in_turn(&Cut::rows), "members"_a,
-            SIG("rows(self, members: " INTS ") -> tuple[" INTS ", " INTS ", " INTS "]"));
+        .def("labels", in_turn(&Cut::labels), "parts"_a)
+        .def("blocks", in_turn(&Cut::blocks), "labels"_a, "parts"_a, "size"_a)
+        .def("rows", in_turn(&Cut::rows), "members"_a);
     nb::class_<Solver>(m, "Solver")
         .def(nb::init<ConstInts, ConstInts, ConstDoubles>(), "offsets"_a, "neighbors"_a, "shift"_a,
             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
-        .def("iterate", in_turn(&Solver::iterate), "start"_a, "power"_a, "iterations"_a, "apart"_a = 0,
-            SIG("iterate(self, start: " SINGLES ", power: int, iterations: int, apart: int = 0) -> " SINGLES));
+        .def("iterate", in_turn(&Solver::iterate), "start"_a, "power"_a, "iterations"_a, "apart"_a = 0);
     nb::class_<DecoderState>(m, "DecoderState")
 #define NUMBER(name) .def_ro(#name, &DecoderState::name)
         NUMBER(offset) NUMBER(vertices) NUMBER(shown) NUMBER(present) NUMBER(work) NUMBER(received) NUMBER(memory);
 #undef NUMBER
     nb::class_<SkimmedPacket>(m, "SkimmedPacket")
-        .def_prop_ro("name", [](const SkimmedPacket &packet) { return text_of(packet.name); },
-            SIG("name(self) -> str"))
+        .def_prop_ro("name", [](const SkimmedPacket &packet) { return nb::str(text_of(packet.name)); })
 #define NUMBER(name) .def_ro(#name, &SkimmedPacket::name)
         NUMBER(type) NUMBER(offset) NUMBER(length) NUMBER(payload) NUMBER(data) NUMBER(index) NUMBER(count)
         NUMBER(entries) NUMBER(version) NUMBER(positions) NUMBER(begins) NUMBER(domain) NUMBER(semantic) NUMBER(kind)
@@ -713,22 +702,18 @@ NB_MODULE(_core, m) {
             "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)
         .def("push", in_turn(&Decoder::push), "bytes"_a)
         .def("finish", in_turn(&Decoder::finish))
-        .def("next", in_turn(&Decoder::next), "wanted"_a,
-            SIG("next(self, wanted: int) -> tuple[int, int, int, int, int]"))
+        .def("next", in_turn(&Decoder::next), "wanted"_a)
         .def("skim", in_turn(&Decoder::skim))
-        .def("faces", in_turn(&Decoder::faces), "count"_a, SIG("faces(self, count: int) -> " INTS))
-        .def("positions", in_turn(&Decoder::positions), "count"_a, SIG("positions(self, count: int) -> " DOUBLES))
-        .def("changes", in_turn(&Decoder::changes), SIG("changes(self) -> " CHANGES))
-        .def("loose", in_turn(&Decoder::loose), SIG("loose(self) -> " CHANGES))
-        .def("losses", in_turn(&Decoder::losses), SIG("losses(self) -> tuple[" INTS ", " INTS "]"))
-        .def("metadata", in_turn(&Decoder::metadata), "index"_a,
-            SIG("metadata(self, index: int) -> tuple[str, typing.Any]"))
+        .def("faces", in_turn(&Decoder::faces), "count"_a)
+        .def("positions", in_turn(&Decoder::positions), "count"_a)
+        .def("changes", in_turn(&Decoder::changes))
+        .def("loose", in_turn(&Decoder::loose))
+        .def("losses", in_turn(&Decoder::losses))
+        .def("metadata", in_turn(&Decoder::metadata), "index"_a)
         .def("attribute_count", in_turn(&Decoder::attribute_count))
-        .def("attribute", in_turn(&Decoder::attribute), "index"_a,
-            SIG("attribute(self, index: int) -> tuple[str, int, int, typing.Any, typing.Any, bool] | None"))
-        .def("values", in_turn(&Decoder::values), "index"_a,
-            SIG("values(self, index: int) -> tuple[str, int, int, typing.Any, " INTS ", typing.Any]"))
-        .def("header", in_turn(&Decoder::header), SIG("header(self) -> dict[str, float]"))
+        .def("attribute", in_turn(&Decoder::attribute), "index"_a)
+        .def("values", in_turn(&Decoder::values), "index"_a)
+        .def("header", in_turn(&Decoder::header))
         .def("state", in_turn(&Decoder::state))
-        .def("loss", in_turn(&Decoder::loss), SIG("loss(self) -> typing.Any"));
+        .def("loss", in_turn(&Decoder::loss));
 }
