@@ -62,9 +62,10 @@ bool fail_with(Context *context, bsmdec_status status, Message message) {
     (void)message;
 #else
     write_message(error->message, sizeof error->message, message);
+    error->limit = status == BSMDEC_LIMIT ? message.name : NULL;
+    error->value = (double)message.a;
 #endif
     error->status = status;
-    error->limit = NULL;
     error->offset = error->frame = error->block = -1;
     return false;
 }
@@ -155,12 +156,8 @@ void *find_zeros(Arena *arena, int64_t count, size_t size) {
 
 bool within_limit(Context *context, const char *name, double value, double limit) {
     if (!(value > limit)) return true;
-    if (failed(context)) return false;
-    FAIL(context, LIMIT, "$ = # is over the limit of #", (int64_t)(value < 9e18 ? value : 9e18),
+    return FAIL(context, LIMIT, "$ = # is over the limit of #", (int64_t)(value < 9e18 ? value : 9e18),
         (int64_t)(limit < 9e18 ? limit : 9e18), 0, name);
-    context->error.limit = name;
-    context->error.value = value;
-    return false;
 }
 
 static double lesser(double a, double b) { return a < b ? a : b; }

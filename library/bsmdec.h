@@ -73,7 +73,7 @@ typedef struct {
     int64_t block;     /* block of the mesh */
     char message[160]; /* a sentence in English, ends with 0 */
     const char *limit; /* the member of bsmdec_limits that is too small, valid for ever; NULL: none, or not known */
-    double value;      /* needed by the stream */
+    double value;      /* of it that the stream needs */
 } bsmdec_error;
 
 /* "1.0.0". The pointers of the next two functions are valid for ever. */

@@ -415,7 +415,7 @@ class Place : public Shared, Output {
 };
 
 // Positions on a grid: its origin, step and largest places, and the places.
-auto rounded(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
+auto places_on_grid(Rows<double, 3> positions, int bits, double cell, Row<double> origin) {
     if (origin.size() != 3 || positions.shape(0) < 1 || bits < 0 || bits > 20)
         throw nb::value_error("a grid has three axes, and at most 20 bits");
     Output output;
@@ -639,7 +639,7 @@ NB_MODULE(_core, m) {
     m.def("write_faces", faces_to_bytes, "faces"_a, "vertices"_a, "merged"_a.none() = nb::none());
     m.def("write_order", order_to_bytes, "faces"_a, "coded"_a, "vertices"_a, "face_places"_a,
         "source"_a.none() = nb::none(), "corners"_a.none() = nb::none(), "loose"_a.none() = nb::none());
-    m.def("rounded", rounded, "positions"_a, "bits"_a, "cell"_a, "origin"_a);
+    m.def("rounded", places_on_grid, "positions"_a, "bits"_a, "cell"_a, "origin"_a);
     nb::class_<Place>(m, "Place")
         .def(nb::init<ConstInts2, ConstInts, ConstInts, ConstInts, ConstBytes, ConstInts2, int64_t, bool>(), "given"_a,
             "index"_a, "kept"_a, "face_order"_a, "turns"_a, "faces"_a, "vertices"_a, "keeps"_a, nb::keep_alive<1, 2>(),

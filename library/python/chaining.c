@@ -34,17 +34,26 @@ void close_chain(CodedChain *chain) {
 const CodedBlock *present_block(const CodedChain *chain) { return &chain->shown; }
 ConstSingles2 present_dictionary(const CodedChain *chain) { return const_singles2(chain->dictionary); }
 
-static bool are_within(ConstInts numbers, int64_t bound) {
-    bool within = true;
-    for (int64_t i = 0; within && i < numbers.size; i++) within = numbers.data[i] >= 0 && numbers.data[i] < bound;
-    return within;
+bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bound) {
+    for (int64_t i = 0; i < count; i++)
+        if (numbers[i] < least || numbers[i] >= bound) return false;
+    return true;
+}
+
+bool are_all_there(Writer *writer, const int32_t *numbers, int64_t count, int64_t bound) {
+    Bytes there;
+    int64_t missing = bound;
+    if (!zero_bytes(&writer->scratch, bound, &there)) return false;
+    for (int64_t i = 0; i < count; i++)
+        if (numbers[i] >= 0 && !there.data[numbers[i]]) there.data[numbers[i]] = 1, missing--;
+    return missing == 0;
 }
 
 static bool is_graph(ConstInts offsets, ConstInts neighbors) {
     int64_t n = offsets.size - 1;
     bool fits = n > 0 && offsets.data[0] == 0 && offsets.data[n] == neighbors.size;
     for (int64_t v = 0; fits && v < n; v++) fits = offsets.data[v] <= offsets.data[v + 1];
-    return fits && are_within(neighbors, n);
+    return fits && are_below(neighbors.data, neighbors.size, 0, n);
 }
 
 static bool take_graph(CodedChain *chain, ConstInts offsets, ConstInts neighbors) {
@@ -66,11 +75,8 @@ bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, Const
     Header header = {.blocks = parts, .block_size = size};
     if (!take_graph(chain, offsets, neighbors)) return false;
     bool fits = labels.size == chain->graph.size && parts > 0 && parts <= labels.size && size > 0
-        && are_within(labels, parts);
-    Bytes there;
-    if (!zero_bytes(&writer->scratch, fits ? parts : 0, &there)) return false;
-    for (int64_t v = 0; fits && v < labels.size; v++) there.data[labels.data[v]] = 1;
-    for (int64_t p = 0; fits && p < parts; p++) fits = there.data[p];
+        && are_below(labels.data, labels.size, 0, parts)
+        && are_all_there(writer, labels.data, labels.size, parts);
     if (!fits) return FAIL(&writer->context, MISUSED, "labels do not fit the graph, or a part is empty");
     if (!make_blocks(&writer->context, &header, &chain->graph, (Ints){(int32_t *)labels.data, labels.size},
             &writer->arena, &writer->scratch, &blocks))
@@ -83,7 +89,7 @@ bool grow_parts(CodedChain *chain, ConstInts offsets, ConstInts neighbors, Const
 bool order_rows(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstInts members) {
     Patch patch;
     if (!take_graph(chain, offsets, neighbors)) return false;
-    if (members.size < 1 || !are_within(members, chain->graph.size))
+    if (members.size < 1 || !are_below(members.data, members.size, 0, chain->graph.size))
         return FAIL(&chain->writer->context, MISUSED, "members of a block do not fit the graph");
     if (!order_patch(&chain->graph, members, &chain->writer->scratch, &patch)) return false;
     chain->shown = (CodedBlock){.vertices = patch.vertices, .offsets = patch.offsets, .neighbors = patch.neighbors};
@@ -100,7 +106,8 @@ bool begin_coded_chain(CodedChain *chain, ChainRules rules, ConstInts offsets, C
         && rules.apart >= 0 && rules.key_interval >= 0;
     for (int64_t i = 0; fits && i < count; i++)
         fits = cores.data[i] > 0 && starts.data[i] + cores.data[i] <= starts.data[i + 1];
-    if (!fits || !are_within(members, n)) return FAIL(context, MISUSED, "blocks do not fit their graph");
+    if (!fits || !are_below(members.data, members.size, 0, n))
+        return FAIL(context, MISUSED, "blocks do not fit their graph");
     chain->graph = (Graph){n, offsets, neighbors};
     /* Only read. */
     chain->blocks = (Blocks){.count = count, .cores = {(int32_t *)cores.data, count},
@@ -205,8 +212,8 @@ bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 position
 
 bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame) {
     Writer *writer = chain->writer;
-    bool fits = first_frame.rows == chain->graph.size && first_frame.columns == 3 && faces.columns == 3;
-    for (int64_t i = 0; fits && i < 3 * faces.rows; i++) fits = faces.data[i] >= 0 && faces.data[i] < first_frame.rows;
+    bool fits = first_frame.rows == chain->graph.size && first_frame.columns == 3 && faces.columns == 3
+        && are_below(faces.data, 3 * faces.rows, 0, first_frame.rows);
     if (!fits) return FAIL(&writer->context, MISUSED, "the first frame does not fit the graph");
     chain->parts = (Parts){.context = &writer->context, .header = &chain->header, .graph = &chain->graph,
         .blocks = &chain->blocks, .arena = &writer->arena};

@@ -7,6 +7,9 @@
 /* One chain after the other, a part, or a graph alone: of an encoding, which has its errors. */
 typedef struct CodedChain CodedChain;
 struct Writer;
+/* Whether numbers are from `least` to below `bound`; whether each of those below it is among them. */
+bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bound);
+bool are_all_there(struct Writer *writer, const int32_t *numbers, int64_t count, int64_t bound);
 CodedChain *open_chain(struct Writer *writer);
 void close_chain(CodedChain *chain);
 

@@ -95,22 +95,6 @@ bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *
         && write_faces(&encoding->writer, given, vertices, &encoding->payloads, order, face_order, faces);
 }
 
-static bool are_below(const int32_t *numbers, int64_t count, int64_t least, int64_t bound) {
-    for (int64_t i = 0; i < count; i++)
-        if (numbers[i] < least || numbers[i] >= bound) return false;
-    return true;
-}
-
-/* Whether each number below `bound` is there. */
-static bool are_all_there(Arena *scratch, const int32_t *numbers, int64_t count, int64_t bound) {
-    Bytes there;
-    int64_t missing = bound;
-    if (!zero_bytes(scratch, bound, &there)) return false;
-    for (int64_t i = 0; i < count; i++)
-        if (numbers[i] >= 0 && !there.data[numbers[i]]) there.data[numbers[i]] = 1, missing--;
-    return missing == 0;
-}
-
 bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
     const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count) {
     Writer *writer = &encoding->writer;
@@ -121,8 +105,8 @@ bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, co
     bool fits = are_below(given.faces, 3 * m, 0, n) && are_below(given.values, 3 * m, 0, n)
         && are_below(vertices, n, 0, n) && are_below(face_places, m, 0, m) && are_below(source, sources, -1, n)
         && unused == loose_count && (sources == 0 || are_below(corners, 3 * m, 0, sources))
-        && are_all_there(&writer->scratch, vertices, n, n) && are_all_there(&writer->scratch, face_places, m, m)
-        && (sources == 0 || are_all_there(&writer->scratch, source, sources, n));
+        && are_all_there(writer, vertices, n, n) && are_all_there(writer, face_places, m, m)
+        && (sources == 0 || are_all_there(writer, source, sources, n));
     for (int64_t i = 0; fits && sources > 0 && i < 3 * m; i++) fits = source[corners[i]] >= 0;
     if (!fits) return FAIL(&writer->context, MISUSED, "orders of vertices and faces do not fit together");
     Buffer section = {.context = &writer->context};
