@@ -8,10 +8,11 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from typing import TYPE_CHECKING, TypeVar
 
+from bsm.bitstream.once import cached_property
 from bsm.codec.choices import checked_whole
 
 if TYPE_CHECKING:
-    from concurrent.futures import Future
+    from concurrent.futures import Future, ThreadPoolExecutor
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -47,3 +48,35 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
             yield pending.popleft().result()
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+class Crew:
+    """The caller's thread and others, which wait for short pieces of work until the crew is forgotten."""
+
+    def __init__(self, threads: int | None) -> None:
+        self._helpers = threads_of(threads) - 1
+
+    def map(self, work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+        """`list(map(work, items))`."""
+        given, results = list(items), dict[int, Result]()
+        rest = iter(range(len(given)))
+
+        def help_out() -> None:
+            for at in rest:
+                results[at] = work(given[at])
+
+        helping = [self._pool.submit(help_out) for _ in range(min(self._helpers, len(given) - 1))]
+        try:
+            help_out()
+        finally:
+            deque(rest, 0)  # after an error, nothing else begins
+            for helper in helping:
+                if not helper.cancel():
+                    helper.result()
+        return [results[at] for at in range(len(given))]
+
+    @cached_property
+    def _pool(self) -> ThreadPoolExecutor:
+        from concurrent.futures import ThreadPoolExecutor
+
+        return ThreadPoolExecutor(self._helpers)

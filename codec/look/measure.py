@@ -30,7 +30,7 @@ from bsm.codec.look.pictures import (
     checker_steepness,
     difference,
 )
-from bsm.codec.threads import Result, ordered_map
+from bsm.codec.threads import Crew, Result
 
 UNLIKE, POWER = 0.0155, 4.0 / 3.0  # `Look.unlike` at distance 1, and its power: twice a step is about twice as far
 GONE, GONE_POWER = 0.08, 2.0  # the same of `Look.gone`
@@ -97,7 +97,7 @@ class LookMetric:
     """Pictures of an original, and versions of it: with its own normals if it has some."""
 
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
-        self._mesh, self._threads = mesh, threads
+        self._mesh, self._crew = mesh, Crew(threads)
         # Encoders leave out faces with two corners at one position, so that these may not count here, either.
         faces = mesh.faces[_with_three_places(mesh)]
         used = mesh.positions[np.bincount(faces.ravel(), minlength=len(mesh.positions)) > 0]
@@ -178,7 +178,7 @@ class LookMetric:
 
         def seen(canvas: Canvas, side: int) -> tuple[Matrix, float]:
             original = pictures.picture(canvas, side)
-            picture = canvas.draw(placed, self._shape.faces, normals, self._cameras[side])
+            picture = canvas.draw(placed, self._shape.faces, normals, self._cameras[side], owned=True)
             shown = canvas.owner[canvas.owner >= 0]
             return difference(original, picture), float(turned[shown].mean()) if len(shown) else 0.0
 
@@ -261,7 +261,7 @@ class LookMetric:
             self._idle.append(canvas)
             return result
 
-        return list(ordered_map(done, sides, self._threads))
+        return self._crew.map(done, sides)
 
     def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
         """From all sides."""
@@ -317,7 +317,7 @@ class AttributeLook:
         normals = Shape.of(placed, faces).normals(placed)
 
         def drawn(canvas: Canvas, side: int) -> list[Picture]:
-            canvas.draw(placed, faces, normals, metric._cameras[side])
+            canvas.draw(placed, faces, normals, metric._cameras[side], owned=True)
             return paint(canvas, faces, values)
 
         return metric._each(drawn, metric._sides)

@@ -10,7 +10,7 @@ from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, decode, encode
 from bsm._core import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
-from bsm.codec.threads import ordered_map
+from bsm.codec.threads import Crew, ordered_map
 from bsm.options import encode_options
 from tests.shapes import patch
 
@@ -43,6 +43,57 @@ def test_errors_come_where_their_result_would(threads):
     assert [next(results) for _ in range(3)] == [0, 1, 2]
     with pytest.raises(ValueError, match="three"):
         next(results)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_a_crew_returns_results_in_order_again_and_again(threads):
+    crew, workers = Crew(threads), set()
+
+    def work(number):
+        workers.add(threading.get_ident())
+        time.sleep(0.002 * (number % 3))
+        return number * number
+
+    for count in (0, 1, 2, 20, 7):
+        assert crew.map(work, range(count)) == [n * n for n in range(count)]
+    assert len(workers) <= threads
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt, MemoryError])
+def test_an_error_ends_the_work_of_a_crew_which_can_work_again(threads, error):
+    crew, done = Crew(threads), []
+
+    def work(number):
+        if number == 3:
+            raise error
+        done.append(number)
+
+    with pytest.raises(error):
+        crew.map(work, range(1000))
+    ended = len(done)
+    assert crew.map(abs, range(-9, 0)) == list(range(9, 0, -1))
+    assert len(done) == ended < 1000
+
+
+def test_a_crew_that_is_forgotten_leaves_no_threads():
+    crew, workers = Crew(3), set()
+
+    def work(number):
+        workers.add(threading.current_thread())
+        time.sleep(0.002)
+
+    crew.map(work, range(9))
+    del crew
+    for thread in workers - {threading.current_thread()}:
+        thread.join(60)
+        assert not thread.is_alive()
+
+
+@pytest.mark.parametrize("size", [5, 9, 30])
+def test_threads_do_not_change_the_smallest_stream(size):
+    mesh = patch(size, size)
+    assert len({encode(mesh, encode_options(threads=threads)) for threads in (1, 2, 7)}) == 1
 
 
 @pytest.mark.parametrize("start", ["cosines", "svd"])
