@@ -37,7 +37,7 @@ void bind_codec(nb::module_ &m) {
     m.def("shown_normals", checked<&shown_normals>, "positions"_a, "faces"_a, "joined"_a, "starts"_a, "around"_a,
           "cosine"_a, "half"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
     m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,
-          "away"_a, "depth"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
+          "away"_a, "depth"_a, "farthest"_a, "picture"_a, "owner"_a, "drawn"_a, Unlocked());
     m.def("paint_colors", checked<&paint_colors>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "picture"_a,
           "painted"_a, Unlocked());
     m.def("paint_checker", checked<&paint_checker>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "steepness"_a,

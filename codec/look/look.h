@@ -17,7 +17,7 @@ int64_t contrast(ConstSingles2 first, ConstSingles2 second, ConstSingles half, d
 int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts,
     ConstInts around, double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals);
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-    Doubles2 placed, Ints away, Singles2 depth, Singles2 farthest, Singles2 picture, Ints2 owner);
+    Doubles2 placed, Ints away, Singles2 depth, Singles2 farthest, Singles2 picture, Ints2 owner, Ints drawn);
 int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
     ConstSingles2 picture, Singles2 painted);
 int64_t paint_checker(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,

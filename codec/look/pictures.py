@@ -74,15 +74,18 @@ class Canvas:
 
     def __init__(self, samples: int) -> None:
         self.samples, self._depth = (np.empty((samples, samples), np.float32) for _ in "12")
-        self.owner = np.empty((samples, samples), np.int32)
+        self.owner, self._drawn = np.empty((0, samples), np.int32), np.array([0, samples, 0, samples], np.int32)
         self._tiles = np.empty((-(-samples // _TILE),) * 2, np.float32)
         self._placed = np.empty((0, 3))
 
-    def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix) -> Picture:
-        """Draw a mesh, lit alike on both sides of its faces; `owner` is the face that each sample shows, or -1."""
+    def draw(
+        self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix, owned: bool = False
+    ) -> Picture:
+        """Draw a mesh, lit alike on both sides; if `owned`, `owner` is the face that each sample shows, or -1."""
         self._placed = np.empty(positions.shape)
+        self.owner = np.empty(self.samples.shape if owned else (0, 0), np.int32)
         room = self._placed, np.empty(len(faces), np.int32), self._depth, self._tiles
-        _kernels.draw_shaded(positions, faces, normals, camera, *room, self.samples, self.owner)
+        _kernels.draw_shaded(positions, faces, normals, camera, *room, self.samples, self.owner, self._drawn)
         return averaged(self.samples)
 
     def in_colors(self, faces: Faces, colors: Matrix) -> list[Picture]:

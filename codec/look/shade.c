@@ -4,6 +4,7 @@
 #define AMBIENT 0.12f
 #define DIFFUSE 0.78f
 #define DARK 1e-24f /* the squared length of a normal that is none */
+#define FAR 1e6     /* a place in samples, within which sums are exact to far less than one */
 #define BACKGROUND 1.0f
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
 #define SAMPLE 4096 /* faces that tell which half is ahead */
@@ -204,7 +205,7 @@ INLINE void draw_pixel(const Plane *plane, int64_t row, int64_t column, Canvas o
     if (!(z >= *depth)) return;
     float shade = shade_at(plane, s, r);
     if (!(z > *depth || shade > *picture)) return;
-    on.owner.data[row * on.picture.columns + column] = plane->number;
+    if (on.owner.rows) on.owner.data[row * on.picture.columns + column] = plane->number;
     *depth = z;
     *picture = shade;
 }
@@ -257,7 +258,7 @@ INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t i
     facing = (EightSingles)((EightInts)facing & INT32_MAX);
     EightSingles shades = AMBIENT + DIFFUSE * (facing / length);
     seen &= (z > before) | (shades > *(const UnalignedSingles *)(on.picture.data + pixel));
-    keep(seen, (EightInts){0} + plane->number, on.owner.data + pixel);
+    if (on.owner.rows) keep(seen, (EightInts){0} + plane->number, on.owner.data + pixel);
     keep(seen, (EightInts)z, on.depth.data + pixel);
     keep(seen, (EightInts)shades, on.picture.data + pixel);
 }
@@ -304,10 +305,10 @@ INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on
     }
 }
 
-/* The farthest depth in each tile. */
-INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
-    for (int64_t row = 0; row < farthest.rows; row++)
-        for (int64_t column = 0; column < farthest.columns; column++) {
+/* The farthest depth in each tile that has any of `drawn`. */
+INLINE void find_farthest(Singles2 depth, const int32_t *drawn, Singles2 farthest) {
+    for (int64_t row = drawn[0] / TILE; TILE * row < drawn[1]; row++)
+        for (int64_t column = drawn[2] / TILE; TILE * column < drawn[3]; column++) {
             /* The last ones are whole, too, and so overlap. */
             int64_t top = least(TILE * row, depth.rows - TILE), left = least(TILE * column, depth.columns - TILE);
             const float *depths = depth.data + top * depth.columns + left;
@@ -325,31 +326,43 @@ INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
 
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of
  * faces at one depth, the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` for a
- * picture, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1.
+ * picture, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1, if it has any
+ * rows. Outside of `drawn` (its first row, the one after its last, and columns), `depth` and `picture` are empty.
  *
  * Of a closed surface one half faces the camera, and hides the other: that half comes first, and most of the other one
  * need not be drawn. */
 KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
                            Doubles2 placed, Ints away, Singles2 depth, Singles2 farthest, Singles2 picture,
-                           Ints2 owner) {
+                           Ints2 owner, Ints drawn) {
     int64_t pixels = picture.rows * picture.columns;
     if (positions.columns != 3 || placed.columns != 3 || placed.rows < positions.rows || faces.columns != 3 ||
         away.size < faces.rows || normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA ||
-        faces.rows > INT32_MAX || owner.rows * owner.columns < pixels || depth.rows != picture.rows ||
+        faces.rows > INT32_MAX || (owner.rows && owner.rows * owner.columns < pixels) || depth.rows != picture.rows ||
         depth.columns != picture.columns || picture.rows < TILE || picture.columns < TILE ||
-        farthest.rows * TILE < picture.rows || farthest.columns * TILE < picture.columns)
+        farthest.rows * TILE < picture.rows || farthest.columns * TILE < picture.columns || drawn.size != 4 ||
+        drawn.data[0] < 0 || drawn.data[1] > picture.rows || drawn.data[2] < 0 || drawn.data[3] > picture.columns)
         return MISUSED;
     if (!all_below(faces.data, 3 * faces.rows, positions.rows)) return MISUSED;
     const double *m = camera.data;
+    double low[3] = {FAR, FAR, FAR}, high[3] = {-FAR, -FAR, -FAR};
     for (int64_t v = 0; v < positions.rows; v++) {
         const double *p = positions.data + 3 * v;
-        for (int d = 0; d < 3; d++)
-            placed.data[3 * v + d] = m[4 * d] * p[0] + m[4 * d + 1] * p[1] + m[4 * d + 2] * p[2] + m[4 * d + 3];
+        for (int d = 0; d < 3; d++) {
+            double at = m[4 * d] * p[0] + m[4 * d + 1] * p[1] + m[4 * d + 2] * p[2] + m[4 * d + 3];
+            placed.data[3 * v + d] = at, low[d] = lower(low[d], at), high[d] = higher(high[d], at);
+        }
     }
-    for (int64_t i = 0; i < pixels; i++) {
-        depth.data[i] = -__FLT_MAX__;
-        picture.data[i] = BACKGROUND;
-        owner.data[i] = -1;
+    for (int64_t row = drawn.data[0]; row < drawn.data[1]; row++)
+        for (int64_t i = row * picture.columns + drawn.data[2]; i < row * picture.columns + drawn.data[3]; i++) {
+            depth.data[i] = -__FLT_MAX__;
+            picture.data[i] = BACKGROUND;
+        }
+    for (int64_t i = 0; i < (owner.rows ? pixels : 0); i++) owner.data[i] = -1;
+    for (int d = 0; d < 2; d++) {
+        double size = (double)(d ? picture.rows : picture.columns);
+        bool near = low[d] > -FAR && high[d] < FAR;
+        drawn.data[2 - 2 * d] = near ? (int32_t)clamped(low[d] - 1.0, size) : 0;
+        drawn.data[3 - 2 * d] = near ? (int32_t)clamped(high[d] + 2.0, size) : (int32_t)size;
     }
     Model model = {placed.data, faces.data, normals.data, m + 12};
     double ahead = 0.0;
@@ -363,7 +376,7 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
     int64_t count = 0, others = 0;
     for (int pass = 0; pass < 2; pass++) {
         int64_t total = pass ? others : faces.rows;
-        if (pass) find_farthest(depth, farthest);
+        if (pass) find_farthest(depth, drawn.data, farthest);
         for (int64_t i = 0; i < total; i++) {
             int32_t number = pass ? away.data[i] : (int32_t)i;
             Face face = face_at(model, number);

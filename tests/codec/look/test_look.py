@@ -339,7 +339,7 @@ def test_of_faces_at_one_place_the_brightest_is_shown():
         normals[:, ::3], normals[[order.index(2), order.index(3)], 2::3] = 1.0, 0.5
         camera = cameras(square, 64)[0]
         canvas = Canvas(64)
-        canvas.draw(square, mine, normals, camera)
+        canvas.draw(square, mine, normals, camera, owned=True)
         picture, owner = canvas.samples, canvas.owner
         assert set(owner[owner >= 0]) == {order.index(2), order.index(3)}
         assert np.ptp(picture[owner >= 0]) < 1e-6
@@ -417,3 +417,15 @@ def test_a_look_that_cannot_be_measured_is_said():
     encoder = Encoder(stray, replace(PRESETS["balanced"], threads=1))
     encoder.encode()
     assert encoder.look is None and "(1e+12, 0, 0); remove it" in encoder.losses[-1]
+
+
+def test_pictures_do_not_show_what_was_drawn_before():
+    wide = np.array([(0.0, -1, -1), (0, 1, -1), (0, 1, 1)])
+    face, normals = np.array([[0, 1, 2]], np.int32), np.ones((1, 9), np.float32)
+    camera, used = cameras(wide, 64)[0], Canvas(64)
+    for owned, scale in enumerate((1.0, 0.1, -0.3, 1e9, 0.2, 0.5)):
+        fresh = Canvas(64)
+        for canvas in (used, fresh):
+            canvas.draw(wide * scale + scale, face, normals, camera, owned=bool(owned % 2))
+        assert np.array_equal(used.samples, fresh.samples)
+        assert np.array_equal(used.owner, fresh.owner) and used.owner.size == (64 * 64 if owned % 2 else 0)
