@@ -193,8 +193,10 @@ HEADER_DEFAULTS: dict[str, Any] = defaults_of(Header)
 
 def normalize_fields(record: Any, what: str) -> None:
     """Make the values of a record's fields plain, in place; raise `OptionError` for one that is not legal."""
-    for name, declared in fields_of(type(record)).items():
-        given = getattr(record, name)
+    for item in fields(record):
+        name, declared, given = item.name, item.metadata["wire"], getattr(record, item.name)
+        if given is item.default:
+            continue
         try:
             value = declared.normalize(given)
         except (TypeError, ValueError, OverflowError) as error:

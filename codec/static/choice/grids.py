@@ -1,7 +1,7 @@
 """Positions on grids whose places are rounded, or chosen for the normals: ways to code a mesh."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import Any
@@ -41,28 +41,28 @@ def may_repeat(prepared: Prepared) -> bool:
     return prepared.congruence and not prepared.light and 0 < prepared.graph.size <= MOST_CONGRUENT
 
 
-def congruent(prepared: Prepared, draft: Draft) -> Draft:
+def congruent(prepared: Prepared, draft: Draft, coded: Callable[[int], Draft] | None = None) -> Draft:
     """Return a draft whose grid is also predicted by congruent parts, if that takes fewer bytes."""
     places, header = draft.places, draft.header
     if places is None or header.light or not may_repeat(prepared):
         return draft
     least, faces, alone = draft, prepared.mesh.faces, Grid(header.center, header.scale, header.grid)
+    coded = coded or partial(coded_like, prepared, alone, places, draft.may_be_brief)
     transforms = transforms_of(prepared, alone)
     for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
         grid = replace(alone, transforms=some)
         if len(some) or len(places) <= SAMPLE or sampled_size(faces, grid, places) < sampled_size(faces, alone, places):
-            coded = grid_draft(prepared, grid, places, brief=draft.may_be_brief)
-            least = min(least, coded, key=lambda d: d.size)
+            least = min(least, coded(2 if len(some) else 1), key=lambda d: d.size)
         if least.size < (1.0 - LEAST_SAVED) * draft.size:
             break
     return least
 
 
-def size_like(prepared: Prepared, grid: Grid, places: Levels, congruence: int) -> int:
-    """The bytes of places on a grid whose congruent parts are coded as those of a header with this `congruence`."""
+def coded_like(prepared: Prepared, grid: Grid, places: Levels, brief: bool, congruence: int) -> Draft:
+    """The stream of places on a grid whose congruent parts are coded as those of a header with this `congruence`."""
     if congruence:
         grid = replace(grid, transforms=transforms_of(prepared, grid)[: None if congruence > 1 else 0])
-    return grid_draft(prepared, grid, places, brief=may_repeat(prepared)).size
+    return grid_draft(prepared, grid, places, brief=brief)
 
 
 def sampled_size(faces: Faces, grid: Grid, places: Levels) -> int:
@@ -202,10 +202,11 @@ class Gridded:
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
-        coded = partial(grid_draft, self._prepared, grid, places, brief=brief)
+        light = partial(grid_draft, self._prepared, grid, places, light=True, brief=brief)
+        coded = lru_cache(partial(coded_like, self._prepared, grid, places, brief))  # streams, made once
         positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))
         sampled = partial(sampled_ratio, self._prepared.mesh.faces, grid, places, SAMPLE)
         few = len(places) <= SAMPLE or self._prepared.light
-        guess, also = None if few else lambda: coded(light=True).size * sampled(), partial(congruent, self._prepared)
-        like = partial(size_like, self._prepared, grid, places)
-        return Candidate(step, positions, coded, guess=guess, also=also, like=like)
+        guess, also = None if few else lambda: light().size * sampled(), partial(congruent, self._prepared, coded=coded)
+        make, like = partial(coded, 0), lambda congruence: coded(min(congruence, 2)).size
+        return Candidate(step, positions, make, guess=guess, also=also, like=like)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 from operator import attrgetter, itemgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
@@ -17,6 +18,7 @@ from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
+from bsm.codec.threads import Crew, threads_of
 
 REFINED = 3  # rounds of spending the bytes that congruent parts save
 RUNGS = 6  # an octave: steps of grids, the same for all promises, as some make more parts congruent by chance
@@ -38,6 +40,7 @@ class Search:
         self._measures, self._prepared = measures, measures.prepared
         self._tries = {"quick": TRIES // 2, "best": 3 * TRIES}.get(options.effort, TRIES)
         self._options, self._size, self._saved = options, size, saved
+        self._crew, self._ahead = Crew(options.threads), min(threads_of(options.threads), 2)
 
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract; raises `TargetError` if none does."""
@@ -47,6 +50,8 @@ class Search:
         grid = Gridded(self._prepared, bounds)
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
         first = grid.at(grid.first)
+        if any(map(len, self._prepared.motions.values())):
+            self._crew.map(first.like, (0, 2))
         saved, share = self._saved(first), 1.0
         if may_repeat(self._prepared):
             share = first.congruent.size / first.draft.size
@@ -65,8 +70,9 @@ class Search:
             found = widest(way, bounds, (near * least + leaning) / gain, tries=self._tries, size=like)
             if found is not None:
                 kept.append(found)
-                size = found.size if seen else found.draft.size  # the guess is for steps at which a mesh looks right
-                least = min(least, (size if gain == 1.0 else found.congruent.size) - leaning)
+                # The guess is for steps at which a mesh looks right.
+                size = found.congruent.size if gain < 1.0 else found.size if seen else found.draft.size
+                least = min(least, size - leaning)
                 ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
@@ -82,9 +88,10 @@ class Search:
         best = min(kept, key=lambda candidate: candidate.congruent.size).congruent
         like, least, rung = best.header.congruence, best.size, math.floor(RUNGS * math.log2(grid.first))
         seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
-        for finer in range(RUNGS + 2 if seen else 2 * RUNGS):
-            candidate = grid.at(2.0 ** ((rung + 1 - finer) / RUNGS))
-            size = candidate.like(like)
+        steps = [2.0 ** ((rung + 1 - finer) / RUNGS) for finer in range(RUNGS + 2 if seen else 2 * RUNGS)]
+        made = (list(map(grid.at, steps[at : at + self._ahead])) for at in range(0, len(steps), self._ahead))
+        sized = (zip(some, self._crew.map(lambda made: made.like(like), some), strict=True) for some in made)
+        for candidate, size in chain.from_iterable(sized):
             hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
             if seen and hopeless > few:  # without pictures, all can be tried
                 break
