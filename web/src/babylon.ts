@@ -5,7 +5,7 @@ import { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExt
 import type { FramePicture, Shape } from "./index";
 import { Playback } from "./playback";
 import { Pool, type StreamDecoding } from "./pool";
-import { CodedViews, EXTENSION, placeOf, sizeOf, type Coded } from "./views";
+import { CodedViews, EXTENSION, placeOf, type Coded } from "./views";
 
 const MOST_NORMAL = 32767;
 /** What Babylon.js calls what vertices have. */
@@ -106,11 +106,7 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
 
     private async decoded(context: string, coded: Coded, byteLength: number, index: number): Promise<ArrayBufferView> {
         const from = this.viewOf(context, coded.stream);
-        const shape = await this.streams.shape(from, async () => {
-            const made = await this.decode(context, from);
-            this.streams.charge(sizeOf(made));
-            return made;
-        });
+        const shape = await this.streams.shape(from, () => this.decode(context, from));
         return new Uint8Array(this.streams.bytes(shape, from, coded, byteLength, index));
     }
 
@@ -124,9 +120,19 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
         const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${view.index}`, view);
         return new Promise((resolve, fail) => {
             let [shape, sequence, rate]: [Shape?, Played?, unknown?] = [];
+            const onError = (error: unknown): void => {
+                if (sequence) sequence.complete = true;
+                this.loader.log(`${context}: ${error}`);
+                fail(error);
+            };
             const decoding = this.pool.open(
                 {
                     onPicture: (picture) => {
+                        try {
+                            this.streams.drawn(picture);
+                        } catch (error) {
+                            return onError(error);
+                        }
                         if (picture.type === "whole") ({ shape } = picture);
                         if (picture.type === "metadata") rate = picture.entries.get("frame_rate") ?? rate;
                         if (picture.type !== "frame" || !shape) return;
@@ -139,14 +145,11 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
                         else if (shape) resolve(shape);
                         else fail(new Error(`${context}: bufferView ${view.index} is a stream without a mesh`));
                     },
-                    onError: (error) => {
-                        if (sequence) sequence.complete = true;
-                        this.loader.log(`${context}: ${error}`);
-                        fail(error);
-                    },
+                    onError,
                 },
                 { drawing: "whole" },
             );
+            this.streams.watch(decoding);
             decoding.receiveData(new Uint8Array(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer));
             decoding.receiveEof();
         });

@@ -4,7 +4,7 @@ import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GL
 import type { Shape } from "./index";
 import { BSMGeometry, BSMSequence } from "./three";
 import { Pool } from "./pool";
-import { CodedViews, EXTENSION, placeOf, sizeOf, type Coded } from "./views";
+import { CodedViews, EXTENSION, placeOf, type Coded } from "./views";
 
 let shared: Pool | undefined;
 
@@ -47,11 +47,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
 
     private async decoded(coded: Coded, byteLength: number, index: number): Promise<ArrayBuffer> {
         const from = this.parser.json.bufferViews[coded.stream];
-        const shape = await this.streams.shape(from, async () => {
-            const made = await this.decode(coded.stream);
-            this.streams.charge(sizeOf(made));
-            return made;
-        });
+        const shape = await this.streams.shape(from, () => this.decode(coded.stream));
         return this.streams.bytes(shape, from, coded, byteLength, index);
     }
 
@@ -61,9 +57,15 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
             let shape: Shape | undefined;
             let sequence: BSMSequence | undefined;
             const geometry = new BSMGeometry();
+            const onError = (error: unknown): void => (sequence ? sequence.fail(error) : fail(error));
             const decoding = this.pool.open(
                 {
                     onPicture: (picture) => {
+                        try {
+                            this.streams.drawn(picture);
+                        } catch (error) {
+                            return onError(error);
+                        }
                         if (picture.type === "whole") ({ shape } = picture);
                         geometry.accept(picture);
                         if (picture.type !== "frame" || picture.index > 0 || !shape) return;
@@ -76,10 +78,11 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
                         else if (shape) resolve(shape);
                         else fail(new Error(`bufferView ${stream} is a stream without a mesh`));
                     },
-                    onError: (error) => (sequence ? sequence.fail(error) : fail(error)),
+                    onError,
                 },
                 { drawing: "whole" },
             );
+            this.streams.watch(decoding);
             decoding.receiveData(data.slice());
             decoding.receiveEof();
         });

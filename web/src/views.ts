@@ -1,5 +1,6 @@
 /** BufferViews of glTF whose bytes a stream holds, as `spec/EXT_bsm_compression.md` defines them. */
-import type { Shape } from "./drawing";
+import type { Picture, Shape } from "./drawing";
+import type { StreamDecoding } from "./pool";
 
 export const EXTENSION = "EXT_bsm_compression";
 
@@ -21,6 +22,7 @@ export const MOST_BYTES = 2 ** 30;
 export class CodedViews<T> {
     private readonly shapes = new Map<string, T>();
     private readonly arrays = new Map<string, ArrayBuffer>();
+    private readonly decodings = new Set<StreamDecoding>();
     private taken = 0;
 
     /** What a stream became: of bufferViews of the same bytes, `decode` is called for the first only. */
@@ -39,10 +41,24 @@ export class CodedViews<T> {
         return bytes;
     }
 
+    /** Let a decoding end as soon as too much was made. */
+    watch(decoding: StreamDecoding): void {
+        this.decodings.add(decoding);
+        this.charge(0);
+    }
+
+    /** Count a shape or a frame that is there. */
+    drawn(picture: Picture): void {
+        if (picture.type === "whole") this.charge(sizeOf(picture.shape));
+        if (picture.type === "frame") this.charge(sizeOf({ ...picture, index: new Uint8Array() }));
+    }
+
     /** Count bytes that were made. */
     charge(bytes: number): void {
         this.taken += bytes;
-        if (this.taken > MOST_BYTES) throw new Error(`[${EXTENSION}] the streams become more than ${MOST_BYTES} bytes`);
+        if (this.taken <= MOST_BYTES) return;
+        for (const decoding of this.decodings) decoding.close();
+        throw new Error(`[${EXTENSION}] the streams become more than ${MOST_BYTES} bytes`);
     }
 }
 
@@ -58,8 +74,8 @@ export function placeOf({ buffer, byteOffset = 0, byteLength }: View): string {
     return `${buffer} ${byteOffset} ${byteLength}`;
 }
 
-/** The bytes of what is drawn of a stream. */
-export function sizeOf({ index, positions, normals, attributes }: Shape): number {
+/** The bytes of what is drawn of a stream, or of a frame. */
+export function sizeOf({ index, positions, normals, attributes }: Record<"index" | "positions" | "normals", ArrayBufferView> & Pick<Shape, "attributes">): number {
     return [index, positions, normals, ...attributes.map(({ values }) => values)].reduce((sum, { byteLength }) => sum + byteLength, 0);
 }
 

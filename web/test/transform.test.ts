@@ -11,6 +11,7 @@ import { TorusKnotGeometry } from "three";
 import type * as Transform from "../src/transform";
 import type { SceneDecoder } from "../src/transform";
 import { decode, type Shape } from "../src/index";
+import { CodedViews } from "../src/views";
 import { sceneOf } from "./scene";
 import { BUILDS, compile, VECTORS, WEB } from "./shared";
 
@@ -66,6 +67,22 @@ describe("glTF-Transform", async () => {
         assert.deepEqual([...document.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute("POSITION")!.getArray()!], [...shape.positions]);
         const vast = (given: Uint8Array): Shape => ({ ...decoder(given), normals: { byteLength: 2 ** 30 } as Float32Array });
         await assert.rejects(reader(vast).readBinary(repeated(1)), /become more than 1073741824 bytes/);
+    });
+
+    test("ends all decodings of a scene whose streams or frames become too much", () => {
+        const closed: string[] = [];
+        const decoding = (name: string) => ({ close: () => void closed.push(name), receiveData: () => undefined, receiveEof: () => undefined });
+        const views = new CodedViews<Shape>();
+        const half = { ...shape, index: { byteLength: 2 ** 29 } as Uint32Array };
+        views.watch(decoding("a"));
+        views.drawn({ type: "whole", shape: half, run: 0 });
+        views.watch(decoding("b"));
+        assert.deepEqual(closed, []);
+        const frame = { type: "frame", index: 0, positions: { byteLength: 2 ** 29 } as Float32Array, normals: new Int16Array(), attributes: [] } as const;
+        assert.throws(() => views.drawn({ ...frame, attributes: [] }), /become more than/);
+        assert.deepEqual(closed, ["a", "b"]);
+        assert.throws(() => views.watch(decoding("c")), /become more than/);
+        assert.deepEqual(closed.slice(2).sort(), ["a", "b", "c"]);
     });
 
     /** A document of a knot with normals, texture coordinates, a number of each vertex, and another primitive of its lower half. */
