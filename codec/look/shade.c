@@ -9,6 +9,7 @@
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
 #define SAMPLE 4096 /* faces that tell which half is ahead */
 #define LANES 8   /* faces, or rows, that are prepared side by side */
+#define SPAN 4    /* pixels that are drawn side by side */
 #define EACH_LANE _Pragma("GCC unroll 1") for (int k = 0; k < LANES; k++) /* as vectors */
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
 #define WHOLE 6755399441055744.0 /* 1.5 * 2^52: a sum with it ends in the nearest whole number */
@@ -177,90 +178,57 @@ INLINE Plane plane_of(Model model, int32_t number, double inverse) {
     return plane;
 }
 
-/* The depth at the center of a pixel, and the weights there of the second corner and the third. */
-INLINE float depth_at(const Plane *plane, double row, double column, double *s, double *r) {
-    const double *b = plane->second, *c = plane->third;
-    double across = column + 0.5 - plane->at[0], down = row + 0.5 - plane->at[1];
-    *s = within((across * c[1] - down * c[0]) * plane->inverse);
-    *r = within((b[0] * down - b[1] * across) * plane->inverse);
-    return depth_of(plane->at[2] + *s * b[2] + *r * c[2]);
+typedef double Four __attribute__((vector_size(8 * SPAN)));
+typedef int64_t FourLongs __attribute__((vector_size(8 * SPAN)));
+typedef int64_t HalfLongs __attribute__((vector_size(4 * SPAN)));
+typedef float FourSingles __attribute__((vector_size(4 * SPAN)));
+typedef int32_t FourInts __attribute__((vector_size(4 * SPAN)));
+typedef FourSingles UnalignedSingles __attribute__((aligned(4), may_alias));
+typedef FourInts UnalignedInts __attribute__((aligned(4), may_alias));
+
+INLINE Four all_within(Four x) {
+    Four one = (Four){0.0} + 1.0;
+    FourLongs above = x > 0.0, below = x < 1.0;
+    return (Four)(above & ((below & (FourLongs)x) | (~below & (FourLongs)one)));
 }
 
-INLINE float shade_at(const Plane *plane, double s, double r) {
-    const double *n = plane->normals, *light = plane->light;
-    double q = 1.0 - s - r;
-    double nx = q * n[0] + s * n[3] + r * n[6];
-    double ny = q * n[1] + s * n[4] + r * n[7];
-    double nz = q * n[2] + s * n[5] + r * n[8];
-    float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
-    float length = (float)(nx * nx + ny * ny + nz * nz);
-    return AMBIENT + DIFFUSE * (__builtin_fabsf(facing) / __builtin_sqrtf(length > DARK ? length : __builtin_inff()));
-}
+INLINE FourInts chosen(FourInts mask, FourInts one, FourInts other) { return (mask & one) | (~mask & other); }
 
-INLINE void draw_pixel(const Plane *plane, int64_t row, int64_t column, Canvas on) {
-    double s, r;
-    float *depth = on.depth.data + row * on.picture.columns + column;
-    float *picture = on.picture.data + row * on.picture.columns + column;
-    float z = depth_at(plane, (double)row, (double)column, &s, &r);
-    if (!(z >= *depth)) return;
-    float shade = shade_at(plane, s, r);
-    if (!(z > *depth || shade > *picture)) return;
-    if (on.owner.rows) on.owner.data[row * on.picture.columns + column] = plane->number;
-    *depth = z;
-    *picture = shade;
-}
-
-typedef double Eight __attribute__((vector_size(8 * LANES)));
-typedef int64_t EightLongs __attribute__((vector_size(8 * LANES)));
-typedef int64_t FourLongs __attribute__((vector_size(4 * LANES)));
-typedef float EightSingles __attribute__((vector_size(4 * LANES)));
-typedef int32_t EightInts __attribute__((vector_size(4 * LANES)));
-typedef EightSingles UnalignedSingles __attribute__((aligned(4), may_alias));
-typedef EightInts UnalignedInts __attribute__((aligned(4), may_alias));
-
-INLINE Eight all_within(Eight x) {
-    Eight one = (Eight){0.0} + 1.0;
-    EightLongs above = x > 0.0, below = x < 1.0;
-    return (Eight)(above & ((below & (EightLongs)x) | (~below & (EightLongs)one)));
-}
-
-INLINE EightInts chosen(EightInts mask, EightInts one, EightInts other) { return (mask & one) | (~mask & other); }
-
-INLINE void keep(EightInts mask, EightInts values, void *to) {
+INLINE void keep(FourInts mask, FourInts values, void *to) {
     UnalignedInts *at = to;
     *at = chosen(mask, values, *at);
 }
 
-/* As `draw_pixel`, for those of `LANES` columns whose bits are set in `inside`. */
+/* Draw those of `SPAN` columns whose bits are set in `inside`: depths at the centers of pixels, and shades. */
 INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t inside, Canvas on) {
     const double *b = plane->second, *c = plane->third, *n = plane->normals, *light = plane->light;
-    const Eight lanes = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5};
-    const EightInts bits = {1, 2, 4, 8, 16, 32, 64, 128};
-    Eight across = ((double)column + lanes) - plane->at[0];
+    const Four lanes = {0.5, 1.5, 2.5, 3.5};
+    const FourInts bits = {1, 2, 4, 8};
+    Four across = ((double)column + lanes) - plane->at[0];
     double down = (double)row + 0.5 - plane->at[1];
-    Eight s = all_within((across * c[1] - down * c[0]) * plane->inverse);
-    Eight r = all_within((b[0] * down - b[1] * across) * plane->inverse);
-    EightSingles z = __builtin_convertvector((plane->at[2] + s * b[2] + r * c[2] + WHOLE) - WHOLE, EightSingles);
+    Four s = all_within((across * c[1] - down * c[0]) * plane->inverse);
+    Four r = all_within((b[0] * down - b[1] * across) * plane->inverse);
+    FourSingles z = __builtin_convertvector((plane->at[2] + s * b[2] + r * c[2] + WHOLE) - WHOLE, FourSingles);
     int64_t pixel = row * on.picture.columns + column;
-    EightSingles before = *(const UnalignedSingles *)(on.depth.data + pixel);
-    EightInts seen = (z >= before) & ((inside & bits) != 0);
-    FourLongs any = (FourLongs)seen;
-    if (!(any[0] | any[1] | any[2] | any[3])) return;
-    Eight q = 1.0 - s - r;
-    Eight nx = q * n[0] + s * n[3] + r * n[6];
-    Eight ny = q * n[1] + s * n[4] + r * n[7];
-    Eight nz = q * n[2] + s * n[5] + r * n[8];
-    EightSingles facing = __builtin_convertvector(nx * light[0] + ny * light[1] + nz * light[2], EightSingles);
-    EightSingles length = __builtin_convertvector(nx * nx + ny * ny + nz * nz, EightSingles);
-    EightSingles endless = (EightSingles){0.0f} + __builtin_inff();
-    length = (EightSingles)chosen(length > DARK, (EightInts)length, (EightInts)endless);
-    for (int k = 0; k < LANES; k++) length[k] = __builtin_sqrtf(length[k]);
-    facing = (EightSingles)((EightInts)facing & INT32_MAX);
-    EightSingles shades = AMBIENT + DIFFUSE * (facing / length);
+    FourSingles before = *(const UnalignedSingles *)(on.depth.data + pixel);
+    FourInts seen = (z >= before) & ((inside & bits) != 0);
+    HalfLongs any = (HalfLongs)seen;
+    if (!(any[0] | any[1])) return;
+    Four q = 1.0 - s - r;
+    Four nx = q * n[0] + s * n[3] + r * n[6];
+    Four ny = q * n[1] + s * n[4] + r * n[7];
+    Four nz = q * n[2] + s * n[5] + r * n[8];
+    FourSingles facing = __builtin_convertvector(nx * light[0] + ny * light[1] + nz * light[2], FourSingles);
+    FourSingles length = __builtin_convertvector(nx * nx + ny * ny + nz * nz, FourSingles);
+    FourSingles endless = (FourSingles){0.0f} + __builtin_inff();
+    length = (FourSingles)chosen(length > DARK, (FourInts)length, (FourInts)endless);
+    for (int k = 0; k < SPAN; k++) length[k] = __builtin_sqrtf(length[k]);
+    facing = (FourSingles)((FourInts)facing & INT32_MAX);
+    FourSingles shades = AMBIENT + DIFFUSE * (facing / length);
     seen &= (z > before) | (shades > *(const UnalignedSingles *)(on.picture.data + pixel));
-    if (on.owner.rows) keep(seen, (EightInts){0} + plane->number, on.owner.data + pixel);
-    keep(seen, (EightInts)z, on.depth.data + pixel);
-    keep(seen, (EightInts)shades, on.picture.data + pixel);
+    if (on.owner.rows) keep(seen, (FourInts){0} + plane->number, on.owner.data + pixel);
+    keep(seen, (FourInts)z, on.depth.data + pixel);
+    keep(seen, (FourInts)shades, on.picture.data + pixel);
 }
 
 INLINE void draw_rows(const Group *g, int at, const Plane *plane, Canvas on) {
@@ -273,8 +241,8 @@ INLINE void draw_rows(const Group *g, int at, const Plane *plane, Canvas on) {
             to[k] = span.to;
         }
         for (int k = 0; k < LANES && row + k < end; k++)
-            for (int64_t column = (int64_t)from[k]; column < (int64_t)to[k]; column += LANES) {
-                int64_t at = least(column, on.picture.columns - LANES), last = least((int64_t)to[k] - at, LANES);
+            for (int64_t column = (int64_t)from[k]; column < (int64_t)to[k]; column += SPAN) {
+                int64_t at = least(column, on.picture.columns - SPAN), last = least((int64_t)to[k] - at, SPAN);
                 draw_span(plane, row + k, at, (1 << last) - (1 << (column - at)), on);
             }
     }
@@ -295,12 +263,12 @@ INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on
     for (int k = 0; k < count; k++) {
         if (small[k] ? !inside[k] : !(g.first[k] < g.end[k]) || !(g.left[k] < g.right[k])) continue;
         Plane plane = plane_of(model, numbers[k], g.inverse[k]);
-        if (!small[k])
-            draw_rows(&g, k, &plane, on);
-        else
-            for (uint64_t left = inside[k]; left; left &= left - 1) {
-                int at = __builtin_ctzll(left);
-                draw_pixel(&plane, (int64_t)g.first[k] + at / LANES, (int64_t)g.left[k] + at % LANES, on);
+        if (!small[k]) draw_rows(&g, k, &plane, on);
+        int64_t row = (int64_t)g.first[k], left = (int64_t)g.left[k];
+        for (uint64_t rows = small[k] ? inside[k] : 0; rows; rows >>= LANES, row++)
+            for (int64_t bits = (int64_t)(rows % (1 << LANES)), column = left; bits; bits >>= SPAN, column += SPAN) {
+                int64_t at = least(column, on.picture.columns - SPAN);
+                draw_span(&plane, row, at, (int32_t)(bits % (1 << SPAN)) << (column - at), on);
             }
     }
 }
