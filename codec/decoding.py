@@ -32,7 +32,7 @@ from bsm.codec.events import (
     RefinementEvent,
     Signal,
 )
-from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+from bsm.codec.geometry.attributes import DOMAINS, SEMANTICS, Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.progress import Progress
 from bsm.codec.threads import threads_of
@@ -55,8 +55,6 @@ Result = TypeVar("Result")
 
 # Types of events, in the order of bsmdec.h.
 NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, _ERROR, VALUES = range(13)
-DOMAINS: tuple[Domain, ...] = ("vertex", "corner", "face")
-SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
 
 def mask_of(*types: int) -> int:

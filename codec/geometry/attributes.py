@@ -14,6 +14,8 @@ from bsm.codec.arrays import Faces, Indices, Matrix, Order, as_array
 
 Domain = Literal["vertex", "corner", "face"]
 Semantic = Literal["generic", "color", "normal", "texcoord"]
+DOMAINS: tuple[Domain, ...] = get_args(Domain)  # in the order of their numbers in streams
+SEMANTICS: tuple[Semantic, ...] = get_args(Semantic)
 
 MOST_COMPONENTS = 4
 MOST_NAME_BYTES = 255
@@ -78,7 +80,7 @@ class Attribute:
             raise MeshError(f"the name of an attribute must not contain NUL or lone surrogates: {self.name!r}")
         if not 1 <= len(encoded) <= MOST_NAME_BYTES:
             raise MeshError(f"the name of an attribute must have 1 to {MOST_NAME_BYTES} bytes: {self.name!r}")
-        if self.domain not in get_args(Domain) or self.semantic not in get_args(Semantic):
+        if self.domain not in DOMAINS or self.semantic not in SEMANTICS:
             raise MeshError(f"{what} has an unknown domain or semantic: {self.domain!r}, {self.semantic!r}")
         values = _stored(as_array(self.values, what), what)
         if self.domain == "corner":

@@ -16,8 +16,7 @@ from bsm.codec.progress import silent
 from bsm.codec.sequence.frames import distinct_frames
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.tracks import Setting
-from bsm.codec.static.attributes.encoding import PreparedAttribute
-from bsm.codec.static.attributes.levels import Values
+from bsm.codec.static.attributes.encoding import PreparedAttribute, Values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.targets import secant
 from bsm.codec.static.units import single

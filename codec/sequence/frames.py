@@ -8,7 +8,7 @@ import numpy as np
 
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.static.attributes.levels import Values
+from bsm.codec.static.attributes.encoding import Values
 from bsm.codec.static.preamble_encoding import Prepared
 
 SAME = 1 / 64, 1 / 4

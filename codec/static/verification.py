@@ -12,9 +12,9 @@ from bsm.bitstream.errors import BsmError, LimitError, VerificationError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.decoding import decode
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import SEMANTICS, Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.static.attributes.encoding import SEMANTICS, PreparedAttribute
+from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
 ROUNDING = 1e-6

@@ -25,8 +25,7 @@ from bsm.bitstream.container.wire import FrameType, write_frame, write_map, writ
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.attributes.encoding import Place, carry
-from bsm.codec.static.attributes.levels import Surface, field_of, write_values
+from bsm.codec.static.attributes.encoding import Place, Surface, carry, field_of, write_values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded

@@ -2,37 +2,40 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from bsm._core import Field
 from bsm._core import Place as Core
+from bsm._core.bitstream import constant
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration
+from bsm.bitstream.container.header import (
+    FACE,
+    LEVELS,
+    MOST_ATTRIBUTES,
+    OCTAHEDRAL,
+    RECOMPUTED,
+    TEXCOORD,
+    Declaration,
+    entries_of,
+)
 from bsm.bitstream.container.packets import Packet
+from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
-from bsm.codec.geometry.attributes import KINDS, Attribute, Semantic
+from bsm.codec.geometry.attributes import DOMAINS, KINDS, SEMANTICS, Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.look.measure import of_length_1, painted
 from bsm.codec.look.pictures import Normals
-from bsm.codec.static.attributes.levels import (
-    Surface,
-    Values,
-    Words,
-    field_of,
-    leans,
-    noted,
-    recomputed,
-    to_pieces,
-    write_values,
-)
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
+Values = npt.NDArray[Any]
+Words = npt.NDArray[np.int64]
 CHUNK = 1 << 15  # values of a frame
-SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
-DOMAINS = ("vertex", "corner", "face")
 WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
 
 
@@ -59,6 +62,27 @@ def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Pla
     index, vertices = np.ascontiguousarray(joined.index, np.int32), len(prepared.mesh.positions)
     core = Core(given.faces, index, kept, order, turns.astype(np.uint8), coded, vertices, keeps)
     return Place(core, coded, kept[order], turns)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The values of an attribute as vertices of a mesh of their own."""
+
+    faces: Faces
+    vertices: Indices
+
+
+def recomputed(surface: Surface, positions: Matrix) -> Matrix:
+    """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
+    places = positions[surface.vertices] if len(surface.vertices) else positions
+    a, b, c = (places[surface.faces[:, corner]] for corner in range(3))
+    across = np.cross(b - a, c - a)
+    normals = np.zeros((len(surface.vertices), 3))
+    for corner in range(3):
+        for axis in range(3):
+            normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +165,14 @@ def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) ->
     )
 
 
+def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str:
+    """What became of values, in words."""
+    if not bits:
+        return f"in steps of {step:g}" if step else f"within {error:.3g}" if error else "exact"
+    note = [f"{bits} bits, within {error:.2g} degrees"]
+    return ", ".join([*note, *[f"{zeros} of no length"] * (zeros > 0), *["all of length one now"] * scaled])
+
+
 def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metadata: Metadata) -> Draft:
     """A draft that carries attributes and metadata, too; images and other bytes come last."""
     shape = packets.Connectivity | packets.Partition | packets.Order
@@ -174,3 +206,36 @@ def cheaper(prepared: PreparedAttribute, places: Levels | None) -> tuple[Declara
 def ranges(rows: int, size: int) -> list[tuple[int, int]]:
     """Return the first row and the length of each chunk of rows."""
     return [(first, min(size, rows - first)) for first in range(0, rows, size)]
+
+
+MOST_WHOLE, PIECE_BITS = constant("MOST_WHOLE"), constant("PIECE_BITS")  # larger levels are coded in two pieces
+
+
+def to_pieces(declaration: Declaration, levels: Words) -> Levels:
+    """Levels, shape (k, words), as numbers that are coded, shape (k, pieces)."""
+    columns = []
+    for largest, level in zip(declaration.largest, levels.T, strict=True):
+        columns += [level] if largest <= MOST_WHOLE else [level >> PIECE_BITS, level & ((1 << PIECE_BITS) - 1)]
+    return np.stack(columns, axis=1).astype(np.int32)
+
+
+def leans(declaration: Declaration) -> bool:
+    """Whether numbers are predicted from positions, should these be there."""
+    small = declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE
+    texcoords = small and declaration.semantic == TEXCOORD and declaration.words == 2
+    return declaration.domain != FACE and (texcoords or declaration.coding == OCTAHEDRAL)
+
+
+def field_of(declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> Field:
+    """The field of the numbers of an attribute, shape (k, pieces), predicted from `places`, shape (n, 3)."""
+    declared = write_map(entries_of(replace(declaration, leans=int(places is not None))))
+    vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
+    field = Field(surface.faces, pieces)
+    field.attribute(declared, vertices if places is None else len(places), surface.vertices, places)
+    return field
+
+
+def write_values(field: Field, count: int) -> bytes:
+    """The next `count` values: where there are several payloads, each with its length before it."""
+    payloads = field.write(count)
+    return payloads[0] if len(payloads) == 1 else with_lengths([*payloads, b""])

@@ -19,8 +19,8 @@ from bsm.bitstream.container.header import (
     VERTEX,
     Declaration,
 )
-from bsm.codec.static.attributes.levels import Surface
-from bsm.codec.static.attributes.levels import field_of as attribute_field
+from bsm.codec.static.attributes.encoding import Surface
+from bsm.codec.static.attributes.encoding import field_of as attribute_field
 from bsm.codec.static.ways.grid import grid_field, levels_field
 from tests.shapes import Faces, grid_faces
 
