@@ -263,9 +263,3 @@ class Declaration:
 
     def __post_init__(self) -> None:
         normalize_fields(self, "attribute")
-
-    @property
-    def words(self) -> int:
-        return {OCTAHEDRAL: 2, RECOMPUTED: 0, BITS: self.components * (self.kind - FLOAT32 + 1)}.get(
-            self.coding, self.components
-        )

@@ -237,25 +237,31 @@ static bool code_values(Writer *writer, CodedField *field, int64_t rows, Buffer 
     return done && !failed(context);
 }
 
+bool take_pieces(Arena *arena, const Carried *carried, Ints2 *pieces) {
+    const Declaration *d = &carried->quantized.declaration;
+    int64_t columns = 0, at = 0;
+    for (int i = 0; i < d->words; i++) columns += 1 + (d->largest[i] > MOST_WHOLE);
+    if (!take_ints2(arena, d->rows, columns, pieces)) return false;
+    for (int64_t i = 0; i < d->rows * d->words; i++) {
+        int64_t level = carried->levels.data[i];
+        bool wide = d->largest[i % d->words] > MOST_WHOLE;
+        if (wide) pieces->data[at++] = (int32_t)(level >> PIECE_BITS);
+        pieces->data[at++] = (int32_t)(wide ? level & ((1 << PIECE_BITS) - 1) : level);
+    }
+    return true;
+}
+
 bool code_carried(Writer *writer, const CodedMesh *coded, const Carried *carried, const int32_t *places,
     Buffer *payloads, Longs ends) {
     Context *context = &writer->context;
     Declaration declared = carried->quantized.declaration;
-    int64_t rows = declared.rows, columns = 0;
+    int64_t rows = declared.rows;
     Mark mark = mark_of(&writer->scratch);
     CodedField *field;
     Ints2 pieces;
     declared.leans = places != NULL;
-    for (int i = 0; i < declared.words; i++) columns += 1 + (declared.largest[i] > MOST_WHOLE);
-    if (!TAKE_ZEROS(&writer->scratch, 1, field) || !take_ints2(&writer->scratch, rows, columns, &pieces)) return false;
-    for (int64_t r = 0, at = 0; r < rows; r++)
-        for (int i = 0; i < declared.words; i++) {
-            int64_t level = carried->levels.data[declared.words * r + i];
-            bool wide = declared.largest[i] > MOST_WHOLE;
-            if (wide) pieces.data[at++] = (int32_t)(level >> PIECE_BITS);
-            pieces.data[at++] = (int32_t)(wide ? level & ((1 << PIECE_BITS) - 1) : level);
-        }
-    Written given = {carried->faces.data, pieces.data, carried->faces.rows, rows, columns};
+    if (!TAKE_ZEROS(&writer->scratch, 1, field) || !take_pieces(&writer->scratch, carried, &pieces)) return false;
+    Written given = {carried->faces.data, pieces.data, carried->faces.rows, rows, pieces.columns};
     bool done = begin_attribute(field, context, given, &declared, coded->vertex_order.size,
                     declared.domain == BSMDEC_FACE ? NULL : carried->vertices.data, places)
         && code_values(writer, field, rows, payloads, ends);

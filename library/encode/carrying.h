@@ -37,6 +37,8 @@ bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Ca
 enum { VALUES_CHUNK = 1 << 15 };
 bool code_carried(Writer *writer, const CodedMesh *coded, const Carried *carried, const int32_t *places,
     Buffer *payloads, Longs ends);
+/* The numbers that are coded of levels: large ones are in two pieces. */
+bool take_pieces(Arena *arena, const Carried *carried, Ints2 *pieces);
 /* Whether values are predicted from positions, should these be on a grid. */
 bool can_lean(const Declaration *declaration);
 

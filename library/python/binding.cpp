@@ -375,9 +375,9 @@ class Place : public Shared, Output {
         : faces(faces.rows) {
         run([&] { return encode_place(encoding, given, index, kept, face_order, turns, faces, vertices, keeps); });
     }
-    // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; levels, decoded values, the
-    // value of each corner, if that is not its vertex, the vertex of each value; and the outcome: error, step of
-    // integers, bits, normals without length, whether others had another length than 1.
+    // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; coded numbers, decoded
+    // values, the value of each corner, if that is not its vertex, the vertex of each value, whether it leans; and the
+    // outcome: error, step of integers, bits, normals without length, whether others had another length than 1.
     auto carry(bool first, const std::string &name, nb::object array, int kind, int domain, int semantic,
         std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {
         auto values = nb::cast<nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu>>(array);
@@ -404,9 +404,9 @@ class Place : public Shared, Output {
             nb::bytes(seams.data, (size_t)seams.size),
             std::vector<int64_t>(whole.largest, whole.largest + whole.words),
             std::vector<double>(whole.offset, whole.offset + whole.words), whole.step,
-            copy_of(whole.levels, whole.rows, whole.words), decoded,
+            copy_of(whole.pieces, whole.rows, whole.columns), decoded,
             whole.faces == nullptr ? std::nullopt : std::optional(copy_of(whole.faces, faces, 3)),
-            copy_of(whole.vertices, whole.vertices_count),
+            copy_of(whole.vertices, whole.vertices_count), whole.leans,
             std::make_tuple(whole.error, whole.whole_step, whole.bits, whole.zeros, whole.scaled));
     }
 

@@ -157,9 +157,12 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
     encoding->carried_count++;
     const Declaration *d = &carried->quantized.declaration;
     const bsmenc_outcome *outcome = &carried->quantized.outcome;
+    Ints2 pieces = {NULL, 0, 0};
+    if (d->words > 0 && !take_pieces(&writer->arena, carried, &pieces)) return false;
     *whole = (Whole){d->coding, d->domain, d->origin, d->words, outcome->bits, d->rows, (int64_t)d->seams_of,
-        outcome->zeros, d->step[0], outcome->error, outcome->step, outcome->scaled != 0, {0}, {0}, carried->levels.data,
-        d->domain == BSMDEC_CORNER ? carried->faces.data : NULL, carried->vertices.data, carried->vertices.size};
+        outcome->zeros, d->step[0], outcome->error, outcome->step, outcome->scaled != 0, {0}, {0}, pieces.data,
+        d->domain == BSMDEC_CORNER ? carried->faces.data : NULL, carried->vertices.data, pieces.columns,
+        carried->vertices.size, d->words > 0 && can_lean(d)};
     for (int i = 0; i < d->words; i++) {
         whole->largest[i] = d->largest[i];
         whole->offset[i] = d->offset[i];

@@ -53,7 +53,7 @@ bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, co
 bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order,
     ConstBytes turns, ConstInts2 faces, int64_t vertices, bool keeps);
 /* The numbers of the declaration and of the outcome of an attribute in such a place (library/encode/carrying.h), and
- * arrays of the encoding: levels, the coded value of each corner of faces (NULL: its vertex), the vertex of each. */
+ * arrays of the encoding: coded numbers, the coded value of each corner (NULL: its vertex), the vertex of each. */
 typedef struct {
     int coding, domain, origin, words, bits;
     int64_t rows, seams_of, zeros;
@@ -61,9 +61,9 @@ typedef struct {
     bool scaled;
     int64_t largest[8];
     double offset[8];
-    const int64_t *levels;
-    const int32_t *faces, *vertices;
-    int64_t vertices_count;
+    const int32_t *pieces, *faces, *vertices;
+    int64_t columns, vertices_count;
+    bool leans; /* it may be predicted from positions */
 } Whole;
 /* Carry an attribute, the first or the next one; its seams are the payload. Then write the decoded values. */
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);

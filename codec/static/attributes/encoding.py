@@ -9,18 +9,8 @@ import numpy.typing as npt
 
 from bsm._core import Field
 from bsm._core import Place as Core
-from bsm._core.bitstream import constant
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import (
-    FACE,
-    LEVELS,
-    MOST_ATTRIBUTES,
-    OCTAHEDRAL,
-    RECOMPUTED,
-    TEXCOORD,
-    Declaration,
-    entries_of,
-)
+from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration, entries_of
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError
@@ -34,7 +24,6 @@ from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
 Values = npt.NDArray[Any]
-Words = npt.NDArray[np.int64]
 CHUNK = 1 << 15  # values of a frame
 WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
 
@@ -92,7 +81,8 @@ class PreparedAttribute:
     declaration: Declaration
     seams: bytes
     surface: Surface
-    levels: Words
+    pieces: Levels
+    leans: bool  # whether numbers are predicted from positions, should these be there
     values: Values
     """As decoders have them."""
     note: str
@@ -122,8 +112,7 @@ class PreparedAttribute:
         """The chunks of its values, `size` each, predicted from `places`, shape (n, 3), if there are any."""
         if self.declaration.coding == RECOMPUTED:
             return ()
-        pieces = to_pieces(self.declaration, self.levels)
-        field = field_of(self.declaration, self.surface, pieces, places)
+        field = field_of(self.declaration, self.surface, self.pieces, places)
         return tuple(write_values(field, count) for _, count in ranges(self.declaration.rows, size))
 
 
@@ -140,9 +129,10 @@ def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) ->
     kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
-    coding, domain, origin, seams_of, seams, largest, offset, step, levels, decoded, corners, vertices, outcome = (
-        place.core.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
+    found = place.core.carry(
+        first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount
     )
+    coding, domain, origin, seams_of, seams, largest, offset, step, pieces, decoded, own, at, leans, outcome = found
     declaration = Declaration(
         name=attribute.name,
         domain=domain,
@@ -151,17 +141,17 @@ def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) ->
         kind=kind,
         components=attribute.components,
         coding=coding,
-        rows=len(levels),
+        rows=len(pieces),
         largest=tuple(largest),
         offset=tuple(offset) if any(offset) else (),
         step=(step,) if largest and step != 1.0 else (),
         seams_of=seams_of,
     )
-    surface = Surface(place.coded if corners is None else corners, vertices)
+    surface = Surface(place.coded if own is None else own, at)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     became = "recomputed from the decoded mesh" if coding == RECOMPUTED else noted(*outcome)
     return PreparedAttribute(
-        declaration, seams, surface, levels, decoded, f"{attribute.name}: {what}per {attribute.domain}, {became}"
+        declaration, seams, surface, pieces, leans, decoded, f"{attribute.name}: {what}per {attribute.domain}, {became}"
     )
 
 
@@ -196,7 +186,7 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
 
 def cheaper(prepared: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
     """What an attribute declares, and its chunks."""
-    if places is not None and leans(prepared.declaration):
+    if places is not None and prepared.leans:
         chunks = prepared.chunks(places, CHUNK)
         if sum(map(len, chunks)) < sum(map(len, prepared.plain)):
             return replace(prepared.declaration, leans=1), chunks
@@ -206,24 +196,6 @@ def cheaper(prepared: PreparedAttribute, places: Levels | None) -> tuple[Declara
 def ranges(rows: int, size: int) -> list[tuple[int, int]]:
     """Return the first row and the length of each chunk of rows."""
     return [(first, min(size, rows - first)) for first in range(0, rows, size)]
-
-
-MOST_WHOLE, PIECE_BITS = constant("MOST_WHOLE"), constant("PIECE_BITS")  # larger levels are coded in two pieces
-
-
-def to_pieces(declaration: Declaration, levels: Words) -> Levels:
-    """Levels, shape (k, words), as numbers that are coded, shape (k, pieces)."""
-    columns = []
-    for largest, level in zip(declaration.largest, levels.T, strict=True):
-        columns += [level] if largest <= MOST_WHOLE else [level >> PIECE_BITS, level & ((1 << PIECE_BITS) - 1)]
-    return np.stack(columns, axis=1).astype(np.int32)
-
-
-def leans(declaration: Declaration) -> bool:
-    """Whether numbers are predicted from positions, should these be there."""
-    small = declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE
-    texcoords = small and declaration.semantic == TEXCOORD and declaration.words == 2
-    return declaration.domain != FACE and (texcoords or declaration.coding == OCTAHEDRAL)
 
 
 def field_of(declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> Field:

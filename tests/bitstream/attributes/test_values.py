@@ -36,7 +36,7 @@ def test_levels_of_normals(normals, bits):
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
     levels, decoded = carried(vectors, bits)
     assert (levels >= 0).all() and (levels <= 2 * size).all()
-    points = unfolded(levels, size)
+    points = unfolded(levels.astype(np.int64), size)
     np.testing.assert_array_equal(decoded, points / np.sqrt(np.square(points).sum(axis=1, keepdims=True)))
     np.testing.assert_array_equal(carried(decoded, bits)[0], levels)
     assert (np.linalg.norm(np.cross(unit, decoded), axis=1) < 2.2 / size).all()
