@@ -241,13 +241,11 @@ def of_usd(path: Path) -> Read:
     points = [np.zeros((0, 3))]
     sizes, corners, many = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
     cache = geom.XformCache(code)
+    shown = {geom.Imageable(prim).ComputePurpose() for prim in stage.Traverse() if geom.Mesh(prim)}
+    left_out = {geom.Tokens.guide, geom.Tokens.proxy if geom.Tokens.render in shown else geom.Tokens.guide}
     for prim in usd.PrimRange(stage.GetPseudoRoot(), usd.TraverseInstanceProxies(usd.PrimDefaultPredicate)):
         mesh, seen = geom.Mesh(prim), geom.Imageable(prim)
-        if (
-            not mesh
-            or seen.ComputeVisibility(code) == geom.Tokens.invisible
-            or seen.ComputePurpose() == geom.Tokens.guide
-        ):
+        if not mesh or seen.ComputeVisibility(code) == geom.Tokens.invisible or seen.ComputePurpose() in left_out:
             continue
         matrix = np.array(cache.GetLocalToWorldTransform(prim))
         points.append(np.asarray(mesh.GetPointsAttr().Get(code), np.float64) @ matrix[:3, :3] + matrix[3, :3])
@@ -256,9 +254,9 @@ def of_usd(path: Path) -> Read:
         if (mesh.GetOrientationAttr().Get() == geom.Tokens.leftHanded) != (np.linalg.det(matrix[:3, :3]) < 0):
             begin = np.repeat(2 * (np.cumsum(counts) - counts) + counts - 1, counts)
             rows = rows[begin - np.arange(len(rows))]
-        shown = ~np.isin(np.arange(len(counts)), mesh.GetHoleIndicesAttr().Get(code) or [])
-        sizes.append(counts[shown])
-        corners.append(rows[np.repeat(shown, counts)] + many)
+        kept = ~np.isin(np.arange(len(counts)), mesh.GetHoleIndicesAttr().Get(code) or [])
+        sizes.append(counts[kept])
+        corners.append(rows[np.repeat(kept, counts)] + many)
         many += len(points[-1])
     return of_polygons(np.concatenate(points), np.concatenate(sizes).tolist(), np.concatenate(corners))
 

@@ -32,7 +32,7 @@ MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
 WRITTEN_FORMATS = ("3mf", "glb", "npz", "obj", "off", "om", "ply", "stl", "vtp")  # what we write
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
-_CONTENTS = {"obj": "an OBJ", "off": "", "ply": "a PLY"}  # by their first bytes
+_CONTENTS = {"obj": "an OBJ", "off": "", "ply": "a PLY", "glb": "a GLB, JSON"}  # by their first bytes
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
 
@@ -106,7 +106,7 @@ def read_cut(
     folder = Path(path).parent if path else None
     head = plain_text(given.peek(_HEAD))
     suffix = file_format or format_of_name(name)
-    if suffix in _CONTENTS and (other := by_name(_ROOMS["stl"], "other_kind")(head)) not in ("", _CONTENTS[suffix]):
+    if suffix in _CONTENTS and (other := by_name(_ROOMS["stl"], "other_kind")(head)) not in _CONTENTS[suffix]:
         raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
     require_counts_of_head(suffix or format_of_bytes(head), head, limits)
     data = given.read_all()

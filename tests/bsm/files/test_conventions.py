@@ -142,6 +142,8 @@ def test_the_header_of_an_stl_comes_back(header):
     ("name", "contents", "said"),
     [
         ("a.obj", written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]]), "ply").data, "a PLY"),
+        ("a.glb", written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]]), "ply").data, "a PLY, not .glb"),
+        ("a.obj", b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "an STL, not .obj"),
         ("a.ply", b"<!DOCTYPE html><html>", "an HTML page"),
         ("a.off", b"ISO-10303-21;", "a STEP file"),
         ("a.step", b"ISO-10303-21;", "holds surfaces"),

@@ -253,6 +253,25 @@ def test_a_stage_begins_where_it_says(tmp_path, start, end, first, count, outsid
     assert still.attributes[0].values.max() == (255 if start == 4 else 0)
 
 
+@pytest.mark.parametrize("purpose", ["render", "default"])
+def test_stand_ins_of_a_stage_are_left_out_where_there_is_the_real_thing(tmp_path, purpose):
+    pytest.importorskip("pxr.Usd")
+    from pxr import UsdGeom
+
+    mesh, stage = stage_of(tmp_path / "a.usda", [SQUARE], (0,))
+    mesh.CreatePurposeAttr(purpose)
+    other = UsdGeom.Mesh.Define(stage, "/above/other")
+    other.CreateFaceVertexCountsAttr([3])
+    other.CreateFaceVertexIndicesAttr([0, 1, 2])
+    other.CreatePointsAttr([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    other.CreatePurposeAttr("proxy")
+    stage.Save()
+    given = read_mesh(tmp_path / "a.usda")
+    assert len(given.mesh.faces) == (2 if purpose == "render" else 3)
+    noted = ["left out, stand-ins (purpose proxy): /above/other"] if purpose == "render" else []
+    assert [note for note in given.notes if "stand-ins" in note] == noted
+
+
 def test_a_stage_without_time_codes_per_second_is_refused(tmp_path):
     """usd-core itself would count samples for ever, for a layer below, too."""
     pytest.importorskip("pxr.Usd")

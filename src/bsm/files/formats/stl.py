@@ -56,7 +56,7 @@ _OTHERS |= {
     rb"Kaydara": "an FBX",
     rb"LASF": "a LAS",
 }
-_OTHERS |= {rb"(?:[^\0]*\n)?v[ \t]+[-\d.]": "an OBJ", rb"\s*\{": "JSON"}
+_OTHERS |= {rb"\s*solid\b[^\0]*\bfacet\b": "an STL", rb"(?:[^\0]*\n)?v[ \t]+[-\d.]": "an OBJ", rb"\s*\{": "JSON"}
 
 
 def other_kind(head: bytes) -> str:

@@ -557,13 +557,21 @@ class _Stage:
         geom = self.pxr.UsdGeom
         if not (prim.IsA(geom.Mesh) or prim.IsA(geom.PointInstancer)):
             return ""
-        if geom.Imageable(prim).ComputePurpose() == geom.Tokens.guide:
-            return "guides"
+        purpose = geom.Imageable(prim).ComputePurpose()
+        if purpose == geom.Tokens.guide or (purpose == geom.Tokens.proxy and self._rendered):
+            return "guides" if purpose == geom.Tokens.guide else "stand-ins (purpose proxy)"
         times = _times_of_visibility(geom, prim)
         shown = any(self.seen(prim, time) for time in (times if self._runs else ()) or [self.first.GetValue()])
         if times and shown:
             self.blinking.append(str(prim.GetPath()))
         return "" if shown else "hidden" if not times or self._runs else "they appear later (--runs)"
+
+    @cached_property
+    def _rendered(self) -> bool:
+        """Whether some mesh is for pictures only, so that others stand in for it elsewhere."""
+        geom = self.pxr.UsdGeom
+        every = (geom.Imageable(prim) for prim in self.stage.Traverse() if prim.IsA(geom.Mesh))
+        return any(one.ComputePurpose() == geom.Tokens.render for one in every)
 
     def seen(self, prim: Any, time: float) -> bool:
         """Return whether a prim is visible at a time."""
