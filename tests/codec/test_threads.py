@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, decode, encode
+from bsm import END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, Encoder, TriangleMesh, decode, encode
 from bsm._core import Decoder as Engine
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import BLOCK, CONNECTIVITY
 from bsm.codec.threads import Crew, ordered_map
 from bsm.options import encode_options
-from tests.shapes import patch
+from tests.shapes import patch, together, torus
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5])
@@ -94,6 +94,15 @@ def test_a_crew_that_is_forgotten_leaves_no_threads():
 def test_threads_do_not_change_the_smallest_stream(size):
     mesh = patch(size, size)
     assert len({encode(mesh, encode_options(threads=threads)) for threads in (1, 2, 7)}) == 1
+
+
+def test_threads_do_not_change_streams_of_congruent_parts():
+    one = torus(8, 12)
+    moved = TriangleMesh(one.positions[:, [1, 2, 0]] + (3.0 * one.diagonal, 0.1, 0.2), one.faces)
+    mesh = together(one, moved)
+    streams = {encode(mesh, encode_options(threads=threads)) for threads in (1, 2, 7)}
+    assert len(streams) == 1
+    assert Encoder(mesh).draft().header.congruence > 1, "two parts are one and its image"
 
 
 @pytest.mark.parametrize("start", ["cosines", "svd"])
