@@ -80,11 +80,10 @@ void bind_codec(nb::module_ &m) {
           "weights"_a, Unlocked());
     // What both sides of a sequence have.
     for (const auto &[name, number] : {NUMBER(BENDING), NUMBER(INHERITED), NUMBER(BATCH), NUMBER(LEAST_KEPT),
-             NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})
+             NUMBER(MOST_KEPT), NUMBER(POSITIONS_KEPT), NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})
         m.attr(name) = number;
     m.def("lags", [] { return tuple_of(LAG); }, nb::sig("def lags() -> tuple[int, ...]"));
     m.def("quarters", [] { return tuple_of(QUARTERS); }, nb::sig("def quarters() -> tuple[float, ...]"));
-    m.def("frames_kept", &frames_kept, "vertices"_a);
     m.def("bend_columns", &bend_columns, "part"_a, "positions"_a, "columns"_a, Unlocked());
     m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "mean"_a, "row"_a,
         Unlocked());

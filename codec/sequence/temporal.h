@@ -16,14 +16,14 @@ void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts prices,
  * LAG: how far before the latest frame those are that help to predict the next ones, of those that are kept (S 7.2).
  * TRACK_MEMORY: bytes of a number of a vertex in the first frame of an attribute that moves.
  * SPARE_MEMORY: bytes that decoders keep no dictionary in, though they are granted. */
-enum { BENDING = 19, INHERITED = 24, BATCH = 8, LAGS = 8, LEAST_KEPT = 2, MOST_KEPT = 64, TRACK_MEMORY = 40,
-    SPARE_MEMORY = 1 << 22 };
+enum { BENDING = 19, INHERITED = 24, BATCH = 8, LAGS = 8, LEAST_KEPT = 2, MOST_KEPT = 64,
+    POSITIONS_KEPT = 1 << 19, TRACK_MEMORY = 40, SPARE_MEMORY = 1 << 22 };
 static const int LAG[LAGS] = {1, 2, 3, 5, 8, 13, 21, 34};
 /* 2^(-q / 4). */
 static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
 /* How many decoded frames low-delay frames may refer to; attributes refer to LEAST_KEPT. */
 INLINE int64_t frames_kept(int64_t vertices) {
-    return least(MOST_KEPT, largest(LEAST_KEPT, (1 << 19) / largest(vertices, 1)));
+    return least(MOST_KEPT, largest(LEAST_KEPT, POSITIONS_KEPT / vertices));
 }
 void bend_columns(ConstDoubles2 part, ConstDoubles2 positions, Doubles2 columns);
 int64_t ISA(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames);

@@ -90,6 +90,7 @@ def make_setting(
         known_of, around_of = ([np.ascontiguousarray(m[track]) for m in each] for each in zip(*pairs, strict=True))
         first = [np.vstack((ends, part))[:, :width] for ends, part in zip(around_of, known_of, strict=True)]
         start = [np.zeros_like(part) for part in first] if track else first
-        kept = _kernels.LEAST_KEPT if track else _kernels.frames_kept(len(first_frame))
+        most = min(max(_kernels.POSITIONS_KEPT // len(first_frame), _kernels.LEAST_KEPT), _kernels.MOST_KEPT)
+        kept = _kernels.LEAST_KEPT if track else most
         tracks.append(Track(width, kept, first, known_of, around_of, start))
     return Setting(len(first_frame), parts, tuple(tracks))

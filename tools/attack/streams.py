@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Place as Core
-from bsm._core import write_faces
+from bsm._core import Place, write_faces
 from bsm.bitstream.coefficients.matrices import Levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
@@ -25,7 +24,7 @@ from bsm.bitstream.container.wire import FrameType, write_frame, write_map, writ
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.attributes.encoding import Place, Surface, carry, field_of, write_values
+from bsm.codec.static.attributes.encoding import Surface, carry, field_of, write_values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
@@ -386,18 +385,13 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
     faces = _coded("torus", rows, columns).faces
     order = np.arange(len(faces), dtype=np.int32)
-    core = Core(
-        faces, np.arange(size, dtype=np.int32), order, order, np.zeros(len(faces), np.uint8), faces, size, False
-    )
-    place, values, exact = (
-        Place(core, faces, order, order.astype(np.int64)),
-        np.arange(2, dtype=np.uint8)[:, None],
-        Quality("exact"),
-    )
+    vertices, none = np.arange(size, dtype=np.int32), np.zeros(len(faces), np.uint8)
+    place = Place(faces, vertices, order, order, none, faces, size, False)
+    values, exact = np.arange(2, dtype=np.uint8)[:, None], Quality("exact")
     own = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
     wanted = [(Attribute("0", values, "corner", indices=at), exact) for at in own]
     # Three in turn, of which each follows the other two.
-    turns = [carry(place, wanted[turn:] + wanted[:turn]) for turn in range(3)]
+    turns = [carry(place, faces, wanted[turn:] + wanted[:turn]) for turn in range(3)]
     carried = [*turns[0], *(turns[(index + 1) % 3][2] for index in range(3, count))][:count]
     declared = [
         _written(packets.Attribute(index, replace(one.declaration, name=f"{index}"), one.seams))

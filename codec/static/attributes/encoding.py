@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Field
-from bsm._core import Place as Core
+from bsm._core import Field, Place
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration, entries_of
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 from bsm.codec.geometry.attributes import DOMAINS, KINDS, SEMANTICS, Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.look.measure import of_length_1, painted
@@ -28,29 +27,12 @@ CHUNK = 1 << 15  # values of a frame
 WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
 
 
-@dataclass(frozen=True, eq=False)
-class Place:
-    """Where a given mesh's vertices, faces and corners are in the order of coding."""
-
-    core: Core
-    coded: Faces
-    faces: Indices
-    turns: Order
-
-    def of_corners(self, rows: Indices) -> Indices:
-        """What corners of the given faces have, shape (m', 3), in the order of coding, shape (m, 3)."""
-        ordered = rows[self.faces]
-        return np.take_along_axis(ordered, (self.turns[:, None] + np.arange(3)) % 3, axis=1)
-
-
 def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Place:
-    """Where values of a mesh lie that was joined and prepared."""
-    coded, turns = prepared.mesh.faces, prepared.turns
+    """A mesh that was joined and prepared, as the place of its attributes in the order of coding."""
     keeps = joined.splits is not None and len(joined.splits.loose) > 0
     kept, order = joined.kept.astype(np.int32), prepared.coding_faces.astype(np.int32)
-    index, vertices = np.ascontiguousarray(joined.index, np.int32), len(prepared.mesh.positions)
-    core = Core(given.faces, index, kept, order, turns.astype(np.uint8), coded, vertices, keeps)
-    return Place(core, coded, kept[order], turns)
+    index, coded, turns = np.ascontiguousarray(joined.index, np.int32), prepared.mesh, prepared.turns.astype(np.uint8)
+    return Place(given.faces, index, kept, order, turns, coded.faces, len(coded.positions), keeps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,22 +98,20 @@ class PreparedAttribute:
         return tuple(write_values(field, count) for _, count in ranges(self.declaration.rows, size))
 
 
-def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-    """Attributes in the order of coding."""
+def carry(place: Place, faces: Faces, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
+    """Attributes in the order of coding, on coded faces."""
     wanted = tuple(wanted)
     if len(wanted) > MOST_ATTRIBUTES:
         raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(wanted)}: leave some out")
-    return tuple(_carry(place, not number, *each) for number, each in enumerate(wanted))
+    return tuple(_carry(place, faces, not number, *each) for number, each in enumerate(wanted))
 
 
-def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) -> PreparedAttribute:
+def _carry(place: Place, faces: Faces, first: bool, attribute: Attribute, quality: Quality) -> PreparedAttribute:
     """The first attribute, or the next one."""
     kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
-    found = place.core.carry(
-        first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount
-    )
+    found = place.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
     coding, domain, origin, seams_of, seams, largest, offset, step, pieces, decoded, own, at, leans, outcome = found
     declaration = Declaration(
         name=attribute.name,
@@ -147,7 +127,7 @@ def _carry(place: Place, first: bool, attribute: Attribute, quality: Quality) ->
         step=(step,) if largest and step != 1.0 else (),
         seams_of=seams_of,
     )
-    surface = Surface(place.coded if own is None else own, at)
+    surface = Surface(faces if own is None else own, at)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     became = "recomputed from the decoded mesh" if coding == RECOMPUTED else noted(*outcome)
     return PreparedAttribute(

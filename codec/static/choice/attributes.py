@@ -11,6 +11,7 @@ from operator import attrgetter
 
 import numpy as np
 
+from bsm._core import Place
 from bsm.bitstream.errors import TargetError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Positions
@@ -20,7 +21,7 @@ from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import AttributeLook, has_look, own_normals, shades
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
-from bsm.codec.static.attributes.encoding import Place, PreparedAttribute, carry, cheaper, place_of, with_attributes
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, place_of, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.search import Search
@@ -66,7 +67,7 @@ class Input:
         return self.carry(self.wanted)
 
     def carry(self, wanted: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-        return carry(self._place, wanted) if wanted else ()
+        return carry(self._place, self.prepared.mesh.faces, wanted) if wanted else ()
 
     @cached_property
     def _place(self) -> Place:
@@ -86,7 +87,8 @@ class Input:
         own = own_normals(self.given)
         if own is None:
             return None
-        corners = self._place.of_corners(np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3))
+        given = np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3)
+        corners = self.prepared.of_coded(given[self.joined.kept])
         return own.reshape(-1, 3)[corners].reshape(-1, 9)
 
     def dressed(self, draft: Draft) -> Draft:
