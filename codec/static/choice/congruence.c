@@ -277,21 +277,13 @@ static int64_t keep(Motion *pool, int64_t count, int64_t most, Motion m) {
 }
 
 /* The motions with most votes, and mirrors at the middle of the box. */
-static int64_t choose_pool(const Space *s, Motion *votes) {
+static int64_t choose_pool(Motion *votes) {
     int64_t count = 0, most = POOL - 3;
     for (int64_t i = 0; i < VOTES; i++)
         if (votes[i].votes >= 3) count = keep(votes, count, most, votes[i]);
-    double low[3], high[3];
-    for (int i = 0; i < 3; i++) low[i] = high[i] = s->positions.data[i];
-    for (int64_t k = 0; k < 3 * s->positions.rows; k++) {
-        double x = s->positions.data[k];
-        low[k % 3] = x < low[k % 3] ? x : low[k % 3];
-        high[k % 3] = x > high[k % 3] ? x : high[k % 3];
-    }
     for (int axis = 0; axis < 3; axis++) {
         Motion m = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         m.turn[axis][axis] = -1.0;
-        m.shift[axis] = low[axis] + high[axis];
         votes[count++] = m;
     }
     return count;
@@ -310,9 +302,9 @@ static int64_t sort_pool(const Space *s, Motion *pool, int64_t count, int64_t mo
     return left;
 }
 
-/* Motions of positions (n x 3, in steps of a grid) with their faces (m x 3) and valences (n): rows of a turn (9) and a
- * shift (3) in `found`, in the order of what each explains that those before do not, each at least `worth` vertices.
- * `heads` has room for a power of two; `links`: n + m. Returns how many. */
+/* Motions of positions (n x 3, in steps of a grid, from the middle of their box) with their faces (m x 3) and valences
+ * (n): rows of a turn (9) and a shift (3) in `found`, in the order of what each explains that those before do not, each
+ * at least `worth` vertices. `heads` has room for a power of two; `links`: n + m; others are 0. Returns how many. */
 KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads,
                             Ints links, Bytes covered, Doubles room, Doubles2 found) {
     int64_t n = positions.rows, m = faces.rows, count = 0;
@@ -327,12 +319,10 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
     for (int64_t k = 0; k < 3 * n; k++)
         if (!(__builtin_fabs(positions.data[k]) < 0x1p30)) return MISUSED;
     Space s = {positions, heads.data, links.data, (uint32_t)heads.size - 1, (uint64_t *)(pool + VOTES)};
-    for (int64_t i = 0; i < VOTES; i++) pool[i] = (Motion){.votes = 0};
     for (int64_t i = 0; i < heads.size; i++) heads.data[i] = -1;
     collect_votes(&s, faces, degrees, heads.data, links.data + n, s.mask, pool);
-    count = choose_pool(&s, pool);
+    count = choose_pool(pool);
     for (int64_t i = 0; i < heads.size; i++) heads.data[i] = -1;
-    for (int64_t i = 0; i < NEAR_WORDS; i++) s.near[i] = 0;
     for (int64_t v = 0; v < n; v++) {
         const double *x = positions.data + 3 * v;
         uint32_t key = cell_key(cell_of(x[0]), cell_of(x[1]), cell_of(x[2]), s.mask);
@@ -354,7 +344,6 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
     }
     /* Which vertices each explains: of a vertex and its image the later. */
     int64_t size = (n - 1) / counted + 1;
-    for (int64_t i = 0; i < fitted * size; i++) covered.data[i] = 0;
     for (int64_t i = 0; i < fitted; i++)
         for (int64_t v = 0; v < n; v += counted) {
             double at[3];

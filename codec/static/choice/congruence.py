@@ -21,9 +21,9 @@ ROOM = 1 << 18  # numbers for votes
 FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer to their images
 
 
-def transforms_of(prepared: Prepared, grid: Grid) -> Levels:
-    """The transforms of a mesh that pay on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    turns, shifts = _motions(prepared, grid.step)
+def transforms_of(prepared: Prepared, grid: Grid, finer: float = 1.0) -> Levels:
+    """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
+    turns, shifts = _motions(prepared, grid.step / finer)
     origin = np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
 
@@ -56,11 +56,12 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     count, found = len(positions), np.empty((MOST, 12))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
     heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
-    links, covered = np.empty(count + len(faces), np.int32), np.empty(48 << 14, np.uint8)
-    centered = np.ascontiguousarray(positions - positions.mean(axis=0))
-    kept = _kernels.find_motions(centered, faces, degrees, WORTH, heads, links, covered, np.empty(ROOM), found)
+    links, covered, room = np.empty(count + len(faces), np.int32), np.zeros(48 << 14, np.uint8), np.zeros(ROOM)
+    middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
+    centered = np.ascontiguousarray(positions - middle)
+    kept = _kernels.find_motions(centered, faces, degrees, WORTH, heads, links, covered, room, found)
     turns = found[:kept, :9].reshape(-1, 3, 3)
-    found[:kept, 9:] += positions.mean(axis=0) - turns @ positions.mean(axis=0)
+    found[:kept, 9:] += middle - turns @ middle
     return found[:kept]
 
 
@@ -102,12 +103,8 @@ def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int
 
 def _quaternion(turn: Matrix) -> Matrix:
     """The unit quaternion of a rotation, shape (3, 3)."""
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = turn
-    products = np.array([
-        [xx + yy + zz, zy - yz, xz - zx, yx - xy],
-        [zy - yz, xx - yy - zz, xy + yx, xz + zx],
-        [xz - zx, xy + yx, yy - xx - zz, yz + zy],
-        [yx - xy, xz + zx, yz + zy, zz - xx - yy],
-    ])  # fmt: skip
+    (_, _, y), (z, _, _), (_, x, _) = turn - turn.T
+    axis, trace = np.array([[x, y, z]]), np.trace(turn)
+    products = np.block([[np.array([[trace]]), axis], [axis.T, turn + turn.T - trace * np.eye(3)]])
     found: Matrix = np.linalg.eigh(products)[1][:, 3]
     return found

@@ -65,6 +65,23 @@ def coded_like(prepared: Prepared, grid: Grid, places: Levels, brief: bool, cong
     return grid_draft(prepared, grid, places, brief=brief)
 
 
+def paying(prepared: Prepared, draft: Draft) -> Draft:
+    """A draft whose transforms are the better of two sets, less those quarters, but the first, that do not pay."""
+    places, header = draft.places, draft.header
+    if places is None or not header.congruence:
+        return draft
+    grid = Grid(header.center, header.scale, header.grid)
+    sets = transforms_of(prepared, grid)[: header.congruence - 1], transforms_of(prepared, grid, 2.0)
+    kept, finer = ([part for part in np.array_split(some, 4) if len(part)] for some in sets)
+    for i in (4, 3, 2, 1):
+        some = finer if i == 4 else kept[:i] + kept[i + 1 :]
+        if i == 4 or i < len(kept):
+            grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]))
+            coded = grid_draft(prepared, grid, places, brief=draft.may_be_brief)
+            draft, kept = (coded, some) if coded.size < draft.size else (draft, kept)
+    return draft
+
+
 def sampled_size(faces: Faces, grid: Grid, places: Levels) -> int:
     """The bytes of the first vertices."""
     return sum(map(len, grid_field(faces, grid.largest, places, 0, grid).write(SAMPLE)))

@@ -13,7 +13,7 @@ from operator import attrgetter, itemgetter
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
-from bsm.codec.static.choice.grids import LEAST_SAVED, SAMPLE, Gridded, congruent, may_repeat, rounded
+from bsm.codec.static.choice.grids import LEAST_SAVED, SAMPLE, Gridded, congruent, may_repeat, paying, rounded
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
@@ -81,7 +81,8 @@ class Search:
         most = near * min(self._size(candidate.congruent) for candidate in kept)
         alike = [candidate for candidate in kept if self._size(candidate.congruent) <= most]
         bent = self._measures.original.angle
-        return min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0).congruent
+        best = min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0)
+        return paying(self._prepared, best.congruent)
 
     def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
         """Grids of steps that are the same for all promises, each smaller than those before it."""
@@ -144,7 +145,7 @@ class Search:
             saved = self._size(plain.draft) - self._size(plain.congruent)
             if saved < LEAST_SAVED * most_bytes:
                 break
-        return min(found, key=itemgetter(0))[1] if found else None
+        return paying(self._prepared, min(found, key=itemgetter(0))[1]) if found else None
 
     def _best(self, bounds: Bounds, most_bytes: float) -> Candidate | None:
         """The best candidate that takes at most `most_bytes` without congruent parts."""

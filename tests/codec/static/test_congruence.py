@@ -13,7 +13,7 @@ from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.congruence import coded_transforms, transforms_of
-from bsm.codec.static.choice.grids import congruent, rounded
+from bsm.codec.static.choice.grids import congruent, paying, rounded
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
@@ -66,6 +66,17 @@ def test_copies_cost_little(turn):
 def test_a_mesh_without_congruent_parts_is_coded_as_by_1_0():
     plain, both = coded(bumpy(2), 12)
     assert both.frames == plain.frames
+
+
+def test_transforms_that_do_not_pay_are_left_out():
+    small = bumpy(7, 5, 4)
+    few = copies(TriangleMesh(0.3 * small.positions + [0.0, 8.0, 0.0], small.faces), np.array([about(1, 7)]), 6.0)
+    mesh = together(copies(bumpy(1), mirrors()[:1]), few)
+    prepared = Encoder(mesh, EncodeOptions(grid=8, congruence=True))._input.prepared
+    both = congruent(prepared, rounded(prepared, 8))
+    some = paying(prepared, both)
+    assert some.size < both.size and 1 < some.header.congruence < both.header.congruence
+    assert (decode(b"".join(some.frames)).positions == both.decoded).all()
 
 
 def test_grids_that_are_asked_for_and_light_ones_are_coded_as_by_1_0():
