@@ -61,6 +61,8 @@ void bind_codec(nb::module_ &m) {
     m.def("face_geometry", &face_geometry, "positions"_a, "faces"_a, "centroids"_a, "areas"_a, "normals"_a, Unlocked());
     m.def("pair_distances", &pair_distances, "values"_a, "pairs"_a, "distances"_a, Unlocked());
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
+    m.def("pull_in", &pull_in, "given"_a, "moved"_a, "normals"_a, "levels"_a, "aside"_a, "most"_a, "held"_a,
+          Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "planes"_a, "sums"_a, Unlocked());
     m.def("cosines", &cosines, "table"_a, "columns"_a, Unlocked());

@@ -11,6 +11,7 @@ from bsm.bitstream.errors import counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
+from bsm.codec.denoise.learnt.cascade import Learnt
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import NO_OUTLIERS, Outliers, find_outliers
 from bsm.codec.denoise.noise.ripples import NO_RIPPLES, Ripples, find_ripples
@@ -19,7 +20,7 @@ from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.recipe import BENDS, RAYS, Patient, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, discrepant, silent
-from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
+from bsm.codec.denoise.safety import judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
@@ -68,7 +69,7 @@ _OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for 
 AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
 GROUPS = {"fused": FUSED, "axis": AXIAL}
-UNEVEN_FUSED, UNEVEN_RATIO, UNEVEN_MOST = Recipe("positions", 0.1, "own", 0.4), 3.0, 150
+UNEVEN_FUSED, UNEVEN = Recipe("positions", 0.1, "own", 0.4), (3.0, 150)
 """For fused views of a real camera. Their noise is broader than any that is drawn here, so nothing is rehearsed: the
 filter goes on until vertices have moved this many times the fine noise."""
 CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
@@ -82,15 +83,11 @@ LEFT_UNEVEN = 0.55  # share of the angle that stays then
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
-LEARNT, LEARNT_MORE = 0.4, 0.025
-"""Share of learnt normals in the mean; and movement over noise, above that without them, at which they are left out."""
+LEARNT = 0.4  # share of learnt normals in the mean
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
-UNPROMISED = 1.2
-"""If the rehearsed error exceeds this multiple of the one that the roughness tells, the mesh is not changed: thin parts
-of robots became worse by up to a fifth."""
-DETAIL = 1.65
-"""Error that may come over the expected one where detail is lost: twice on an armadillo of decimated rings, at most."""
+UNPROMISED = 1.2  # rehearsed error over that which the roughness tells, from which on thin parts became worse
+DETAIL = 1.65  # error that may come over the expected one where detail is lost: twice on an armadillo, at most
 
 
 @dataclass(frozen=True)
@@ -167,9 +164,13 @@ def choose(
         return _bounded(finding)
     full = patient.topology
     members, part = sample(full.faces, finding.levels)
+    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels > 0.0
     if len(members) < full.n:
+        whole, given = patient, positions
+        rows = members, np.isin(full.faces, members).all(axis=1)
         positions, patient = positions[members], Patient(part, len(members))
-    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
+        patient.part = lambda: Learnt(*(every[some] for every, some in zip(whole.learnt(given), rows, strict=True)))
+        patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
     candidates = SEEN if finding.view is not None else GROUPS.get(finding.kind, CANDIDATES)
     share = LEARNT if candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white") else 0.0
     if finding.view is None:
@@ -202,7 +203,7 @@ def choose(
 def _persist(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:
     """Filter for as long as the noise of a real camera asks."""
     guesses = patient.treatments(positions).iterates(UNEVEN_FUSED)
-    times = discrepant(positions, guesses, patient.probe, finding.level, UNEVEN_RATIO, UNEVEN_MOST)
+    times = discrepant(positions, guesses, patient.probe, finding.level, UNEVEN)
     steps = (Step(UNEVEN_FUSED, times),)
     untreated = Reference(positions, patient.topology.faces).theta(patient.treatments(positions).mean(steps))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
@@ -237,17 +238,9 @@ def treat(
     finding = finding.reaching(patient.topology, choice.noise.slides)
     patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels > 0.0
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
-    treatments = patient.treatments(noisy)
-
-    def judged(share: float) -> tuple[Positions, Verdict]:
-        result = keep_good(noisy, treatments.mean(choice.steps, share), finding.levels > 0.0)
-        result = result if finding.bound is None else finding.bound.within(noisy, result)
-        return result, judge(noisy, result, finding, patient.probe)
-
-    full, verdict = judged(choice.learnt)
-    if choice.learnt and verdict.movement > (plain := judged(0.0))[1].movement + LEARNT_MORE:
-        # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
-        (full, verdict), choice = plain, replace(choice, learnt=0.0)
+    full = keep_good(noisy, patient.treatments(noisy).mean(choice.steps, choice.learnt), finding.levels > 0.0)
+    full = full if finding.bound is None else finding.bound.within(noisy, full)
+    verdict = judge(noisy, full, finding, patient.probe)
     if verdict.reason:
         return noisy, replace(choice, steps=(), reason=verdict.reason)
     share = restraint(verdict.movement, finding)

@@ -11,6 +11,8 @@ int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double
 void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals);
 void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances);
 void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, Doubles2 averaged);
+void pull_in(ConstDoubles2 given, ConstDoubles2 moved, ConstDoubles2 normals, ConstDoubles levels, double aside,
+             double most, Doubles2 held);
 void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, ConstDoubles2 normals,
                     int64_t iterations, ConstBytes free, Doubles2 planes, Doubles2 sums);
 void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,

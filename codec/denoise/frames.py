@@ -82,11 +82,12 @@ class FrameDenoiser:
     def _automatic(self, frames: Iterator[Positions]) -> Iterator[Pair]:
         found: Finding | None = None
         choice: AutomaticChoice | None = None
+        begun: Positions | None = None
 
         def finish(pair: Pair) -> tuple[Pair, AutomaticChoice]:
             given, welded = pair
             assert choice is not None and found is not None
-            if choice.outliers or choice.ripples:
+            if (choice.outliers or choice.ripples) and welded is not begun:
                 welded = calm(welded, self._patient)[0]
             result, done = treat(choice, welded, found, self._patient, self._strength)
             return (given, result), done
@@ -97,6 +98,7 @@ class FrameDenoiser:
                 self._progress("finding noise", 0.0)
                 if remaining is None:
                     begun, outliers, ripples, found = calm(begun, self._patient)
+                    group[0] = group[0][0], begun
                 else:
                     found = find_noise(begun, self._patient.probe)
                 if remaining is not None and remaining >= UNSTEADY * found.edge:

@@ -3,11 +3,11 @@
 #include "codec/denoise/vectors.h"
 
 typedef struct {
-    Four place, guide, normal;
+    Lanes place; /* centroid and guide over their kernels' widths, so that neighbors are compared whole */
+    Four normal;        /* times the area */
 } Packed;
 
-/* Joint bilateral filter of face normals. `packed` is scratch: centroids and guides over their kernels' widths, and
- * normals times areas, each in four numbers, so that neighbors are read and compared whole. */
+/* Joint bilateral filter of face normals; `packed` is scratch, a row of 8 for each face. */
 KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
                            ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed,
                            Doubles2 filtered) {
@@ -15,24 +15,28 @@ KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
     Packed *rows = (Packed *)packed.data;
     for (int64_t f = 0; f < normals.rows; f++) {
         const double *c = centroids.data + 3 * f, *g = guide.data + 3 * f, *n = normals.data + 3 * f, a = areas.data[f];
-        rows[f].place = (Four){c[0] * spatial, c[1] * spatial, c[2] * spatial, 0.0};
-        rows[f].guide = (Four){g[0] * range, g[1] * range, g[2] * range, 0.0};
+        for (int i = 0; i < 3; i++) {
+            double place = (c[i] - centroids.data[i]) * spatial;
+            rows[f].place[i] = (float)(place < -1e15 ? -1e15 : place < 1e15 ? place : 1e15);
+            rows[f].place[i + 4] = (float)(g[i] * range);
+        }
         rows[f].normal = (Four){n[0] * a, n[1] * a, n[2] * a, 0.0};
     }
     for (int64_t f = 0; f < normals.rows; f++) {
-        Four place = rows[f].place, likeness = rows[f].guide, sum = {0.0};
-        for (int64_t first = starts.data[f]; first < starts.data[f + 1]; first += EIGHT) {
+        Lanes place = rows[f].place;
+        Four sum = {0.0};
+        for (int64_t first = starts.data[f]; first < starts.data[f + 1]; first += CHUNK) {
             const int32_t *row = near.data + first;
-            int64_t count = least(EIGHT, starts.data[f + 1] - first);
-            Eight weights = {0.0};
+            int64_t count = least(CHUNK, starts.data[f + 1] - first);
+            float weights[CHUNK] = {0.0f};
             for (int64_t k = 0; k < count; k++) {
-                Four apart = rows[row[k]].place - place, unlike = rows[row[k]].guide - likeness;
+                Lanes apart = rows[row[k]].place - place, s = apart * apart;
                 /* Both kernels are Gaussian, so one exponential of the sum serves. */
-                Four squares = apart * apart + unlike * unlike;
-                weights[k] = -(squares[0] + squares[1] + squares[2]);
+                weights[k] = -(((s[0] + s[4]) + (s[1] + s[5])) + (s[2] + s[6]));
             }
-            weights = exponentials(weights);
-            for (int64_t k = 0; k < count; k++) sum += rows[row[k]].normal * weights[k];
+            Lanes *some = (Lanes *)weights;
+            for (int64_t k = 0; k < count; k += EIGHT, some++) *some = exponentials(*some);
+            for (int64_t k = 0; k < count; k++) sum += rows[row[k]].normal * (double)weights[k];
         }
         put_row(filtered.data, f, direction((Vector3){sum[0], sum[1], sum[2]}, row_of(normals.data, f)));
     }

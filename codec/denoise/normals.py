@@ -24,7 +24,7 @@ from bsm.codec.geometry.graph import Rows
 
 def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: float, sigma_r: float) -> Floats:
     """Average each face's normal with its neighbors', by area, distance and likeness of guides (paper, 9 to 11)."""
-    filtered, packed = np.empty_like(geometry.normals), np.empty((len(geometry.normals), 12))
+    filtered, packed = np.empty_like(geometry.normals), np.empty((len(geometry.normals), 8))
     _kernels.filter_normals(*geometry, guide, near.starts, near.members, sigma_s, sigma_r, packed, filtered)
     return filtered
 
@@ -81,8 +81,7 @@ def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int 
     return next(islice(guided.iterates(np.array(positions, np.float64)), iterations, None))
 
 
-PATIENT_VERTICES = 20
-"""Vertex updates where nothing hurries; half as many leave 0.2 % more of the angle, twice as many the same."""
+PATIENT_VERTICES = 20  # updates where nothing hurries; half as many leave 0.2 % more of the angle, twice the same
 AT_ONCE = 2
 
 

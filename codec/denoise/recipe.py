@@ -10,7 +10,6 @@ from itertools import islice
 import numpy as np
 
 from bsm.bitstream.errors import public
-from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_options, named
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
@@ -119,7 +118,8 @@ class Treatments:
     """Results of recipes on one mesh; those with the same hand-over share their start."""
 
     def __init__(self, noisy: Positions, patient: Patient) -> None:
-        self.noisy, self._patient, self._topology = noisy, patient, patient.topology
+        self._given, self._patient, self._topology = noisy, patient, patient.topology
+        self.noisy = noisy = patient.parted(noisy)
         self._within = np.asarray if patient.bound is None else partial(patient.bound.within, noisy)
         self._guided = GuidedFilter(patient.probe.average @ noisy, self._topology, self._within)
         self._starts: dict[tuple[str, float], Positions] = {}
@@ -143,17 +143,13 @@ class Treatments:
             return filtered_normals(start, self._topology, recipe.sigma_r)
         return self._guided.iterates(start, named("guide", GUIDES, recipe.guide), recipe.sigma_r)
 
-    @cached_property
-    def learnt(self) -> Learnt:
-        return learnt(self.noisy, self._topology, self._patient.noisy)
-
     def mean(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
         """Return the mean result of the steps, shape (n, 3), with `share` of the learnt normals; thread-safe."""
         for step in steps:
             if step not in self._results:
                 self._results[step] = next(islice(self.iterates(step.recipe), step.iterations, None))
         result = blend([self._results[step] for step in steps])
-        return joined(result, self.learnt, share, self._topology) if share > 0.0 else result
+        return joined(result, self._patient.learnt(self._given), share, self._topology) if share > 0.0 else result
 
 
 def blend(results: list[Positions]) -> Positions:
@@ -168,7 +164,9 @@ class Patient:
         self.view: View | None = None
         self.bound: Bound | None = None
         self.noisy: Mask | None = None
+        self.part: Callable[[], Learnt] | None = None  # what is learnt of a larger mesh that this is a part of
         self._last: tuple[Positions, Treatments] | None = None
+        self._learnt: tuple[Positions, Learnt] | None = None
         self._coarse: CoarseFilter | None = None
         self._keep = 0.0
 
@@ -183,14 +181,20 @@ class Patient:
         assert self._coarse is not None
         return self._coarse(positions, keep)
 
-    def treated(self, positions: Positions) -> Treatments:
-        if isinstance(self.bound, Grid):
-            positions = self.bound.parted(positions, self.probe)
-        return Treatments(positions, self)
+    def parted(self, positions: Positions) -> Positions:
+        return self.bound.parted(positions, self.probe) if isinstance(self.bound, Grid) else positions
+
+    def learnt(self, positions: Positions) -> Learnt:
+        """Return the networks' result on `positions`, shape (n, 3), and keep it until others are asked for."""
+        last = self._learnt
+        if last is None or last[0] is not positions:
+            found = self.part() if self.part else learnt(self.parted(positions), self.topology, self.noisy)
+            self._learnt = last = positions, found
+        return last[1]
 
     def treatments(self, positions: Positions) -> Treatments:
-        """Return `treated` of `positions`, shape (n, 3), and keep it until others are asked for; thread-safe."""
+        """Return treatments of `positions`, shape (n, 3), and keep them until others are asked for; thread-safe."""
         last = self._last
         if last is None or last[0] is not positions:
-            self._last = last = positions, self.treated(positions)
+            self._last = last = positions, Treatments(positions, self)
         return last[1]

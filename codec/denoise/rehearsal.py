@@ -1,9 +1,8 @@
 """Rehearsal (a parametric bootstrap): a good guess at the clean mesh is made noisy again, and the answer is known.
 
-The guess matters: one that still has noise in it takes the noise for detail and asks for too few iterations, one that
-is too smooth asks for too many. So the guess is the noisy mesh after t iterations of a base recipe, and t rises until
-the rehearsal asks for hardly more iterations than the guess itself was given. Noise of the kind that was found is drawn
-anew.
+A guess that still has noise in it asks for too few iterations, one that is too smooth for too many. So the guess is
+the noisy mesh after t iterations of a base recipe, and t rises until the rehearsal asks for hardly more iterations than
+the guess was given. Noise of the kind that was found is drawn anew.
 """
 
 from collections.abc import Callable, Iterator
@@ -16,7 +15,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
-from bsm.codec.denoise.recipe import Patient, Recipe, Step, blend
+from bsm.codec.denoise.recipe import Patient, Recipe, Step, Treatments, blend
 from bsm.codec.denoise.surface import face_geometry, pair_distances
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.threads import ordered_map
@@ -24,11 +23,10 @@ from bsm.codec.threads import ordered_map
 MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
 PATIENCE = 2  # iterations that are tried after the best one
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
-GAIN = 1.01
-"""Members join while the error stays below this multiple, as several recipes make fewer mistakes than one."""
+GAIN = 1.01  # members join while the error stays below this multiple: several make fewer mistakes than one
 SEED = 1
 ROUND = 0.1  # of all work, what the recipes of a round take, more or less
-DISCREPANCY, MOST_DISCREPANT, DISCREPANCY_PASSES = 2.2, 60, 8
+DISCREPANCY, DISCREPANCY_PASSES = (2.2, 60), 8
 """Noise of fused views is this much stronger than its fine level (a discrepancy principle, Morozov 1966): a guess that
 has lost less still has such noise, which looks like shape."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
@@ -62,14 +60,10 @@ GOALS: dict[str, Goal] = {
 
 
 def discrepant(
-    noisy: Positions,
-    guesses: Iterator[Positions],
-    probe: Probe,
-    level: float,
-    ratio: float = DISCREPANCY,
-    most: int = MOST_DISCREPANT,
+    noisy: Positions, guesses: Iterator[Positions], probe: Probe, level: float, asked: tuple[float, int] = DISCREPANCY
 ) -> int:
-    """Return after how many of `most` iterations the vertices have moved `ratio` times as far as the fine noise."""
+    """Return after how many iterations, of a number at most, vertices moved a ratio times as far as the fine noise."""
+    ratio, most = asked
     normals = probe.smooth_normals(noisy, DISCREPANCY_PASSES)
     moves = (np.einsum("ij,ij->i", noisy - guess, normals) for guess in islice(guesses, most))
     far = (np.nanmedian(probe.levels(moved)) > ratio * level for moved in moves)
@@ -124,7 +118,7 @@ class Rehearsal:
         """Make a guess, shape (n, 3), noisy."""
         self.truth = Reference(guess, self._topology.faces)
         self.noisy = self._synthesis.draw(guess, seed)
-        self._treatments = self._patient.treated(self.noisy)
+        self._treatments = Treatments(self.noisy, self._patient)
 
     def perform(self, steps: tuple[Step, ...], share: float) -> Positions:
         """The steps' result, shape (n, 3), on the mesh that is rehearsed for, with `share` of the learnt normals."""

@@ -16,8 +16,7 @@ from bsm.codec.denoise.surface import Mask
 MOST, MOST_UNKNOWN = 1.9, 1.25
 """Movement along the normals over noise, above which a window has lost more than noise: where noise is known, which
 varies by chance between windows if neighbors share it, and with the slant in scans of one view; and where it is not."""
-MOST_CORRELATED = 4.0
-"""Correlated noise is stronger than its finest frequencies, in a ratio that is the same everywhere: at most this."""
+MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
 FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
 """Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""

@@ -33,30 +33,28 @@ INLINE Vector3 direction(Vector3 a, Vector3 otherwise) {
 }
 
 /* Additions and products alone: the same to the last bit on every processor. */
-enum { EIGHT = 8 };
+enum { EIGHT = 8, CHUNK = 32 };
 typedef double Four __attribute__((vector_size(32), aligned(8)));
 typedef double Eight __attribute__((vector_size(64)));
 typedef int64_t EightLongs __attribute__((vector_size(64)));
 
-/* exp(x) to 2e-11 of itself, for x of at most 0; below -700 what exp(-700) is, 1e-304. */
-INLINE Eight exponentials(Eight x) {
-    EightLongs above = x > -700.0;
-    Eight lowest = {0.0};
-    lowest -= 700.0;
-    x = (Eight)(((EightLongs)x & above) | ((EightLongs)lowest & ~above));
-    /* 1.5 * 2^52: the sum has the nearest whole number of halvings in its last bits. */
-    Eight shifted = x * 1.4426950408889634 + 6755399441055744.0;
-    Eight whole = shifted - 6755399441055744.0;
-    Eight rest = (x - whole * 0.693147180369123816490) - whole * 1.90821492927058770002e-10;
-    Eight sum = rest * (1.0 / 40320.0) + 1.0 / 5040.0;
-    sum = sum * rest + 1.0 / 720.0;
-    sum = sum * rest + 1.0 / 120.0;
-    sum = sum * rest + 1.0 / 24.0;
-    sum = sum * rest + 1.0 / 6.0;
-    sum = sum * rest + 0.5;
-    sum = sum * rest + 1.0;
-    sum = sum * rest + 1.0;
-    return (Eight)((EightLongs)sum + ((EightLongs)shifted << 52));
+typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
+typedef int32_t LaneInts __attribute__((vector_size(32), aligned(4)));
+
+/* exp(x) to 2e-7 of itself, for x of at most 0; below -80 what exp(-80) is. */
+INLINE Lanes exponentials(Lanes x) {
+    LaneInts above = x > -80.0f;
+    Lanes lowest = x * 0.0f - 80.0f;
+    x = (Lanes)(((LaneInts)x & above) | ((LaneInts)lowest & ~above));
+    Lanes shifted = x * 1.44269504f + 12582912.0f, whole = shifted - 12582912.0f; /* 1.5 * 2^23 */
+    Lanes rest = (x - whole * 0.693145752f) - whole * 1.42860677e-6f;
+    Lanes sum = rest * (1.0f / 720.0f) + 1.0f / 120.0f;
+    sum = sum * rest + 1.0f / 24.0f;
+    sum = sum * rest + 1.0f / 6.0f;
+    sum = sum * rest + 0.5f;
+    sum = sum * rest + 1.0f;
+    sum = sum * rest + 1.0f;
+    return (Lanes)((LaneInts)sum + ((LaneInts)shifted << 23));
 }
 
 #endif

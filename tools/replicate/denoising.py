@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import FrameDenoiser, denoise_automatically
-from bsm.codec.denoise.recipe import Patient, Recipe
+from bsm.codec.denoise.recipe import Patient, Recipe, Treatments
 from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
 from bsm.files.mesh import read_mesh
 from tools.noise import (
@@ -102,7 +102,7 @@ def denoise_mesh(source: Source) -> Row:
 
 def against_oracle(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> Row:
     """The angle before, behind the best rival that an oracle stops, and behind ours."""
-    treatments = Patient(faces, len(noisy)).treated(noisy)
+    treatments = Treatments(noisy, Patient(faces, len(noisy)))
     rival = min(_best(treatments.iterates(recipe), angle_of) for recipe in RIVALS.values())
     return {"noisy": angle_of(noisy), "rival": rival, **ours(noisy, faces, angle_of)}
 
@@ -117,7 +117,7 @@ def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float])
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
     """The angle behind the best of the rivals with numbers of iterations that a user might ask for."""
-    treatments = Patient(faces, len(noisy)).treated(noisy)
+    treatments = Treatments(noisy, Patient(faces, len(noisy)))
     found = []
     for name, rival in RIVALS.items():
         run, done = treatments.iterates(rival), -1

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -58,8 +59,7 @@ def regressed_normals(described: Iterable[tuple[Singles, Floats]], network: Netw
     return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
 
 
-@dataclass(frozen=True, eq=False)
-class Learnt:
+class Learnt(NamedTuple):
     positions: Positions
     normals: Floats
 

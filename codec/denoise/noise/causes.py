@@ -11,6 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
+from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Indices, Positions
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
@@ -130,14 +131,10 @@ class Reach:
 
     def within(self, given: Positions, moved: Positions) -> Positions:
         """Moved positions, shape (n, 3), brought back to where noise may have come from."""
-        way, levels = moved - given, np.maximum(self.levels, 1e-300)
-        if not self.slides:
-            normals = surface_normals(moved, self.topology)
-            along = np.einsum("ij,ij->i", way, normals)[:, None] * normals
-            aside = way - along
-            way = along + aside / (1.0 + np.linalg.norm(aside, axis=1) / (ASIDE * levels))[:, None]
-        far = np.linalg.norm(way, axis=1) / (FARTHEST * levels)
-        return np.asarray(given + way / np.maximum(far, 1.0)[:, None])
+        normals = np.zeros((0, 3)) if self.slides else surface_normals(moved, self.topology)
+        held = np.empty_like(moved)
+        _kernels.pull_in(given, moved, normals, self.levels, ASIDE, FARTHEST, held)
+        return held
 
 
 @dataclass(frozen=True, eq=False)

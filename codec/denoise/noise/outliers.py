@@ -1,12 +1,9 @@
 """Single vertices that stand out: they are put back, and nothing else is touched.
 
-Vertices outside the ring of their neighbors are found even in noisy meshes. Fainter ones are found only on a mesh that
-is clean otherwise:
-
-A high-pass filter K turns a vertex that is off by a into ``K a``, the vertex's own column of K, a pattern that
-nothing on a clean surface has (creases are lines, detail is everywhere). So the columns that explain most of what is
-around them are peeled off one by one, by matching pursuit, the clearest first. Only where many are perfectly clear,
-and as many to one side of the surface as to the other, are less clear ones believed.
+Vertices outside the ring of their neighbors are found even in noisy meshes, fainter ones only on meshes that are clean
+otherwise: a high-pass filter K turns a vertex that is off by a into ``K a``, a pattern that clean surfaces do not have.
+The columns that explain most around them are peeled off by matching pursuit, the clearest first. Less clear ones are
+believed only where many are clear, and as many on one side of the surface as on the other.
 """
 
 from dataclasses import dataclass

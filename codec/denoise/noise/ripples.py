@@ -1,10 +1,9 @@
 """Ripples: smooth waves that cross a whole mesh, as a scanner that trembles leaves them, found and taken away.
 
-Filters that smooth take a wave of a few edges for shape, or shape with it. But a plane wave is three numbers, and goes
-through the whole mesh with one phase, whichever way the surface faces: detail does not. So the strongest peak in
-the spectrum of the fine filter (its values on a grid in space, by FFT) begins a wave, Gauss and Newton's method
-moves its wave vector, phase and height until the filter sees least, and the next peak is looked for in the rest. Waves
-are believed only if most windows of the mesh are calmer without them.
+A plane wave crosses the whole mesh with one phase, however the surface faces: detail does not. The strongest peak
+in the spectrum of the fine filter (its values on a grid in space, by FFT) begins a wave, Gauss and Newton's method fits
+its vector, phase and height, and the next peak is looked for in the rest. Waves are believed only if most windows of
+the mesh are calmer without them.
 """
 
 from __future__ import annotations

@@ -1,11 +1,9 @@
 """Whether a mesh is noisy, how much, and of what kind: all of it from the mesh itself.
 
-Noise does not know the shape. So it is as strong in one place as in another (or follows the direction of the surface,
-where a camera has put it, or covers only a part of the mesh), it goes to both sides of the surface alike,
-and no value has a preference. Detail and creases are strong in some places and weak in others. Rounding, binary volumes
-and steps of depth are known from the coordinates. Any other kind is suspected
-first, by its cause, and then accepted by `RULES`, which weigh a few measures. The answer for all other meshes is
-"none", and "unknown" for small ones.
+Noise is as strong in one place as in another (or follows the direction of the surface, where a camera has put it, or
+covers a part of the mesh), on both sides of the surface alike, and prefers no value. Detail and creases are strong in
+some places and weak in others. Coordinates tell rounding, binary volumes and steps of depth. Other kinds are suspected
+by their cause, and accepted by `RULES`, which weigh a few measures. All other meshes are "none", small ones "unknown".
 """
 
 from __future__ import annotations
@@ -43,9 +41,8 @@ LOCAL_STEP, LOCAL_SHARE, NEARBY = 1.5, 0.1, 4
 CALM = 0.05  # level up to which the rest counts as clean
 TERRACED = 0.05  # fewer depths per vertex mean a camera with few depth levels
 FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.08), (0.15, 0.225), 1.04
-"""Levels of the noise of views fused on a lattice, in mean edges, how uneven they may be there, and how much of it
-broader filters may see. They read .07 to .11, .06 to .21 and .93 to 1.01; fields without noise .01 to .07, .23 and more
-and 1.09 to 1.7."""
+"""Of views fused on a lattice: level in mean edges, how uneven it may be there, and what broad filters may see. They
+read .07 to .11, .06 to .21, .93 to 1.01; fields without noise .01 to .07, .23 and more, 1.09 to 1.7."""
 FUSED_LEVEL, FUSED_UNEVEN, NARROWER = 0.05, 0.45, 0.97
 """Fused views of a real camera: their least level, how uneven it may be, and how much broader filters may see."""
 MARCHED = 1.06
@@ -61,8 +58,7 @@ AXIS_ALONE, AXIS_EVEN = 1.25, (0.55, 1.7)
 """Noise along an axis over that across; and on sides along the axis over that at its ends: noise along normals reads 0
 to 0.8 there, triangles that are longer one way 1.8 and more."""
 AXIS_BARE = 0.58
-"""Noise along the normals over that along the axis, on sides along the axis: it reads up to 0.45, from detail of the
-shape, and noise along normals on shapes of long triangles 0.7 and more."""
+"""On sides along the axis, noise along normals over that along it: detail reads up to 0.45, noise along normals 0.7."""
 AXIS_MOST, SNAP = 5.0, 0.995  # deviations that a vertex was moved at most; cosine from which on it is x, y or z
 DEPTH_WORTH, DEPTH_MOST = 0.7, 3.0
 """Noise that grows with depth: the rest of the spread, and the logarithm of the ratio between both ends."""

@@ -16,8 +16,7 @@ from bsm.codec.denoise.surface import Floats, surface_normals
 from bsm.codec.geometry.metrics import mean_edge_length
 
 MEDIAN_ALONG, TENTH_ACROSS = 0.6745, 0.4590  # of one standard normal number's size, and of the length of two
-IRREGULARITY = 0.15
-"""Largest level across the normals, in mean edges, that irregular triangles gave on the meshes tried."""
+IRREGULARITY = 0.15  # largest level across the normals, in mean edges, that irregular triangles gave
 
 SLIDING = 0.5  # noise across the normals, over noise along them, from which on vertices slide along the surface
 

@@ -5,11 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.denoise import denoise_automatically, recipe
-from bsm.codec.denoise.automatic import LEARNT
-from bsm.codec.denoise.learnt.cascade import WEIGHTS, Learnt, Network, joined, learnt, read_networks, regressed_normals
+from bsm.codec.denoise.learnt.cascade import WEIGHTS, Network, joined, learnt, read_networks, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, descriptions, mirrored
-from bsm.codec.denoise.surface import Topology, face_geometry, surroundings
+from bsm.codec.denoise.surface import Topology, surroundings
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tools.noise import gaussian_along_normals
@@ -112,11 +110,3 @@ def test_how_rough_a_mesh_is_counts_where_it_is_noisy() -> None:
         for positions, where in ((noisy, None), (half, None), (half, upper))
     )
     assert everywhere < 0.7 * all_over and there == pytest.approx(all_over, rel=0.1)
-
-
-@pytest.mark.parametrize("kept", [True, False])
-def test_learnt_normals_are_left_out_where_they_move_more(kept: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    clean, noisy, faces = noisy_sphere(14)
-    known = clean if kept else 0.9 * clean
-    monkeypatch.setattr(recipe, "learnt", lambda *_: Learnt(known, face_geometry(known, faces).normals))
-    assert denoise_automatically(noisy, faces)[1].learnt == (LEARNT if kept else 0.0)
