@@ -154,7 +154,7 @@ def of_pymeshlab(path: Path) -> Read:
     library = imported("pymeshlab", "files are compared with PyMeshLab", "replicate")
     everything = library.MeshSet()
     everything.load_new_mesh(str(path))
-    colored = path.suffix.lower() != ".obj" or re.search(rb"^v(\s+\S+){6}", path.read_bytes(), re.M)
+    colored = path.suffix.lower() != ".obj" or re.search(rb"^v([ \t]+\S+){6}", path.read_bytes(), re.M)
     triangles, values = [np.zeros((0, 3, 3))], dict[str, list[Array]]()
     for mesh in everything:
         faces = mesh.face_matrix()
