@@ -55,6 +55,9 @@ bool name_attribute(Context *context, const char *name) {
     return false;
 }
 
+#ifndef BSMDEC_TERSE
+__attribute__((noinline)) /* copies where it is called would be a kilobyte of what pages load */
+#endif
 bool fail_with(Context *context, bsmdec_status status, Message message) {
     if (failed(context)) return false;
     bsmdec_error *error = &context->error;

@@ -254,9 +254,9 @@ static bsmdec_status show_in(bsmdec *decoder, double *wide, float *narrow, size_
     int64_t loose = 0;
     for (size_t v = 0; v < count / 3; v++) {
         const double *place = place_of(decoder, (int64_t)v, &loose);
-        for (size_t i = 0; i < 3; i++) {
-            if (wide != NULL) wide[3 * v + i] = place[i];
-            else narrow[3 * v + i] = (float)place[i];
+        for (int i = 0; i < 3; i++) {
+            if (narrow != NULL) *narrow++ = (float)place[i];
+            else *wide++ = place[i];
         }
     }
     return BSMDEC_OK;
