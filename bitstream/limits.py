@@ -222,7 +222,7 @@ def decoder_error(
     if status not in _REFUSALS:
         return MemoryError(message)
     error = _REFUSALS[status](message)
-    if limit:
+    if limit and isinstance(error, LimitError):  # or damage, to those who tolerate it
         error = LimitError(f"{message}; {_cure_of(limit, value, shown, present, received)}")
     places = {"offset": offset, "frame": frame, "block": block}
     return error.located(**{name: place for name, place in places.items() if place >= 0})

@@ -89,7 +89,7 @@ class Gallery:
     def picture(self, canvas: Canvas, side: int) -> Picture:
         """Return the picture from one side; draw it on this canvas the first time."""
         if side not in self._pictures:
-            self._pictures[side] = canvas.draw(*self._mesh, self._cameras[side])
+            self._pictures[side] = canvas.draw(*self._mesh, self._cameras[side], owned=False)
         return self._pictures[side]
 
 
@@ -178,7 +178,7 @@ class LookMetric:
 
         def seen(canvas: Canvas, side: int) -> tuple[Matrix, float]:
             original = pictures.picture(canvas, side)
-            picture = canvas.draw(placed, self._shape.faces, normals, self._cameras[side], owned=True)
+            picture = canvas.draw(placed, self._shape.faces, normals, self._cameras[side])
             shown = canvas.owner[canvas.owner >= 0]
             return difference(original, picture), float(turned[shown].mean()) if len(shown) else 0.0
 
@@ -240,7 +240,7 @@ class LookMetric:
         both = []
         for at, made in ((self._placed(self._mesh.positions), self._shape), (placed, shape)):
             canvas = Canvas(self.pixels)
-            canvas.draw(at, made.faces, made.normals(at), self._cameras[most])
+            canvas.draw(at, made.faces, made.normals(at), self._cameras[most], owned=False)
             both.append(canvas.samples)
         return both[0], both[1]
 
@@ -272,7 +272,8 @@ class LookMetric:
         self, pictures: Gallery, placed: Positions, faces: Faces, normals: Normals, sides: Sequence[int] | None = None
     ) -> Look:
         def sums(canvas: Canvas, side: int) -> Matrix:
-            return difference(pictures.picture(canvas, side), canvas.draw(placed, faces, normals, self._cameras[side]))
+            drawn = canvas.draw(placed, faces, normals, self._cameras[side], owned=False)
+            return difference(pictures.picture(canvas, side), drawn)
 
         return summed(np.array(self._each(sums, self._sides if sides is None else sides)))
 

@@ -78,9 +78,7 @@ class Canvas:
         self._tiles = np.empty((-(-samples // _TILE),) * 2, np.float32)
         self._placed = np.empty((0, 3))
 
-    def draw(
-        self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix, owned: bool = False
-    ) -> Picture:
+    def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix, owned: bool = True) -> Picture:
         """Draw a mesh, lit alike on both sides; if `owned`, `owner` is the face that each sample shows, or -1."""
         self._placed = np.empty(positions.shape)
         self.owner = np.empty(self.samples.shape if owned else (0, 0), np.int32)

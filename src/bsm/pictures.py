@@ -117,7 +117,7 @@ def nearest_faces(pixels: Positions, faces: Faces, size: int) -> npt.NDArray[np.
     canvas, plain = Canvas(size + -size % SAMPLES), np.zeros((len(faces), 9), np.float32)
     camera = np.append(np.eye(3, 4), (0.0, 0.0, 1.0))  # which leaves columns, rows and depths as they are
     placed = np.ascontiguousarray(np.column_stack([pixels[:, :2], depths]))
-    canvas.draw(placed, np.ascontiguousarray(faces, np.int32), plain, camera, owned=True)
+    canvas.draw(placed, np.ascontiguousarray(faces, np.int32), plain, camera)
     return canvas.owner[:size, :size]
 
 

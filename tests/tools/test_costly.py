@@ -19,11 +19,11 @@ def samples(monkeypatch):
     """About how many samples each picture takes: those of the picture, and on average half the area of each face."""
     taken, draw = [], Canvas.draw
 
-    def counting(canvas, positions, faces, normals, camera):
+    def counting(canvas, positions, faces, normals, camera, **words):
         a, b, c = (positions[corner] for corner in faces.T)
         areas = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
         taken.append((1 + areas / 2 / np.ptp(positions, axis=0).max() ** 2) * canvas.samples.size)
-        return draw(canvas, positions, faces, normals, camera)
+        return draw(canvas, positions, faces, normals, camera, **words)
 
     monkeypatch.setattr(Canvas, "draw", counting)
     return taken

@@ -339,7 +339,7 @@ def test_of_faces_at_one_place_the_brightest_is_shown():
         normals[:, ::3], normals[[order.index(2), order.index(3)], 2::3] = 1.0, 0.5
         camera = cameras(square, 64)[0]
         canvas = Canvas(64)
-        canvas.draw(square, mine, normals, camera, owned=True)
+        canvas.draw(square, mine, normals, camera)
         picture, owner = canvas.samples, canvas.owner
         assert set(owner[owner >= 0]) == {order.index(2), order.index(3)}
         assert np.ptp(picture[owner >= 0]) < 1e-6

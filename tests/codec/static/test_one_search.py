@@ -43,9 +43,9 @@ def test_quick_draws_few_pictures() -> None:
     draw = Canvas.draw
     for effort in drawn:
 
-        def counted(*given: Any, effort: str = effort) -> Any:
+        def counted(*given: Any, effort: str = effort, **words: bool) -> Any:
             drawn[effort] += 1
-            return draw(*given)
+            return draw(*given, **words)
 
         with patch.object(Canvas, "draw", counted):
             encoder = Encoder(bumpy(), EncodeOptions(threads=1, effort=effort))
