@@ -70,7 +70,7 @@ def main(argv: list[str] | None = None) -> int:
         found = encode(encoder, mesh, qualities, positions=positions, keep_order=keep, **options)
         seen[found.status] += 1
         asked = bool(qualities) or positions == CELLS  # what a mesh may not be able to keep
-        if found.status not in (0, UNREACHABLE if positions else 0, MISUSED if asked else 0):
+        if found.status not in (0, UNREACHABLE if positions or qualities else 0, MISUSED if asked else 0):
             print(f"seed {seed}: status {found.status}: {found.message}")
             return 1
         seed += 1
