@@ -164,7 +164,7 @@ class Patient:
         self.view: View | None = None
         self.bound: Bound | None = None
         self.noisy: Mask | None = None
-        self.part: Callable[[], Learnt] | None = None  # what is learnt of a larger mesh that this is a part of
+        self.part: Callable[[], Learnt] | None = None  # learnt normals of the whole mesh, of which this is a sample
         self._last: tuple[Positions, Treatments] | None = None
         self._learnt: tuple[Positions, Learnt] | None = None
         self._coarse: CoarseFilter | None = None

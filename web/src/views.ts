@@ -74,7 +74,7 @@ export function placeOf({ buffer, byteOffset = 0, byteLength }: View): string {
     return `${buffer} ${byteOffset} ${byteLength}`;
 }
 
-/** The bytes of what is drawn of a stream, or of a frame. */
+/** Bytes of the arrays in which a stream or a frame is drawn. */
 export function sizeOf({ index, positions, normals, attributes }: Record<"index" | "positions" | "normals", ArrayBufferView> & Pick<Shape, "attributes">): number {
     return [index, positions, normals, ...attributes.map(({ values }) => values)].reduce((sum, { byteLength }) => sum + byteLength, 0);
 }
