@@ -97,7 +97,7 @@ class Encoder:
             raise OptionError("preset none needs a target or a bound, such as size or max_error")
         packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
-        self._input = Input(mesh, self.options)
+        self._input = Input(mesh, self.options, self.options)
         self.look: float | None = None
         self.binding = ""
         self._unseen = ""
@@ -174,10 +174,11 @@ class Encoder:
     def draft(self, progress: Progress | None = None) -> Draft:
         """Return the stream of the options, without a target."""
         _ = self._input.carried  # raises what is wrong with attributes first
-        promise, given, near = self.options.promise, self._input, self._begun(progress)
+        promise, near = self.options.promise, self._begun(progress)
         if promise is None:
-            return self._verified(given.dressed(self._bare(near)), near)
-        return self._verified(smallest(given, promise, near), near, promise)
+            return self._verified(self._input.dressed(self._bare(near)), near)
+        self._input, draft = smallest(self._input, promise, near)
+        return self._verified(draft, near, promise)
 
     def _begun(self, progress: Progress | None) -> Nearing:
         """Prepare, and return what reports the rest."""
@@ -220,7 +221,8 @@ class Encoder:
             found = self._within_size(target, near)
         else:
             contract = self._within_error(target)
-            found = self._judged(smallest(self._input, contract, near))
+            self._input, draft = smallest(self._input, contract, near)
+            found = self._judged(draft)
         self._verified(found.draft, near, contract)
         require(target.excess(found) <= MARGIN, f"the target is {target.value:g}, not {target.reached(found):g}")
         return found
@@ -234,22 +236,22 @@ class Encoder:
 
     def _within_size(self, target: Target, near: Nearing) -> Attempt:
         """The best stream of a size, which keeps whatever is promised."""
-        promise = self.options.promise
-        anything = Contract(WIDEST)
+        promise, anything = self.options.promise, Contract(WIDEST)
         most = target.value * (1.0 if target.kind == "size" else self._input.prepared.graph.size / 8.0)
-        found = self._input.search(promise or anything, near).best(promise or anything, most)
-        dressed = None if found is None else self._input.dressed(found)
-        if dressed is not None and not (promise and self._input.measured(dressed, promise)[0]):
+        given = self._input = self._input.measuring(near)
+        search = given.search
+        found = search.best(promise or anything, most)
+        dressed = None if found is None else given.dressed(found)
+        if dressed is not None and not (promise and given.measured(dressed, promise)[0]):
             return self._judged(dressed)
-        asked, none = f"{target.worded(target.value)} at most cannot be", self._input.search(anything, near)
+        asked = f"{target.worded(target.value)} at most cannot be"
+        least = self._judged(given.dressed(search.smallest(promise or anything)))
+        had = target.worded(target.reached(least))
         if promise is None:
-            least = self._judged(self._input.dressed(none.smallest(anything)))
-            error = TargetError(f"{asked} reached; the least possible is {target.worded(target.reached(least))}")
+            error = TargetError(f"{asked} reached; the least possible is {had}")
         else:
-            least = self._judged(self._input.dressed(self._input.search(promise, near).smallest(promise)))
-            other = none.best(anything, most)
-            advice = "does not reach it either" if other is None else f"reaches it with {none.seen(other)}"
-            had = target.worded(target.reached(least))
+            other = search.best(anything, most)
+            advice = "does not reach it either" if other is None else f"reaches it with {search.seen(other)}"
             error = TargetError(f"{asked} reached with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
         raise error
@@ -266,7 +268,7 @@ class Encoder:
 
     def seen(self, attempt: Attempt) -> str:
         """Return the look of an attempt, in words."""
-        return self._input.search(Contract(WIDEST), None).seen(attempt.draft)
+        return self._input.search.seen(attempt.draft)
 
     def _judged(self, draft: Draft) -> Attempt:
         return Attempt(draft, partial(self._compared, draft))

@@ -75,7 +75,7 @@ class Source:
             raise OptionError("simplify changes vertices and faces; it excludes keep_order")
         if options.target or promise.angle < ANY_ANGLE or promise.visual < math.inf:
             raise OptionError("simplify keeps the look and the largest error; it excludes targets and other bounds")
-        self.options, self.promise, self._input = options, promise, Input(mesh, options)
+        self.options, self.promise, self._input = options, promise, Input(mesh, options, options)
         joined = self._input.joined
         sent = (attribute for attribute, _ in self._input.wanted)
         attributes = tuple(_of_vertices(attribute, mesh, joined.mesh.faces, joined.kept) for attribute in sent)

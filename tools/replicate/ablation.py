@@ -124,7 +124,7 @@ def _encoded(mesh: Any, tool: Tool | None, options: EncodeOptions) -> tuple[int,
     if tool is None:
         data = encoder.encode()
         return len(data), data
-    encoder._input.coded = changed(options, **tool.coded)
+    encoder._input = encoder._input.but(coded=changed(options, **tool.coded))
     with tool.left_out():
         data = encoder.encode()
     return len(data), data if tool.decodes else None

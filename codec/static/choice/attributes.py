@@ -6,8 +6,10 @@ import math
 from bisect import bisect_left
 from collections.abc import Sequence
 from contextlib import nullcontext, suppress
-from dataclasses import replace
+from copy import copy
+from dataclasses import dataclass, replace
 from operator import attrgetter
+from typing import Any
 
 import numpy as np
 
@@ -32,13 +34,20 @@ from bsm.codec.static.targets import SLACK, TRIES, Contract
 ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 
 
+@dataclass(frozen=True, eq=False)
 class Input:
     """A mesh on its way into a stream: joined, prepared, and its attributes as they are sent."""
 
-    def __init__(self, given: TriangleMesh, options: EncodeOptions) -> None:
-        self.given, self.options = given, options
-        self.coded = options  # how the shape is coded, which the best effort chooses
-        self.looks: list[tuple[int, AttributeLook]] = []  # attributes whose quality the look decides
+    given: TriangleMesh
+    options: EncodeOptions
+    coded: EncodeOptions  # how the shape is coded, which the best effort chooses
+    looks: tuple[tuple[int, AttributeLook], ...] = ()  # attributes whose quality the look decides
+
+    def but(self, **known: Any) -> Input:
+        """Return an input with other values of some fields and results, and all else that was computed."""
+        other = copy(self)
+        other.__dict__.update(known)
+        return other
 
     @cached_property
     def joined(self) -> JoinedMesh:
@@ -58,9 +67,9 @@ class Input:
         )
 
     @cached_property
-    def wanted(self) -> list[tuple[Attribute, Quality]]:
+    def wanted(self) -> tuple[tuple[Attribute, Quality], ...]:
         options = self.options
-        return qualities(self.given.attributes, dict(options.attributes), options.grade, options.normals)
+        return tuple(qualities(self.given.attributes, dict(options.attributes), options.grade, options.normals))
 
     @cached_property
     def carried(self) -> tuple[PreparedAttribute, ...]:
@@ -73,9 +82,12 @@ class Input:
     def _place(self) -> Place:
         return place_of(self.given, self.joined, self.prepared)
 
-    def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
+    def wanted_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
         """All attributes, one of them with another quality."""
-        return self.carry([(a, quality if at == index else asked) for at, (a, asked) in enumerate(self.wanted)])
+        return tuple((a, quality if at == index else asked) for at, (a, asked) in enumerate(self.wanted))
+
+    def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
+        return self.carry(self.wanted_with(index, quality))
 
     @cached_property
     def normals(self) -> Normals | None:
@@ -97,8 +109,16 @@ class Input:
             return draft
         return with_attributes(draft, self.carried, self.given.metadata)
 
-    def search(self, contract: Contract, near: Nearing | None) -> Search:
-        self.measures = Measures(self.prepared, self.options.threads, self.normals, alike=contract.alike, near=near)
+    def measuring(self, near: Nearing | None, *, alike: bool = False) -> Input:
+        """Return an input whose measurements report their progress; `alike`: angles count all faces alike."""
+        return self.but(measures=Measures(self.prepared, self.options.threads, self.normals, alike=alike, near=near))
+
+    @cached_property
+    def measures(self) -> Measures:
+        return Measures(self.prepared, self.options.threads, self.normals)
+
+    @property
+    def search(self) -> Search:
         return Search(self.measures, self.coded, lambda draft: self.dressed(draft).size, self.saved)
 
     def saved(self, candidate: Candidate) -> int:
@@ -142,41 +162,38 @@ class Input:
         return "" if bounds.keeps(positions, bound) else bounds.had, max(shown), binding
 
 
-def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
-    """The smallest stream that keeps a contract, in colors and under a checker where it has them, too."""
-    asked = _choose_blocks(given, contract) if given.options.effort == "best" else contract
-    search = given.search(contract, near)
+def smallest(given: Input, contract: Contract, near: Nearing | None) -> tuple[Input, Draft]:
+    """The smallest stream that keeps a contract, in colors and under a checker, too; and the input as it is sent."""
+    given, asked = _choose_blocks(given, contract) if given.options.effort == "best" else (given, contract)
+    given = given.measuring(near, alike=contract.alike)
     if given.measures.look is not None and contract.look < math.inf:
-        given.looks = _roughened(given, contract.look)
+        given = _roughened(given, contract.look)
     for _ in range(TRIES):
-        if given.looks:
-            given.carried = given.carry(given.wanted)
-        kept = _shaded(given, search, asked)
-        seen = max((look.distance(kept.decoded, given.carried[at].at_corners) for at, look in given.looks), default=0.0)
+        sent, kept = _shaded(given, asked)
+        seen = max((look.distance(kept.decoded, sent.carried[at].at_corners) for at, look in sent.looks), default=0.0)
         if seen <= contract.look:
-            return kept
+            return sent, kept
         asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
     raise TargetError(
         f"{contract} cannot be kept on this mesh; with its colors or under a checker, the best look is {seen:.3g}"
     )
 
 
-def _choose_blocks(given: Input, contract: Contract) -> Contract:
-    """Go on with the blocks, effort and promise, asked or stricter, that give the shape fewest bytes."""
-    given.carried, found = (), list[tuple[Draft, EncodeOptions, Prepared, Contract]]()
+def _choose_blocks(given: Input, contract: Contract) -> tuple[Input, Contract]:
+    """Choose the blocks, effort and promise, asked or stricter, that give the shape fewest bytes."""
+    found = list[tuple[Draft, Input, Contract]]()
     large = given.options.block_size >= LARGE_BLOCKS["block_size"]
     others = {name: getattr(EncodeOptions, name) if large else size for name, size in LARGE_BLOCKS.items()}
     usual = [({"effort": "normal"}, promise) for promise in (contract, *_stricter(contract))]
     for changes, promise in (*usual, ({}, contract), (others, contract)):
         if changes is others and found[-1][0].places is not None and not found[-1][0].header.congruence:
             break  # a grid has no blocks; attributes may need some where it is smaller by congruent parts
-        given.coded = replace(given.options, **changes)
-        given.__dict__.pop("prepared", None)
+        tried = replace(given, coded=replace(given.options, **changes)).but(joined=given.joined, carried=())
+        tried = tried.measuring(None, alike=promise.alike)
         with suppress(TargetError) if promise is not contract else nullcontext():
-            found.append((given.search(promise, None).smallest(promise), given.coded, given.prepared, promise))
-    _, given.coded, given.prepared, promise = min(found, key=lambda made: made[0].size)
-    given.carried = given.carry(given.wanted)
-    return promise
+            found.append((tried.search.smallest(promise), tried, promise))
+    _, chosen, promise = min(found, key=lambda made: made[0].size)
+    return chosen.but(carried=chosen.carry(chosen.wanted)), promise
 
 
 def _stricter(contract: Contract) -> list[Contract]:
@@ -191,17 +208,17 @@ def _stricter(contract: Contract) -> list[Contract]:
     ]
 
 
-def _roughened(given: Input, look: float) -> list[tuple[int, AttributeLook]]:
-    """Make colors and texture coordinates without a requested quality as coarse as the look allows; return these."""
-    found = []
+def _roughened(given: Input, look: float) -> Input:
+    """Make colors and texture coordinates without a requested quality as coarse as the look allows."""
+    rough = given
     for at, (attribute, quality) in enumerate(given.wanted):
         asked = {"*", attribute.name} & {*dict(given.options.attributes)}
         if not asked and quality.way in ("bits", "exact") and has_look(attribute):
-            found.append((at, _roughen(given, at, attribute, ATTRIBUTE_SHARE[attribute.semantic] * look)))
-    return found
+            rough = _roughen(rough, at, attribute, ATTRIBUTE_SHARE[attribute.semantic] * look)
+    return rough.but(carried=rough.carry(rough.wanted)) if rough.looks else given
 
 
-def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> AttributeLook:
+def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Input:
     """Make an attribute as coarse as takes at most some of the look."""
     # Of a texture that repeats, pictures show a mean, however wrong: no place moves by more than 1/128 of its side.
     extent = float(np.ptp(attribute.values, axis=0).max(initial=0.0))
@@ -220,15 +237,15 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Attrib
 
     step = steps[bisect_left(range(len(steps) - 1), True, key=near)]
     if attribute.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:
-        given.wanted[at] = attribute, step
-    return look_of
+        given = given.but(wanted=given.wanted_with(at, step))
+    return given.but(looks=(*given.looks, (at, look_of)))
 
 
-def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
+def _shaded(given: Input, contract: Contract) -> tuple[Input, Draft]:
     """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
-    bare, metric, free = search.smallest(contract), given.measures.look, given.free_normals
+    bare, metric, free = given.search.smallest(contract), given.measures.look, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
-        return given.dressed(bare)
+        return given, given.dressed(bare)
     decoded, asked = bare.decoded, contract.look
 
     def seen(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
@@ -239,28 +256,26 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     def enough(at: int) -> bool:
         return seen(given.carry_with(free, finer[at]), decoded) <= 1.0
 
-    recomputed = given.carry_with(free, Quality("recompute"))
-    given.carried = given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)])
-    kept, coded = given.dressed(bare), given.carried
-    before = seen(recomputed, given.prepared.mesh.positions)
+    recomputed = given.but(carried=given.carry_with(free, Quality("recompute")))
+    sent = given.but(carried=given.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)]))
+    kept = sent, sent.dressed(bare)
+    before = seen(recomputed.carried, given.prepared.mesh.positions)
     if metric.against_faces or before > 1.0 - SLACK:
         return kept
-    given.carried = recomputed
     with suppress(TargetError):
         for attempt in range(TRIES):  # of none, and positions that are as much nearer as they need to be then
-            other = given.dressed(bare)
-            if other.size >= kept.size:
+            other = recomputed.dressed(bare)
+            if other.size >= kept[1].size:
                 break
-            share = seen(recomputed, bare.decoded)
+            share = seen(recomputed.carried, bare.decoded)
             if share <= 1.0:
-                kept, coded = other, recomputed
+                kept = recomputed, other
             if attempt or bare.places is None:  # else the first choice again, now that no normals lean on places
                 if share <= 1.0:
                     break
                 nearer = math.sqrt((1.0 - before**2) / (share**2 - before**2))
                 contract = replace(contract, look=contract.look * nearer * (1.0 - SLACK))
-            bare = search.smallest(contract)
-    given.carried = coded
+            bare = recomputed.search.smallest(contract)
     return kept
 
 

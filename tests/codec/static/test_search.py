@@ -71,7 +71,7 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
 
 def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, Gridded]:
     encoder, contract = Encoder(mesh, options), options.promise
-    search = encoder._input.search(contract, None)
+    search = encoder._input.search
     bounds = Bounds(search._measures, contract)
     return search, bounds, Gridded(search._prepared, bounds)
 
