@@ -21,7 +21,7 @@ from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import degenerate, weld
+from bsm.codec.geometry.welding import degenerate, first_of, group_rows, weld
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
 
@@ -56,26 +56,17 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
 
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
     notes = []
-    faces = index[mesh.faces]
-    collapsed = degenerate(faces) & ~degenerate(mesh.faces)
+    collapsed = degenerate(index[mesh.faces]) & ~degenerate(mesh.faces)
     if keep or collapsed.all():
         collapsed[:] = False
     kept = np.flatnonzero(~collapsed)
-    used = np.zeros(int(index.max(initial=-1)) + 1, np.bool_)
-    used[faces[kept]] = True
-    index = np.where(used[index], (np.cumsum(used) - 1)[index], -1).astype(np.int32)
     # A vertex that no face uses is no copy of one that is used, although it is there, too.
     given = np.zeros(len(mesh.positions), np.bool_)
     given[mesh.faces[kept]] = True
-    index[~given] = -1
-    first = np.full(int(used.sum()), len(index), np.int64)
-    np.minimum.at(first, index[given], np.flatnonzero(given))
-    order = np.argsort(first)  # where the first at a place was in no face, another one has become the first
-    if (np.diff(first) < 0).any():
-        rank = np.empty(len(order), np.int32)
-        rank[order] = np.arange(len(order), dtype=np.int32)
-        index[given] = rank[index[given]]
-        first = first[order]
+    numbers = group_rows(index[given].astype(np.int64)[:, None])
+    first = np.flatnonzero(given)[first_of(numbers)]
+    index = np.full(len(given), -1, np.int32)
+    index[given] = numbers
     mentioned = np.zeros(len(mesh.positions), np.bool_)
     mentioned[mesh.faces] = True
     merged, loose = int(mentioned.sum()) - len(first), len(index) - int(mentioned.sum())
