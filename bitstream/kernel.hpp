@@ -74,6 +74,10 @@ template <typename... Arguments, int64_t (*kernel)(Arguments...)> struct Checked
 };
 template <auto kernel> constexpr auto checked = &Checked<kernel>::call;
 
+// Bind a kernel of room `m`, with its name and arguments as in C.
+#define KERNEL(name) m.def(#name, &name, Unlocked());
+#define CHECKED(name) m.def(#name, checked<name>, Unlocked());
+
 #define BSM_CASTER(Array, type, dimensions)                                                                            \
     template <> struct nb::detail::type_caster<Array> : nb::detail::ArrayCaster<Array, type, dimensions> {};
 #define BSM_CASTERS(Array, type)                                                                                       \

@@ -1,4 +1,4 @@
-// The kernels of `bitstream` as functions of Python: one line each.
+// The kernels of `bitstream` as functions of Python: by their names in C.
 #include "bitstream/kernel.hpp"
 
 #include <map>
@@ -32,7 +32,7 @@ void bind_bitstream(nb::module_ &m) {
     make_tables();
 
     m.def("code_uniform", checked<code_one_uniform>, "coder"_a, "value"_a, "count"_a);
-    m.def("finish_coder", checked<finish_coder>, "coder"_a);
+    CHECKED(finish_coder)
     m.def("code_unsigned", checked<code_one_unsigned>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
         "value"_a, "node"_a = 0);
 
@@ -47,18 +47,11 @@ void bind_bitstream(nb::module_ &m) {
         return nb::make_tuple(plan.slots, plan.selectors, plan.inputs, plan.limit, plan.rate);
     }, "kernel"_a, nb::sig("def bank_plan(kernel: str) -> tuple[int, int, int, int, int]"));
 
-    m.def("code_labels", checked<code_labels>, "coder"_a, "bank"_a, "offsets"_a, "neighbors"_a, "labels"_a, "parts"_a,
-        Unlocked());
+    CHECKED(code_labels)
 
     m.def("points_of_levels", [](ConstInts2 levels, Doubles2 points) {
         int64_t count = least(levels.rows * levels.columns, points.rows * points.columns);
         values_of_levels(levels.data, count, 1.0, points.data);
     }, "levels"_a, "points"_a, Unlocked());
-    m.def("code_block", checked<code_block>, "coder"_a, "bank"_a, "past"_a, "expectations"_a, "levels"_a, Unlocked());
-    m.def("search_levels", checked<search_levels>, "bank"_a, "past"_a, "expectations"_a, "targets"_a, "price"_a,
-        "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());
-    m.def("code_matrix", checked<code_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a,
-        "stair"_a, "turn"_a, "few"_a, "slow"_a, Unlocked());
-    m.def("price_matrix", checked<price_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a,
-        "stair"_a, "turn"_a, "few"_a, "slow"_a, "costs"_a, "prices"_a, Unlocked());
+    CHECKED(code_block) CHECKED(search_levels) CHECKED(code_matrix) CHECKED(price_matrix)
 }

@@ -18,8 +18,8 @@ PRODUCT = ("src/", "codec/", "bitstream/", "library/", "web/src/")
 LANGUAGES = {"Python": (".py",), "C and C++": (".c", ".h", ".cpp", ".hpp"), "Rust": (".rs",), "TypeScript": (".ts",)}
 SEARCH = re.compile(r"codec/static/(choice/.*|encoder|targets)\.py$")
 """The modules that find the smallest stream that keeps a promise."""
-BOUND = re.compile(r"m\.def\(\"(\w+)\", (?:&|checked<&?)(\w+)")
-"""A kernel that Python may call, and its name in C."""
+BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
+"""A kernel that Python may call, by its name in C and in Python."""
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
@@ -72,14 +72,13 @@ def _numbers(value: ast.expr) -> int:
 def driven_twice(product: Iterable[Path]) -> list[str]:
     """Return the kernels that the product's Python and the C that charges and takes memory both call."""
     texts = {file: (ROOT / file).read_text("utf-8") for file in product if file.suffix in (".py", ".c", ".cpp")}
-    bound = dict(pair for file, text in texts.items() if file.name == "kernels.cpp" for pair in BOUND.findall(text))
+    bound = [name for file, text in texts.items() if file.name == "kernels.cpp" for name in BOUND.findall(text)]
     drivers = "\n".join(text for file, text in texts.items() if file.suffix == ".c" and CONTEXT.search(text))
     python = "\n".join(text for file, text in texts.items() if file.suffix == ".py")
     return [
         name
-        for name, function in bound.items()
-        if re.search(rf"\b({function}|{function.replace('_one', '')})\(", drivers)
-        and re.search(rf"\b_kernels\.{name}\b|import .*\b{name}\b", python)
+        for name in bound
+        if re.search(rf"\b{name}\(", drivers) and re.search(rf"\b_kernels\.{name}\b|import .*\b{name}\b", python)
     ]
 
 
