@@ -66,18 +66,10 @@ class ChainRules:
     whole: int = 0
     overrides: Overrides = AS_SPECIFIED
 
-    def chain_starts(self, blocks: int) -> range:
-        """Indices of the key blocks among `blocks` blocks."""
-        return range(0, blocks, self.chain_length(blocks))
-
     def chains(self, blocks: int) -> list[range]:
         """Indices of the blocks of each chain."""
-        length = self.chain_length(blocks)
-        return [range(first, min(first + length, blocks)) for first in self.chain_starts(blocks)]
-
-    def chain_length(self, blocks: int) -> int:
-        """Blocks in a chain (the last one may be shorter)."""
-        return self.key_interval or blocks
+        length = self.key_interval or blocks
+        return [range(first, min(first + length, blocks)) for first in range(0, blocks, length)]
 
 
 def even_interval(interval: int, blocks: int) -> int:
@@ -90,18 +82,8 @@ class Chain(Steps):
 
     def __init__(self, rules: ChainRules, blocks: Blocks) -> None:
         graph, self._own = blocks.graph, rules.overrides
-        super().__init__(
-            *(graph.offsets, graph.neighbors, blocks.cores, blocks.starts, blocks.edges, blocks.members),
-            exact=rules.exact,
-            springs=rules.springs,
-            power=rules.power,
-            iterations=rules.iterations,
-            key_iterations=rules.key_iterations,
-            apart=rules.apart,
-            key_interval=rules.key_interval,
-            whole=rules.whole,
-            shift=rules.shift,
-        )
+        arrays = graph.offsets, graph.neighbors, blocks.cores, blocks.starts, blocks.edges, blocks.members
+        super().__init__(*arrays, **{name: value for name, value in vars(rules).items() if name != "overrides"})
 
     def begin(self, index: int) -> tuple[Indices, Matrix, Matrix]:
         """Return the vertices of the next block, its prediction, shape (n_i, 3), and its weights in a blend."""

@@ -101,16 +101,7 @@ class Scheme:
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
         rules, coding = self.rules, self.coding
-        paper = Paper(
-            bits=coding.bits,
-            coarser=coding.coarser,
-            exact=int(rules.exact),
-            power=rules.power,
-            iterations=rules.iterations,
-            key_iterations=rules.key_iterations,
-            shift=rules.shift,
-            springs=int(rules.springs),
-        )
+        paper = Paper(bits=coding.bits, coarser=coding.coarser, **{name: getattr(rules, name) for name in ALIKE})
         return {
             "blocks": self.blocks.count,
             "step": coding.step,
@@ -120,15 +111,12 @@ class Scheme:
         }
 
 
+ALIKE = ("exact", "power", "iterations", "key_iterations", "shift", "springs")
+"""Constants that chains and headers call by the same name."""
+
+
 def rules_of(paper: Paper, key_interval: int = 0, whole: int = 0) -> ChainRules:
     """Chains and dictionaries by some constants."""
-    return ChainRules(
-        exact=bool(paper.exact),
-        key_interval=key_interval,
-        power=paper.power,
-        iterations=paper.iterations,
-        key_iterations=paper.key_iterations,
-        shift=paper.shift,
-        springs=bool(paper.springs),
-        whole=whole,
-    )
+    given: dict[str, Any] = {name: getattr(paper, name) for name in ALIKE}
+    given |= {name: bool(given[name]) for name in ("exact", "springs")}
+    return ChainRules(**given, key_interval=key_interval, whole=whole)

@@ -10,55 +10,10 @@ from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
 
-COMMANDS = {
-    **dict.fromkeys(("compress", "pack", "zip", "create", "make", "encoder"), "encode"),
-    **dict.fromkeys(("decompress", "unpack", "extract", "restore", "unzip", "decoder", "export"), "decode"),
-    **dict.fromkeys(("convert", "transcode", "import"), "encode, and back: bsm decode IN.bsm -o OUT.obj"),
-    **dict.fromkeys(("list", "ls", "inspect", "stat", "stats", "dump", "header", "identify"), "info"),
-    **dict.fromkeys(("diff", "error", "measure", "distance", "cmp", "metric", "psnr"), "compare"),
-    **dict.fromkeys(("check", "test", "validate", "fsck"), "verify"),
-    **dict.fromkeys(("serve", "open", "show", "display", "preview", "viewer", "gui"), "view"),
-    **dict.fromkeys(("gltf", "scene", "gltfpack", "gltf2"), "glb"),
-    **dict.fromkeys(("smooth", "clean", "filter", "noise"), "denoise"),
-    **dict.fromkeys(("simplify", "decimate", "reduce", "lod"), "encode --simplify"),
-    **dict.fromkeys(("split", "cut", "chunk", "tiles"), "tile"),
-    **dict.fromkeys(("join", "merge"), "untile"),
-    **dict.fromkeys(("plot", "rd", "curves", "evaluate"), "curve"),
-    **dict.fromkeys(("benchmark", "speed", "time"), "bench"),
-    **dict.fromkeys(("sample", "example", "tutorial", "try"), "demo"),
-    **dict.fromkeys(("version", "-v", "-V"), "--version"),
-}
-"""What follows `bsm` instead."""
-
-OPTIONS = {
-    **dict.fromkeys(("-i", "--input", "--in", "--file"), "inputs need no option"),
-    **dict.fromkeys(("--quality", "-qp", "--level", "-cl", "--cl", "--compression", "--profile"), "--preset fine"),
-    **dict.fromkeys(("--lossless", "--exact"), "--preset lossless"),
-    **dict.fromkeys(("--small", "--fine", "--balanced", "--near-lossless"), "--preset small (balanced, fine, ...)"),
-    **dict.fromkeys(("--bits", "--qp", "--quantization", "--quantize", "--position-bits", "-vp"), "--grid 14"),
-    **dict.fromkeys(("--tolerance", "--tol", "--error", "--precision", "--epsilon", "--accuracy"), "--max-error 0.1%"),
-    **dict.fromkeys(("--ratio", "--target", "--target-size", "--bytes", "--rate", "--bitrate"), "--size 20kB"),
-    **dict.fromkeys(("--decimate", "--triangles", "--faces", "--reduce", "-si"), "--simplify"),
-    **dict.fromkeys(("-v", "--verbose", "--progress", "--debug"), "results are printed without it"),
-    **dict.fromkeys(("--verify", "--check", "--validate"), "bsm always checks its streams"),
-    **dict.fromkeys(("--fast", "--speed"), "--quick"),
-    **dict.fromkeys(("--best", "--slow"), "--effort best"),
-    **dict.fromkeys(("-y", "--yes", "--overwrite", "--replace", "--clobber"), "--force"),
-    **dict.fromkeys(("-s", "--silent"), "--quiet"),
-    **dict.fromkeys(("--texture", "--textures", "--webp", "--jpeg", "-tc"), "--images webp:85"),
-    **dict.fromkeys(("--unit", "--units"), "--meta unit=mm"),
-    **dict.fromkeys(("--fps", "--framerate"), "--frame-rate 30"),
-    **dict.fromkeys(("--normals", "--no-normals"), "--attribute normal=none"),
-    **dict.fromkeys(("--uv", "--texcoords"), "--attribute texcoord=12bits"),
-    **dict.fromkeys(("--frame", "--frame-range", "--start"), "--frames 29:30"),
-    **dict.fromkeys(("-d", "--dir", "--folder", "--output-dir", "--outdir"), "--output FOLDER/"),
-    **dict.fromkeys(("-R", "--batch", "--all"), "--recursive"),
-    **dict.fromkeys(("-t", "--nthreads", "--workers", "--parallel"), "--jobs 0 or --threads 4"),
-    **dict.fromkeys(("--nmsve", "--db"), "--nmsve-db -50"),
-    **dict.fromkeys(("--angle", "--normal-error"), "--theta 3"),
-    **dict.fromkeys(("--draco",), "bsm compares itself with Draco in bsm curve and bsm view"),
-}
-"""What to write instead, in words or as an option."""
+# What is typed in place of a command, and in place of an option, each with what it is called here.
+_TABLES = (Path(__file__).parent / "synonyms.txt").read_text("utf-8").split("\n\n")
+_LINES = ([line.split(": ", 1) for line in table.splitlines()] for table in _TABLES)
+COMMANDS, OPTIONS = ({word: instead for words, instead in lines for word in words.split()} for lines in _LINES)
 
 MESHES = (".ply", ".obj", ".stl", ".off", ".vtp", ".npz", ".gltf", ".glb", ".3mf", ".dae")
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?%?")
