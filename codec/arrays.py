@@ -21,7 +21,7 @@ Mask = npt.NDArray[np.bool_]  # what holds for which vertex
 def as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:
     """Return a copy of a user's values as an array; raise `MeshError` if they are not one."""
     try:
-        return np.array(values, dtype=kind)
+        return np.array(values, dtype=kind, order="C")
     except (TypeError, ValueError, OverflowError) as error:
         raise MeshError(f"{name} is not an array of numbers: {error}") from error
 

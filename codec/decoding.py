@@ -397,6 +397,7 @@ def header_of(numbers: dict[str, float]) -> Header:
         scale=numbers["scale"],
         smoothing=numbers["smoothing"],
         center=_row(numbers, "center", 3),
+        turn=_row(numbers, "turn", 3),
         refinement=_row(numbers, "refinement", 2) if whole["refined"] else (),
         grid=_row(whole, "grid", 3) if whole["on_grid"] else (),
         lattice=(whole["cells"], whole["points"]) if whole["points"] else (),

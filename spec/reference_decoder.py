@@ -159,22 +159,24 @@ FIELDS = {
     "grid": (13, int, 0, 2**20 - 1, [], 0, 3),
     "lattice": (14, int, 1, COUNT, [], 0, 2),
     "corner": (15, int, -(2**31), COUNT, [], 0, 3),
+    "turn": (24, float, -1.0, 1.0, [0.0, 0.0, 0.0], 3, 3),
 }
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
 EXTENSIONS |= {19: "extension paper", 21: "extension paper"}
 EXTENSIONS[22] = "extension congruence"
-BRIEF = b"\x81\x17"  # how the payload of a brief stream begins: a map of one entry, with key 23
+BRIEF = b"\x81\x17", b"\x81\x19"  # how the payload of a brief stream begins: a map of one entry, with key 23 or 25
 
 
 def brief_fields(payload):  # F 11.2: fields of the header, the payload of CONNECTIVITY, and positions
-    ((_, value),) = canonical_map(payload)
+    ((key, value),) = canonical_map(payload)
     require(type(value) is bytes, "brief has a wrong type")
     n, m, *grid, congruence, rest = varints(value, 6)
-    require(len(rest) >= 16, "numbers are missing")
-    scale, *center = np.frombuffer(rest[:16], ">f4").astype(float).tolist()
-    size, rest = varints(rest[16:], 1)
+    length = 16 if key == 23 else 28
+    require(len(rest) >= length, "numbers are missing")
+    scale, x, y, z, *turn = np.frombuffer(rest[:length], ">f4").astype(float).tolist()
+    size, rest = varints(rest[length:], 1)
     require(size <= len(rest), "the faces end early")
-    given = {"vertices": n, "faces": m, "grid": grid, "scale": scale, "center": center}
+    given = {"vertices": n, "faces": m, "grid": grid, "scale": scale, "center": [x, y, z], "turn": turn or [0.0] * 3}
     for name, field in given.items():
         items = field if type(field) is list else [field]
         require(all(FIELDS[name][2] <= item <= FIELDS[name][3] for item in items), f"{name} is out of range")
@@ -211,13 +213,13 @@ def parse_header(payload):
 def agreeing(h, stored):
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
-        beside = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner"}
+        beside = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner", "turn"}
         require(stored <= beside and len(h["grid"]) == 3, "a grid, and something else")
         require(len(h["lattice"]) in (0, 2) and len(h["corner"]) in (0, 3), "a lattice or a corner of another length")
         require(not (h["corner"] and "center" in stored), "a corner and a center")
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
     else:
-        require(not h["lattice"] and not h["corner"], "a lattice or a corner without a grid")
+        require(not h["lattice"] and not h["corner"] and "turn" not in stored, "of a grid, without one")
         require(h["blocks"] and h["coefficients"], "no blocks, and no grid")
         require(h["blocks"] <= h["vertices"], "more blocks than vertices")
         require(h["coefficients"] <= h["block_size"] <= h["vertices"], "too large blocks, or too many coefficients")

@@ -863,7 +863,14 @@ def place(values, header):  # V 12: the position of a vertex
         values = [(2 * value * m + k) // (2 * k) for value in values]
     if header["corner"]:
         values = [value + first for value, first in zip(values, header["corner"])]
-    return [c + header["scale"] * y for c, y in zip(header["center"], values)]
+    p, q = [c + header["scale"] * y for c, y in zip(header["center"], values)], header["turn"]
+    once = cross(q, p)  # V 18
+    s = 2.0 / (1.0 + q[0] * q[0] + q[1] * q[1] + q[2] * q[2])
+    return [x + s * (t + u) for x, t, u in zip(p, once, cross(q, once))]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 # ---------------------------------------------------------------- V 11: levels of a refinement

@@ -20,7 +20,7 @@ from bsm.bitstream.container.header import (
     Paper,
     fields_of,
 )
-from bsm.bitstream.container.packets import BRIEF, WRITERS, Attribute, End, Metadata, Packet, Writer
+from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Attribute, End, Metadata, Packet, Writer
 from bsm.bitstream.container.wire import (
     MAGIC,
     MAX_VARINT_BYTES,
@@ -91,13 +91,14 @@ def spans_of(stream: bytes) -> Iterator[Span]:
 
 def brief_frames(payload: bytes) -> Frames:
     """The frames for which that of a brief stream stands, without END."""
-    value = header_entries(payload).get(BRIEF)
+    ((key, value),) = header_entries(payload).items()
     if not isinstance(value, bytes):
         raise CorruptError("a brief stream without bytes")
     cursor = Cursor(value)
     n, m, *grid, congruence = (cursor.varint() for _ in range(6))
     scale, *center = struct.unpack(">4f", cursor.take(16))
-    header = header_frame(vertices=n, faces=m, grid=grid, congruence=congruence, scale=scale, center=center)
+    more = {"turn": struct.unpack(">3f", cursor.take(12))} if key == BRIEF_TURNED else {}
+    header = header_frame(vertices=n, faces=m, grid=grid, congruence=congruence, scale=scale, center=center, **more)
     connectivity = cursor.take(cursor.varint())
     values = write_varint(0) + write_varint(n) + cursor.rest()
     return [header, (int(FrameType.CONNECTIVITY), connectivity), (int(FrameType.GRID), values)]
@@ -175,8 +176,8 @@ def _is_later(frame: tuple[int, bytes]) -> bool:
         return False
 
 
-BRIEF_START = bytes([0x81, BRIEF])
-LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence")}
+BRIEF_START = bytes([0x81, BRIEF]), bytes([0x81, BRIEF_TURNED])
+LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence", "turn")}
 PARTS = {"paper": tuple(fields_of(Paper)), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""
 PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part in enumerate(parts)}

@@ -4,7 +4,7 @@
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
-    CONGRUENCE, BRIEF,
+    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED,
 };
 
 static const Field FIELDS[] = {
@@ -29,12 +29,13 @@ static const Field FIELDS[] = {
     {.key = PAPER, .type = FLOATS_FIELD, .high = 0x1p30, .most = 8},
     {.key = ONORM, .type = INT_FIELD, .high = 64},
     {.key = CONGRUENCE, .type = INT_FIELD, .high = 17},
+    {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
 };
 
 #define BIT(key) (1u << (key))
+static const uint32_t OF_GRIDS_ALONE = BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY) | BIT(CONGRUENCE) | BIT(TURN);
 static const uint32_t OF_A_GRID = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(ATTRIBUTES) | BIT(GRID)
-    | BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY) | BIT(CONGRUENCE);
-static const uint32_t OF_A_BRIEF = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(GRID) | BIT(CONGRUENCE);
+    | OF_GRIDS_ALONE;
 static const uint32_t OF_A_RUN = BIT(VERTICES) | BIT(FACES) | BIT(SEQUENCE) | BIT(RUN);
 enum { MOST_HEADER = 1 << 16 };
 
@@ -68,6 +69,7 @@ static void set_header(const Record *record, Header *header) {
         header->center[j] = number[CENTER][j];
         header->grid[j] = (int32_t)number[GRID][j];
         header->corner[j] = (int64_t)number[CORNER][j];
+        header->turn[j] = number[TURN][j];
     }
 }
 
@@ -110,6 +112,7 @@ static bool check_grid(Context *context, const Record *record, const Header *hea
         && agrees(context, !(header->counted && centered), "a corner and a center") && agrees(context,
             header->light != EXACT_FLOATS || count[LATTICE] + count[CORNER] == 0, "floats in cells that are counted")
         && agrees(context, header->light != LIGHT || header->congruence == 0, "congruent parts of a light grid")
+        && agrees(context, header->light == 0 || (record->stored & BIT(TURN)) == 0, "a turn of a light or exact grid")
         && agrees(context, (record->stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
 }
 
@@ -118,8 +121,7 @@ static bool check_blocks(Context *context, const Record *record, const Header *h
     double rows = (double)header->blocks * (double)header->block_size, step = header->refinement[0];
     return agrees(context, header->blocks > 0 && header->block_size > 0
             && header->coefficients > 0, "neither blocks nor a grid")
-        && agrees(context, count[LATTICE] + count[CORNER] + header->light + header->congruence == 0,
-            "what belongs to a grid, without one")
+        && agrees(context, (record->stored & OF_GRIDS_ALONE) == 0, "what belongs to a grid, without one")
         && agrees(context, header->blocks <= header->vertices, "more blocks than vertices")
         && agrees(context, header->block_size <= header->vertices, "blocks larger than the mesh")
         && agrees(context, rows >= (double)header->vertices, "blocks too small to cover the mesh") && agrees(context,
@@ -148,16 +150,18 @@ static bool check_header(Context *context, const Record *record, const Header *h
 
 /* The header of a brief stream, all of whose fields are one of bytes, and what follows it there (F 11). */
 static bool parse_brief(Context *context, Span payload, Record *record, Span *faces, Span *values) {
-    static const uint8_t KEYS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE, SCALE, CENTER, CENTER, CENTER};
+    static const uint8_t KEYS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE, SCALE, CENTER, CENTER, CENTER, TURN,
+        TURN, TURN};
     Cursor cursor = {context, {payload.data + 3, payload.size - 3}};
     Value value = take_single(&cursor, payload.data[2]);
     if (!agrees(context, value.kind == BINARY && cursor.left.size == 0,
             "a brief header that is not one value of bytes"))
         return false;
     cursor.left = value.bytes;
-    *record = (Record){.stored = OF_A_BRIEF};
-    for (int i = 0; i < 10; i++) {
+    *record = (Record){0};
+    for (int i = 0; i < (payload.data[1] == BRIEF ? 10 : 13); i++) {
         double number = i < 6 ? (double)take_varint(&cursor) : take_single(&cursor, 0xca).number;
+        record->stored |= BIT(KEYS[i]);
         record->number[KEYS[i]][record->count[KEYS[i]]++] = number;
     }
     *faces = take_span(&cursor, take_varint(&cursor));
@@ -169,7 +173,8 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
     Record record;
     Span faces = {0}, values = {0};
     if (payload.size > MOST_HEADER) return FAIL(context, CORRUPT, "a header of # bytes is too long", payload.size);
-    bool brief = payload.size > 2 && payload.data[0] == 0x81 && payload.data[1] == BRIEF;
+    bool brief = payload.size > 2 && payload.data[0] == 0x81
+        && (payload.data[1] == BRIEF || payload.data[1] == BRIEF_TURNED);
     if (brief && !parse_brief(context, payload, &record, &faces, &values)) return false;
     if (!brief && !parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record))
         return false;

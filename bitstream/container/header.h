@@ -19,6 +19,7 @@ typedef struct {
     bool refined, on_grid, is_sequence;
     double refinement[2]; /* step and ratio */
     int32_t grid[3];
+    double turn[3]; /* of the axes of a grid: a quaternion, less its 1 (V 18) */
     int64_t cells, points, corner[3]; /* of a lattice, 0 without */
     bool counted;                     /* there is a corner */
     int light, onorm;                 /* solutions before each Onorm in doubles, or 0 */
@@ -49,7 +50,7 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
     F(center[2]) F(refined) F(refinement[0]) F(refinement[1]) F(on_grid) F(grid[0]) F(grid[1]) F(grid[2]) F(cells) \
     F(points) F(counted) F(corner[0]) F(corner[1]) F(corner[2]) F(paper.bits) F(paper.coarser) F(paper.exact) \
     F(paper.power) F(paper.iterations) F(paper.key_iterations) F(paper.shift) F(paper.springs) F(is_sequence) \
-    F(onorm) F(congruence)
+    F(onorm) F(congruence) F(turn[0]) F(turn[1]) F(turn[2])
 #define ONE_MORE(field) +1
 enum { HEADER_NUMBERS = HEADER_LIST(ONE_MORE) };
 void list_header(const Header *header, double *numbers);

@@ -143,6 +143,8 @@ class Header:
     """Onorm follows each of so many solutions of an iteration, with packed coefficients; 0: each solution."""
     congruence: int = wire(22, int, 0, 17, default=0)
     """1 plus the transforms between congruent parts, from which the values of a grid are also predicted; 0: without."""
+    turn: tuple[float, ...] = wire(24, tuple, -1.0, 1.0, lengths=(3, 3), default=(0.0, 0.0, 0.0))
+    """The quaternion that turns the axes of a grid to those of the mesh, less its first entry, which is 1."""
 
     def __post_init__(self) -> None:
         normalize_fields(self, "header")

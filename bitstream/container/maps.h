@@ -38,7 +38,7 @@ typedef struct {
     bool required;
 } Field;
 
-enum { MOST_KEY = 23, MOST_LIST = 8 };
+enum { MOST_KEY = 25, MOST_LIST = 8 };
 /* By key: numbers, how many; and the text of the one field that may have one. */
 typedef struct {
     double number[MOST_KEY][MOST_LIST];

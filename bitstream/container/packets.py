@@ -134,19 +134,20 @@ def write_header(header: Header) -> bytes:
     return write_map(entries_of(header))
 
 
-BRIEF, MOST_BRIEF = 23, 60_000
-"""Key of the only field in the header of a brief stream, and bytes of faces and positions that fit into one."""
+BRIEF, BRIEF_TURNED, MOST_BRIEF = 23, 25, 60_000
+"""Keys of the only field in the header of a brief stream, and bytes of faces and positions that fit into one."""
 
 
 def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
     """Return the payload of the only frame of a brief stream (F 11); None: these packets cannot be in one."""
-    floats = b"".join(wire.pack(value)[1:] for value in (header.scale, *header.center))
+    turn = header.turn if any(header.turn) else ()
+    floats = b"".join(wire.pack(value)[1:] for value in (header.scale, *header.center, *turn))
     match body:
-        case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16:
+        case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16 + 4 * len(turn):
             whole = (header.vertices, header.faces, *header.grid, header.congruence, len(faces))
             *fields, length = map(write_varint, whole)
             data = b"".join(fields) + floats + length + faces + values
-            return write_map([(BRIEF, data)]) if len(data) < MOST_BRIEF else None
+            return write_map([(BRIEF_TURNED if turn else BRIEF, data)]) if len(data) < MOST_BRIEF else None
     return None
 
 

@@ -1,4 +1,4 @@
-/* Positions on a grid (specification, V 7 to V 10, V 12, V 15 to V 17). */
+/* Positions on a grid (specification, V 7 to V 10, V 12, V 15 to V 18). */
 #include "bitstream/payloads/grid.h"
 
 #include "bitstream/costs.h"
@@ -124,19 +124,29 @@ bool code_grid_values(GridField *field, int64_t first, int64_t count, Span paylo
     return check_chunk_done(&coding, done, count);
 }
 
+/* V 18. */
+static void turn_place(const double *q, double *place) {
+    double t[3], share = 2.0 / (1.0 + q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
+    for (int j = 0, k = 1, l = 2; j < 3; k = l, l = j++) t[j] = q[k] * place[l] - q[l] * place[k];
+    for (int j = 0, k = 1, l = 2; j < 3; k = l, l = j++) place[j] += share * (t[j] + (q[k] * t[l] - q[l] * t[k]));
+}
+
 /* V 12. */
 static bool place_values(GridField *field, ConstInts vertices) {
     const Header *header = field->header;
     double spoiled = 0.0;
-    for (int64_t i = 0; i < vertices.size; i++)
+    for (int64_t i = 0; i < vertices.size; i++) {
+        double *place = field->positions.data + AXES * (int64_t)vertices.data[i];
         for (int j = 0; j < AXES; j++) {
-            int64_t at = AXES * (int64_t)vertices.data[i] + j, value = field->values.data[at];
+            int64_t value = field->values.data[AXES * (int64_t)vertices.data[i] + j];
             int64_t cell =
                 header->points > 0 ? (2 * value * header->cells + header->points) / (2 * header->points) : value;
             double product = (double)(cell + header->corner[j]) * header->scale;
-            field->positions.data[at] = product + header->center[j];
-            spoiled += field->positions.data[at] * 0.0;
+            place[j] = product + header->center[j];
         }
+        if (method_of(header) != LIGHT) turn_place(header->turn, place);
+        spoiled += place[0] * 0.0 + place[1] * 0.0 + place[2] * 0.0;
+    }
     return spoiled == 0.0 || FAIL(field->context, NUMERIC, "positions are not finite in the unit of the mesh");
 }
 

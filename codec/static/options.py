@@ -146,9 +146,9 @@ class EncodeOptions:
     exact : bool
         Keep every position exactly in single precision.
     congruence : bool
-        Let the decoder also predict positions on a grid from congruent parts of the mesh, where that makes the stream
-        smaller; without effect with `exact`, `grid`, `grid_cell` and "quick". Such streams are of version 1.1; False
-        writes what decoders of 1.0 read.
+        Let the decoder also predict positions on a grid from congruent parts of the mesh, and turn the grid to its
+        axes, where that makes the stream smaller; without effect with `exact`, `grid`, `grid_cell` and "quick". Such
+        streams are of version 1.1; False writes what decoders of 1.0 read.
     grid : int, optional
         Round every position to a grid with this many bits along the longest side.
     attributes : mapping of str to str, or pairs

@@ -274,7 +274,8 @@ class Draft:
     def _write(self) -> Iterator[bytes]:
         writer, may_be_brief = Writer(), self.may_be_brief and not self.header.light
         brief = write_brief(self.header, self.body) if may_be_brief else None
-        yield writer.start(minor=int(brief is not None or self.header.congruence > 0 or self.header.onorm > 0))
+        later = brief is not None, self.header.congruence > 0, self.header.onorm > 0, any(self.header.turn)
+        yield writer.start(minor=int(any(later)))
         if brief is not None:
             yield write_frame(FrameType.HEADER, brief)
             return

@@ -180,6 +180,12 @@ def test_1_0_refuses_brief_streams_by_the_number_of_their_field(earlier):
     assert found.status == 5 and found.message == "field 23 is unknown to this decoder"
 
 
+def test_1_0_refuses_turned_grids_by_the_numbers_of_their_fields(earlier):
+    for name, key in (("turn-plain", 24), ("brief-turned", 25)):
+        found = decode(earlier, (FOLDER.parent / "1.1" / f"good-{name}.bsm").read_bytes())
+        assert found.status == 5 and found.message == f"field {key} is unknown to this decoder"
+
+
 def test_1_0_decodes_sequences_that_are_written_today(earlier):
     moving = [torus(24, 18, phase=0.2 * t) for t in range(12)]
     stream = bsm.encode_sequence([mesh.positions for mesh in moving], moving[0].faces)

@@ -231,11 +231,11 @@ def test_levels(mesh, most, kind, seed, chunk, data):
 
 def test_positions_of_a_lattice():
     points = np.arange(30, dtype=np.int32).reshape(10, 3)
-    header = {"lattice": [4095, 29], "center": [0.5, -1.0, 2.0], "scale": 0.25, "corner": []}
+    header = {"lattice": [4095, 29], "center": [0.5, -1.0, 2.0], "scale": 0.25, "corner": [], "turn": [0.0] * 3}
     expected = [reference.place(row, header) for row in points.tolist()]
     cells = (2 * points * 4095 + 29) // (2 * 29)
     assert expected == (np.array([0.5, -1.0, 2.0]) + 0.25 * cells).tolist()
-    header = {"lattice": [], "center": [0.0, 0.0, 0.0], "scale": 0.1, "corner": []}
+    header = {"lattice": [], "center": [0.0, 0.0, 0.0], "scale": 0.1, "corner": [], "turn": [0.0] * 3}
     assert reference.place([1, 2, 3], header) == [0.1, 0.2, 0.1 * 3]
     assert reference.place([1, 2, 3], header | {"corner": [-3, 5, 70000]}) == [0.1 * -2, 0.1 * 7, 0.1 * 70003]
 

@@ -10,6 +10,7 @@ from tools.vectors.good_congruence import CONGRUENCE, CONGRUENCE_BAD
 from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_light import LIGHT
 from tools.vectors.good_sequences import SEQUENCES
+from tools.vectors.good_turn import TURNS, TURNS_BAD
 from tools.vectors.large import LARGE
 
 GOODS: dict[str, Good] = {
@@ -24,5 +25,6 @@ GOODS: dict[str, Good] = {
     **LARGE,
     **CONGRUENCE,
     **BRIEFS,
+    **TURNS,
 }
-BADS: dict[str, Bad] = {**BOUNDS_BAD, **CONGRUENCE_BAD, **BRIEFS_BAD}
+BADS: dict[str, Bad] = {**BOUNDS_BAD, **CONGRUENCE_BAD, **BRIEFS_BAD, **TURNS_BAD}

@@ -25,7 +25,7 @@ NEXT = FOLDER.parent / "1.1"
 NEEDS = FOLDER.parent / "needs.json"
 """The documents that each vector needs, of all versions."""
 FRAME_NEEDS = {FrameType.ORDER: "order", FrameType.PARTITION: "paper", FrameType.ATTRIBUTE: "attributes"}
-FIELD_NEEDS = ("light", "congruence", "paper", "attributes", "sequence")
+FIELD_NEEDS = ("light", "congruence", "turn", "paper", "attributes", "sequence")
 MANIFEST = "manifest.json"
 ROUNDING = 1e-6
 """How far floats of attributes may be, for ones above 1 relatively."""

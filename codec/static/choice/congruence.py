@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.geometry.turns import Turn, quaternion_of, turned_by
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.grid import Grid
 
@@ -23,14 +24,14 @@ FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer
 
 def transforms_of(prepared: Prepared, grid: Grid, finer: float = 1.0) -> Levels:
     """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    turns, shifts = _motions(prepared, grid.step / finer)
+    turns, shifts = _motions(prepared, grid.step / finer, grid.turn)
     origin = np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
 
 
-def mirrored_origin(prepared: Prepared, origin: Matrix, step: float) -> Matrix:
+def mirrored_origin(prepared: Prepared, origin: Matrix, step: float, turn: Turn) -> Matrix:
     """The origin of a grid, at most half a cell lower, for which mirrors take cells of the grid to cells."""
-    turns, shifts = _motions(prepared, step)
+    turns, shifts = _motions(prepared, step, turn)
     moved = origin.copy()
     for axis in range(3):
         back = np.flatnonzero(np.abs(turns[:, axis] + np.eye(3)[axis]).max(axis=1) < PARALLEL)
@@ -40,15 +41,16 @@ def mirrored_origin(prepared: Prepared, origin: Matrix, step: float) -> Matrix:
     return moved
 
 
-def _motions(prepared: Prepared, step: float) -> tuple[Matrix, Matrix]:
-    """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts; sought once for like steps."""
+def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix]:
+    """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts, in turned axes; sought once for like steps."""
     octave = round(2.0 * math.log2(step))
     if octave not in prepared.motions:
         cell = FINER * 2.0 ** (octave / 2.0)
         prepared.motions[octave] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
         prepared.motions[octave][:, 9:] *= cell
     turns, shifts = np.split(prepared.motions[octave], [9], axis=1)
-    return turns.reshape(-1, 3, 3), shifts
+    axes = turned_by(np.eye(3), turn)
+    return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T
 
 
 def motions_between(positions: Matrix, faces: Faces) -> Matrix:
@@ -86,7 +88,7 @@ def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int
         kind = 8 * order + sum(1 << j for j in range(3) if sign[j] < 0)
         return None if (numbers < 0).any() or (numbers > span + span[source]).any() else [kind, 0, 0, 0, 0, *numbers]
     mirrored = np.linalg.det(turn) < 0.0
-    quaternion = _quaternion(-turn if mirrored else turn)
+    quaternion = quaternion_of(-turn if mirrored else turn)
     bits = min(int(max(span.max(), 1)).bit_length() + 2, MOST_FINENESS)
     which = int(np.abs(quaternion).argmax())
     unit = np.rint(quaternion / quaternion[which] * (1 << bits))
@@ -99,12 +101,3 @@ def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int
     if (quarters < 0).any() or (quarters > 24 * max(span.max(), 1)).any():
         return None
     return [AXIS_KINDS + int(mirrored), which, *others, *quarters]
-
-
-def _quaternion(turn: Matrix) -> Matrix:
-    """The unit quaternion of a rotation, shape (3, 3)."""
-    (_, _, y), (z, _, _), (_, x, _) = turn - turn.T
-    axis, trace = np.array([[x, y, z]]), np.trace(turn)
-    products = np.block([[np.array([[trace]]), axis], [axis.T, turn + turn.T - trace * np.eye(3)]])
-    found: Matrix = np.linalg.eigh(products)[1][:, 3]
-    return found

@@ -13,17 +13,18 @@ from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
+from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
 from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import Grid, encode_grid, grid_field, sampled_ratio
+from bsm.codec.static.ways.grid import Grid, encode_grid, grid_field, grid_of, sampled_ratio
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
-LEAST_SAVED = 0.03  # of the bytes, by congruent parts: a share that is worth another try
+LEAST_SAVED = 0.03  # of the bytes, by congruent parts or other axes: a share that is worth another try
 SAMPLE = 1 << 11
 """Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
 
@@ -46,7 +47,7 @@ def congruent(prepared: Prepared, draft: Draft, coded: Callable[[int], Draft] | 
     places, header = draft.places, draft.header
     if places is None or header.light or not may_repeat(prepared):
         return draft
-    least, faces, alone = draft, prepared.mesh.faces, Grid(header.center, header.scale, header.grid)
+    least, faces, alone = draft, prepared.mesh.faces, grid_of(header)
     coded = coded or partial(coded_like, prepared, alone, places, draft.may_be_brief)
     transforms = transforms_of(prepared, alone)
     for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
@@ -70,7 +71,7 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     places, header = draft.places, draft.header
     if places is None or not header.congruence:
         return draft
-    grid = Grid(header.center, header.scale, header.grid)
+    grid = grid_of(header)
     sets = transforms_of(prepared, grid)[: header.congruence - 1], transforms_of(prepared, grid, 2.0)
     kept, finer = ([part for part in np.array_split(some, 4) if len(part)] for some in sets)
     for i in (4, 3, 2, 1):
@@ -157,10 +158,12 @@ def made_on(positions: Matrix, within: float) -> float | None:
 class Gridded:
     """Grids of one mesh, at one step after another; the worth of a nat in angles by which a step bends a mean face."""
 
-    def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0) -> None:
+    def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
-        self._worth = worth
-        low = box_around(prepared.mesh.positions)[0]
+        self._worth, self._turn = worth, turn
+        own = turned_by(prepared.mesh.positions, turn, back=True)
+        self._positions = prepared.units.into(own) if any(turn) else prepared.positions
+        low = box_around(own)[0]
         narrow = low.astype(np.float32)
         fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
         self._hold = single if fine else float
@@ -168,7 +171,7 @@ class Gridded:
         self._origin = below if fine else low
         self._low = prepared.units.into(self._origin)
         smallest = float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
-        self.least = max(float((prepared.positions - self._low).max()) / (MOST_GRID - 4), smallest)
+        self.least = max(float((self._positions - self._low).max()) / (MOST_GRID - 4), smallest)
         self.most = COARSEST
         self._bounds = bounds
         self.at = lru_cache(1)(self._made)
@@ -183,9 +186,9 @@ class Gridded:
         held = single(max(step, self.least) * unit)
         origin = self._origin
         if mirrored and may_repeat(self._prepared):
-            origin = np.array([self._hold(x) for x in mirrored_origin(self._prepared, origin, held)])
+            origin = np.array([self._hold(x) for x in mirrored_origin(self._prepared, origin, held, self._turn)])
         low = self._prepared.units.into(origin)
-        places = np.floor((self._prepared.positions - low) / (held / unit) + 0.5).astype(np.int32)
+        places = np.floor((self._positions - low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
             reach = min(float(self._bounds.reaches.min()), SPIKE * step)
             aim = Aim(self._worth * step / self._shaper.mean_edge, reach, 3)
@@ -197,16 +200,26 @@ class Gridded:
         """Places from the origin on, some below it, perhaps."""
         least = places.min(axis=0)
         origin = tuple(self._hold(value) for value in start + least * held)
-        grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)))
+        grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self._turn)
         candidate = self._candidate(grid, places - least)
 
         def unfold() -> Candidate | None:
             cell = held / self._prepared.units.scale
-            directions, reach = cell * np.eye(3).reshape(1, 9), np.minimum(self._bounds.reaches, SPIKE * cell)
+            directions = cell * turned_by(np.eye(3), self._turn).reshape(1, 9)
+            reach = np.minimum(self._bounds.reaches, SPIKE * cell)
             turned = self._shaper.unfold(candidate.positions, places, directions, reach)
             return None if turned is None else self._placed(held, turned, start)
 
         return replace(candidate, unfold=unfold)
+
+    def in_frame(self) -> "Gridded":
+        """The grid in the axes of the part, if that takes much fewer bytes at the first step."""
+        if not may_repeat(self._prepared) or self._bounds.measures.normals is not None:
+            return self  # sent normals stay in the axes of the mesh, and may be predicted from the grid
+        turn = turn_of(self._prepared.positions, self._prepared.mesh.faces)
+        other = Gridded(self._prepared, self._bounds, turn=turn) if any(turn) else self
+        own, others = (grid.at(self.first).congruent.size for grid in (self, other))
+        return other if others < (1.0 - LEAST_SAVED) * own else self
 
     def made(self) -> Iterator[Candidate]:
         """The grids that the mesh was made on, or about, in single precision; and exactly, where one holds all."""

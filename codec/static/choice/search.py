@@ -49,6 +49,7 @@ class Search:
         bounds = Bounds(self._measures, contract)
         grid = Gridded(self._prepared, bounds)
         kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
+        grid = grid.in_frame()
         first = grid.at(grid.first)
         if any(map(len, self._prepared.motions.values())):
             self._crew.map(first.like, (0, 2))
@@ -151,6 +152,7 @@ class Search:
         """The best candidate that takes at most `most_bytes` without congruent parts."""
         grid = Gridded(self._prepared, bounds)
         found = list(grid.made())
+        grid = grid.in_frame()
         for way in self._ways(bounds, grid):
             fitting: dict[float, Candidate] = {}
 

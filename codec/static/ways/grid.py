@@ -9,9 +9,10 @@ import numpy as np
 
 from bsm._core import Field
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import EXACT
+from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.container.wire import with_lengths
 from bsm.codec.arrays import Indices, Levels, Positions
+from bsm.codec.geometry.turns import UNTURNED, Turn, turned_by
 
 FIRST, CHUNK = 1 << 12, 1 << 13
 """Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""
@@ -27,23 +28,23 @@ class Grid:
     light: bool = False
     exact: bool = False
     transforms: Levels | None = None  # of congruent parts, shape (k, 8); None: coded without
+    turn: Turn = UNTURNED  # of its axes to those of the mesh
 
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
-        return np.asarray(coded * self.step + np.array(self.origin))
+        return turned_by(coded * self.step + np.array(self.origin), self.turn)
 
     @property
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
-        light = EXACT if self.exact else int(self.light)
-        congruence = 0 if self.transforms is None else 1 + len(self.transforms)
-        return {
-            "center": self.origin,
-            "scale": self.step,
-            "grid": self.largest,
-            "light": light,
-            "congruence": congruence,
-        }
+        light, congruence = int(self.light), 0 if self.transforms is None else 1 + len(self.transforms)
+        coded = {"light": EXACT if self.exact else light, "congruence": congruence, "turn": self.turn}
+        return {"center": self.origin, "scale": self.step, "grid": self.largest} | coded
+
+
+def grid_of(header: Header) -> Grid:
+    """The grid of a header, without transforms."""
+    return Grid(header.center, header.scale, header.grid, turn=header.turn)
 
 
 def grid_field(

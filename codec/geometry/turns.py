@@ -1,0 +1,57 @@
+"""Rotations: by quaternions, and to the axes of a part."""
+
+from itertools import combinations, permutations, product
+
+import numpy as np
+
+from bsm.codec.arrays import Faces, Matrix, Positions
+
+SAME, UPRIGHT, WORTH = 2e-3, 2e-3, 0.02
+"""Normals nearer to each other are of one plane; the cosine of axes; share of the area that must gain by a turn."""
+Turn = tuple[float, ...]  # a quaternion, of which the first entry is 1, less that
+UNTURNED: Turn = (0.0, 0.0, 0.0)
+
+
+def turned_by(places: Positions, turn: Turn, back: bool = False) -> Positions:
+    """Places, shape (n, 3), in the axes to which a turn takes their own, or `back` (specification, V 18)."""
+    if not any(turn):
+        return places
+    share = 2.0 / (1.0 + turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2])
+    axis = np.array(turn) * (-1.0 if back else 1.0)
+    once = np.cross(axis, places)
+    return np.asarray(places + share * (once + np.cross(axis, once)))
+
+
+def quaternion_of(turn: Matrix) -> Matrix:
+    """The unit quaternion of a rotation, shape (3, 3)."""
+    (_, _, y), (z, _, _), (_, x, _) = turn - turn.T
+    axis, trace = np.array([[x, y, z]]), np.trace(turn)
+    products = np.block([[np.array([[trace]]), axis], [axis.T, turn + turn.T - trace * np.eye(3)]])
+    found: Matrix = np.linalg.eigh(products)[1][:, 3]
+    return found
+
+
+def turn_of(positions: Matrix, faces: Faces) -> Turn:
+    """The turn, in single precision, to axes along which more of the area lies; `UNTURNED` if that is little more."""
+    a, b, c = positions[faces.T]
+    normals = np.cross(b - a, c - a)
+    normals *= np.sign(np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1))
+    directions = np.rint(normals / (SAME * np.sqrt(np.square(normals).sum(axis=1)) + 1e-300)[:, None])
+    _, plane = np.unique(directions @ (1e8, 1e4, 1.0), return_inverse=True)
+    normals = np.array([np.bincount(plane, of_axis) for of_axis in normals.T]).T
+    areas = np.sqrt(np.square(normals).sum(axis=1))
+    normals /= areas[:, None] + 1e-300
+
+    def along(axes: Matrix) -> float:
+        return float(areas @ (np.square(normals @ axes.T).max(axis=1) > 1.0 - 0.75 * SAME * SAME))
+
+    best, most = np.eye(3), along(np.eye(3)) + WORTH * areas.sum()
+    for first, second in combinations(normals[np.argsort(-areas, kind="stable")[:12]], 2):
+        third = np.cross(first, second)
+        axes = np.array([first, np.cross(third, first), third])
+        if abs(first @ second) < UPRIGHT and along(axes) > most:
+            best, most = axes, along(axes)
+    signs = np.array(list(product((1.0, -1.0), repeat=3)))[:, :, None]
+    alike = [axes for order in permutations(best) for axes in signs * np.array(order) if np.linalg.det(axes) > 0.0]
+    whole, *others = map(float, quaternion_of(max(alike, key=np.trace).T))
+    return tuple(float(np.float32(entry / whole)) for entry in others)
