@@ -59,8 +59,8 @@ def _ways(keep: Callable[[Any], bool], plain: bool = False) -> Any:
     """`Search._ways` with some of its ways, and blocks without refinement instead of those with it."""
     original = search.Search._ways
 
-    def ways(self: Any, bounds: Any, grid: Any) -> Iterator[Any]:
-        for way in original(self, bounds, grid):
+    def ways(self: Any, bounds: Any, *given: Any) -> Iterator[Any]:
+        for way in original(self, bounds, *given):
             if plain and isinstance(way, blocks.Refined):
                 yield blocks.Plain(self._prepared, self._options, bounds)
             elif keep(way):

@@ -144,10 +144,10 @@ class Input:
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, decoded = Bounds(self.measures, contract), draft.decoded
-        positions = self.prepared.units.into(decoded)
+        made = Candidate(0.0, self.prepared.units.into(decoded), lambda: draft, decoded=decoded)
         metric = bounds.metric
         if metric is None:
-            return "" if bounds.keeps(positions) else bounds.had, None, bounds.binding(positions)
+            return "" if bounds.keeps(made) else bounds.had, None, bounds.binding(made)
         shown = [metric.bare(decoded).distance]
         shown += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
         bound = max(*shown, metric.distance(decoded))  # whatever quality was asked for normals
@@ -158,8 +158,8 @@ class Input:
         elif self._own_normals is not None:  # which viewers compute
             given = Measures(self.prepared, self.options.threads, self._own_normals).look
             shown.append(given.compare(replace(self.prepared.mesh, positions=decoded)).distance if given else 0.0)
-        binding = bounds.binding(positions, bound)
-        return "" if bounds.keeps(positions, bound) else bounds.had, max(shown), binding
+        binding = bounds.binding(made, bound)
+        return "" if bounds.keeps(made, bound) else bounds.had, max(shown), binding
 
 
 def smallest(given: Input, contract: Contract, near: Nearing | None) -> tuple[Input, Draft]:

@@ -86,6 +86,7 @@ class Candidate:
     guess: Callable[[], float] | None = None
     also: Callable[[Draft], Draft] = lambda draft: draft  # the same positions, perhaps in fewer bytes
     like: Callable[[int], int] = lambda congruence: 0  # bytes of a grid with the `congruence` of another header
+    decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
 
     @cached_property
     def draft(self) -> Draft:
@@ -119,11 +120,11 @@ class Bounds:
         self.contract = contract
         self.reaches = measures.reaches(contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
-        self._last: tuple[Matrix, tuple[float, float, float, float]] | None = None
+        self._last: tuple[Candidate, tuple[float, float, float, float]] | None = None
 
     def excess(self, candidate: Candidate) -> float:
         """The logarithm of the largest share of a bound that depends on the step."""
-        farther, angle, visual, look = self._shares(candidate.positions)
+        farther, angle, visual, look = self._shares(candidate)
         shares = (angle, visual, look) if candidate.settled and farther <= 1.0 else (farther, angle, visual, look)
         self.measures.near.by()
         return math.log(max(*shares, LEAST))
@@ -137,23 +138,24 @@ class Bounds:
         """None: no look is asked for, or nothing can be seen."""
         return None if self.contract.look == math.inf else self.measures.look
 
-    def keeps(self, positions: Matrix, look: float | None = None) -> bool:
+    def keeps(self, candidate: Candidate, look: float | None = None) -> bool:
         """Whether all bounds are kept; `look`, where it is known otherwise."""
-        shares = self._shares(positions, look)
+        shares = self._shares(candidate, look)
         if self._best is None or shares < self._best:
             self._best = shares
         return max(shares) <= 1.0
 
-    def binding(self, positions: Matrix, look: float | None = None) -> str:
+    def binding(self, candidate: Candidate, look: float | None = None) -> str:
         """Return the bound that keeps a stream from being smaller; "step" where wider ones break one."""
-        shares = dict(zip(BOUNDS, self._shares(positions, look), strict=True))
+        shares = dict(zip(BOUNDS, self._shares(candidate, look), strict=True))
         name = max(shares, key=lambda name: shares[name])
         return name if shares[name] > 1.0 - 4.0 * SLACK else "step"
 
-    def quality(self, positions: Matrix) -> float:
+    def quality(self, candidate: Candidate) -> float:
         """How good positions are where as good ones as possible are wanted: less is better."""
-        metric = self.measures.look
-        return self.measures.original.angle(positions) if metric is None else metric.distance(self._decoded(positions))
+        if (metric := self.measures.look) is None:
+            return self.measures.original.angle(candidate.positions)
+        return metric.distance(self._decoded(candidate))
 
     @cached_property
     def first_step(self) -> float:
@@ -162,10 +164,10 @@ class Bounds:
             return self.even_step
         # From one step for all looks, so that a stricter one begins with a finer step.
         step, positions = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.positions
-        glance, light = self.metric.glance, self.measures.prepared.light
+        light, metric = self.measures.prepared.light, self.metric
         for _ in range(2):
-            placed = np.rint(positions / step) * step
-            wider = 1.0 / max(glance(self._decoded(placed)) if light else self._look(placed), LEAST)
+            placed = self.measures.prepared.units.back(np.rint(positions / step) * step)
+            wider = 1.0 / max(metric.glance(placed) if light else metric.with_room(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break
@@ -188,12 +190,13 @@ class Bounds:
         contract, (farther, angle, visual, look) = self.contract, self._best
         return contract.worded(farther, angle * contract.angle, look * contract.look, visual * contract.visual)
 
-    def _shares(self, positions: Matrix, look: float | None = None) -> tuple[float, float, float, float]:
+    def _shares(self, candidate: Candidate, look: float | None = None) -> tuple[float, float, float, float]:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
         if look is not None:
-            return *self._measured(positions), look / self.contract.look
-        if self._last is None or self._last[0] is not positions:
-            self._last = positions, (*self._measured(positions), self._look(positions) / self.contract.look)
+            return *self._measured(candidate.positions), look / self.contract.look
+        if self._last is None or self._last[0] is not candidate:
+            look = 0.0 if self.metric is None else self.metric.with_room(self._decoded(candidate))
+            self._last = candidate, (*self._measured(candidate.positions), look / self.contract.look)
         return self._last[1]
 
     def _measured(self, positions: Matrix) -> tuple[float, float, float]:
@@ -205,12 +208,10 @@ class Bounds:
         visual = measures.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
         return farther, angle, visual
 
-    def _look(self, positions: Matrix) -> float:
-        return 0.0 if self.metric is None else self.metric.with_room(self._decoded(positions))
-
-    def _decoded(self, positions: Matrix) -> Positions:
-        """As a decoder has them."""
-        return self.measures.prepared.units.back(positions)
+    def _decoded(self, candidate: Candidate) -> Positions:
+        """Positions as a decoder has them."""
+        decoded, back = candidate.decoded, self.measures.prepared.units.back
+        return back(candidate.positions) if decoded is None else decoded
 
 
 def reaches(prepared: Prepared, contract: Contract) -> Matrix:

@@ -234,9 +234,10 @@ class Gridded:
         brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
         light = partial(grid_draft, self._prepared, grid, places, light=True, brief=brief)
         coded = lru_cache(partial(coded_like, self._prepared, grid, places, brief))  # streams, made once
-        positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))
+        decoded = grid.positions(places)
+        positions = np.ascontiguousarray(self._prepared.units.into(decoded))
         sampled = partial(sampled_ratio, self._prepared.mesh.faces, grid, places, SAMPLE)
         few = len(places) <= SAMPLE or self._prepared.light
         guess, also = None if few else lambda: light().size * sampled(), partial(congruent, self._prepared, coded=coded)
         make, like = partial(coded, 0), lambda congruence: coded(min(congruence, 2)).size
-        return Candidate(step, positions, make, guess=guess, also=also, like=like)
+        return Candidate(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)

@@ -48,17 +48,17 @@ class Search:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
         grid = Gridded(self._prepared, bounds)
-        kept = [candidate for candidate in grid.made() if bounds.keeps(candidate.positions)]
+        kept = list(filter(bounds.keeps, grid.made()))
         grid = grid.in_frame()
         first = grid.at(grid.first)
         if any(map(len, self._prepared.motions.values())):
             self._crew.map(first.like, (0, 2))
-        saved, share = self._saved(first), 1.0
+        saved, share, parts = self._saved(first), 1.0, 0
         if may_repeat(self._prepared):
-            share = first.congruent.size / first.draft.size
+            share, parts = first.congruent.size / first.draft.size, first.congruent.header.congruence
         least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
         near = 1.0 if seen or contract.visual == math.inf else ALIKE
-        ways = self._ways(bounds, grid)
+        ways = self._ways(bounds, grid, share)
         for way in ways:  # which may lead to others
             leaning, gain = 0, 1.0
             if isinstance(way, Gridded):
@@ -67,7 +67,7 @@ class Search:
                     continue
                 if share < SHAPED and way is not grid and way.at(grid.first).size > SHAPED * first.size:
                     continue  # places that are chosen repeat less
-            like = partial(_as_rounded, first.congruent, gain) if gain < 1.0 else attrgetter("size")
+            like = (lambda made, gain=gain: made.like(parts) / gain) if gain < 1.0 else attrgetter("size")
             found = widest(way, bounds, (near * least + leaning) / gain, tries=self._tries, size=like)
             if found is not None:
                 kept.append(found)
@@ -97,7 +97,7 @@ class Search:
             hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
             if seen and hopeless > few:  # without pictures, all can be tried
                 break
-            if size < least and not bounds.folds(candidate.positions) and bounds.keeps(candidate.positions):
+            if size < least and not bounds.folds(candidate.positions) and bounds.keeps(candidate):
                 yield candidate
                 least = candidate.congruent.size
 
@@ -123,12 +123,13 @@ class Search:
         finest_bits = int(RANGES["grid"][1])
         while way.first > 2.0**-finest_bits:
             way.first /= 4.0
-            if bounds.keeps(way.at(way.first).positions):
+            if bounds.keeps(way.at(way.first)):
                 return widest(way, bounds) or way.at(way.first)
         finest = rounded(self._prepared, finest_bits)
-        positions = self._prepared.units.into(finest.decoded)
-        if bounds.keeps(positions):
-            return Candidate(0.0, positions, lambda: finest, also=partial(congruent, self._prepared))
+        positions, also = self._prepared.units.into(finest.decoded), partial(congruent, self._prepared)
+        candidate = Candidate(0.0, positions, lambda: finest, also=also, decoded=finest.decoded)
+        if bounds.keeps(candidate):
+            return candidate
         raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
@@ -142,7 +143,7 @@ class Search:
             if plain is None:
                 break
             if self._size(plain.congruent) <= most_bytes:
-                found.append((bounds.quality(plain.positions), plain.congruent))
+                found.append((bounds.quality(plain), plain.congruent))
             saved = self._size(plain.draft) - self._size(plain.congruent)
             if saved < LEAST_SAVED * most_bytes:
                 break
@@ -166,8 +167,8 @@ class Search:
             with suppress(LimitError):
                 secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
             found += [fitting[finest] for finest in sorted(fitting)[-1:]]
-        found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c.positions)]
-        return min(found, key=lambda candidate: bounds.quality(candidate.positions), default=None)
+        found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c)]
+        return min(found, key=bounds.quality, default=None)
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
@@ -175,8 +176,8 @@ class Search:
             return "nothing is visible"
         return f"look {metric.distance(draft.decoded):.3g}"
 
-    def _ways(self, bounds: Bounds, grid: Gridded) -> list[Way]:
-        """Ways that may be smallest, first those that are smaller at their first step."""
+    def _ways(self, bounds: Bounds, grid: Gridded, share: float = 1.0) -> list[Way]:
+        """Ways that may be smallest, first those that are smaller at their first step; `share`: what parts leave."""
         prepared, options = self._prepared, self._options
         few = prepared.graph.size < FEW_VERTICES and self._measures.normals is None
         grids: list[Way] = [grid] if few else [Gridded(prepared, bounds, 1.0), grid]
@@ -184,7 +185,8 @@ class Search:
             return grids[:1]
         if not prepared.has_low_frequencies:
             return grids
-        blocks: list[Way] = [Refined(prepared, options, bounds)]
+        refined = Refined(prepared, options, bounds)
+        blocks: list[Way] = [refined]
         if bounds.contract.angle < ANY_ANGLE:
             blocks.append(Refined(prepared, options, bounds, settled=False))
         if bounds.contract.visual < math.inf:  # it counts errors in all directions
@@ -192,14 +194,10 @@ class Search:
         if bounds.contract.look == math.inf:
             blocks.append(Plain(prepared, options, bounds))
         with suppress(LimitError):  # blocks that decoders would refuse
-            if grid.at(grid.first).size < blocks[0].at(max(blocks[0].first, blocks[0].least)).size:
+            size, usual = grid.at(grid.first).size, refined.at(max(refined.first, refined.least)).size
+            if size < usual or share * size < usual - refined.base.coded:  # as if larger blocks took nothing
                 return grids + blocks
         return blocks + grids
-
-
-def _as_rounded(first: Draft, share: float, candidate: Candidate) -> float:
-    """The bytes without congruent parts of which those with them, coded as in `first`, would be this share."""
-    return candidate.like(first.header.congruence) / share
 
 
 def widest(
@@ -219,10 +217,10 @@ def widest(
             # A step twice as wide saves three bits of a vertex at most, half as wide costs one.
             bits = math.log(2.0) * 8.0 * (candidate.size - most_bytes) / len(candidate.positions)
             sure = -bits * STEEPEST if bits < 0.0 else -bits / (3.0 * STEEPEST)
-        if sure < -1.0 and bounds.contract.look < math.inf:
-            return None  # no first step is so much too narrow
+        if sure < -10.0 * SLACK and bounds.contract.look < math.inf:
+            return None  # hardly any first step is so much too narrow
         over = bounds.excess(candidate)
-        if over <= 0.0 and bounds.keeps(candidate.positions):
+        if over <= 0.0 and bounds.keeps(candidate):
             kept.append((folded, candidate))
         over = max(over, SLACK) if folded else over  # a finer step has fewer folds
         return over if over < sure else None

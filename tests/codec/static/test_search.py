@@ -60,7 +60,7 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(everything(*_asked(mesh, options)))):
 
-        def size(search: Search, bounds: Bounds, grid: Gridded, alone: int = alone) -> list[Way]:
+        def size(search: Search, bounds: Bounds, grid: Gridded, _: float = 1.0, alone: int = alone) -> list[Way]:
             return [everything(search, bounds, grid)[alone]]
 
         monkeypatch.setattr(Search, "_ways", size)
