@@ -31,7 +31,10 @@ typedef struct {
     uint64_t *near; /* a bit for each cell with a place that is within LOOSE of a vertex, and others */
 } Space;
 
-INLINE int64_t cell_of(double x) { return (int64_t)__builtin_floor(x / CELL); }
+INLINE int64_t cell_of(double x) { /* a call of floor() takes longer than all of it */
+    int64_t whole = (int64_t)(x / CELL);
+    return whole - ((double)whole > x / CELL);
+}
 INLINE uint32_t mixed(uint32_t hash, int64_t x) { return (hash ^ (uint32_t)x) * 2654435769u ^ hash >> 15; }
 INLINE uint32_t cell_key(int64_t x, int64_t y, int64_t z, uint32_t mask) {
     return mixed(mixed(mixed(1, x), y), z) >> 7 & mask;
@@ -51,9 +54,11 @@ static int32_t nearest_vertex(const Space *s, const double *at, double reach) {
     int32_t best = -1;
     uint32_t bit = near_key(at, 0.0, 0.0, 0.0);
     if ((s->near[bit >> 6] >> (bit & 63) & 1) == 0) return -1;
-    for (int64_t a = cell_of(at[0] - reach); a <= cell_of(at[0] + reach); a++)
-        for (int64_t b = cell_of(at[1] - reach); b <= cell_of(at[1] + reach); b++)
-            for (int64_t c = cell_of(at[2] - reach); c <= cell_of(at[2] + reach); c++) {
+    int64_t last[3], first[3];
+    for (int i = 0; i < 3; i++) first[i] = cell_of(at[i] - reach), last[i] = cell_of(at[i] + reach);
+    for (int64_t a = first[0]; a <= last[0]; a++)
+        for (int64_t b = first[1]; b <= last[1]; b++)
+            for (int64_t c = first[2]; c <= last[2]; c++) {
                 int32_t u = s->head[cell_key(a, b, c, s->mask)];
                 for (int visits = 0; u >= 0 && visits < MOST_WALKED; visits++, u = s->next[u]) {
                     const double *x = s->positions.data + 3 * (int64_t)u;
