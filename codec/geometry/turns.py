@@ -1,6 +1,6 @@
 """Rotations: by quaternions, and to the axes of a part."""
 
-from itertools import combinations, permutations, product
+from itertools import permutations, product
 
 import numpy as np
 
@@ -25,8 +25,9 @@ def turned_by(places: Positions, turn: Turn, back: bool = False) -> Positions:
 def quaternion_of(turn: Matrix) -> Matrix:
     """The unit quaternion of a rotation, shape (3, 3)."""
     (_, _, y), (z, _, _), (_, x, _) = turn - turn.T
-    axis, trace = np.array([[x, y, z]]), np.trace(turn)
-    products = np.block([[np.array([[trace]]), axis], [axis.T, turn + turn.T - trace * np.eye(3)]])
+    products, trace = np.empty((4, 4)), np.trace(turn)
+    products[0] = products[:, 0] = trace, x, y, z
+    products[1:, 1:] = turn + turn.T - trace * np.eye(3)
     found: Matrix = np.linalg.eigh(products)[1][:, 3]
     return found
 
@@ -46,11 +47,14 @@ def turn_of(positions: Matrix, faces: Faces) -> Turn:
         return float(areas @ (np.square(normals @ axes.T).max(axis=1) > 1.0 - 0.75 * SAME * SAME))
 
     best, most = np.eye(3), along(np.eye(3)) + WORTH * areas.sum()
-    for first, second in combinations(normals[np.argsort(-areas, kind="stable")[:12]], 2):
-        third = np.cross(first, second)
-        axes = np.array([first, np.cross(third, first), third])
-        if abs(first @ second) < UPRIGHT and along(axes) > most:
-            best, most = axes, along(axes)
+    large = normals[[at for at in np.argsort(-areas, kind="stable")[:12] if areas[at] > 0.0]]
+    first, second = large[np.array(np.nonzero(np.triu(np.abs(large @ large.T) < UPRIGHT, 1)))]
+    third = np.cross(first, second)
+    for axes in np.stack([first, np.cross(third, first), third], axis=1):
+        if (found := along(axes)) > most:
+            best, most = axes, found
+    if (best == np.eye(3)).all():
+        return UNTURNED
     signs = np.array(list(product((1.0, -1.0), repeat=3)))[:, :, None]
     alike = [axes for order in permutations(best) for axes in signs * np.array(order) if np.linalg.det(axes) > 0.0]
     whole, *others = map(float, quaternion_of(max(alike, key=np.trace).T))

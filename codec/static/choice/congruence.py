@@ -92,8 +92,9 @@ def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int
     bits = min(int(max(span.max(), 1)).bit_length() + 2, MOST_FINENESS)
     which = int(np.abs(quaternion).argmax())
     unit = np.rint(quaternion / quaternion[which] * (1 << bits))
-    a, v = unit[0], unit[1:]
-    spun = (a * a - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * a * np.cross(v, np.eye(3)).T
+    a, v, (x, y, z) = unit[0], unit[1:], unit[1:]
+    across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    spun = (a * a - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * a * across
     coded = spun / (unit @ unit) * (-1.0 if mirrored else 1.0)
     middle = span / 2.0
     quarters = np.rint(4.0 * (turn @ middle + shift - coded @ middle)).astype(np.int64) + 12 * int(max(span.max(), 1))

@@ -62,7 +62,7 @@ def congruent(prepared: Prepared, draft: Draft, coded: Callable[[int], Draft] | 
 def coded_like(prepared: Prepared, grid: Grid, places: Levels, brief: bool, congruence: int) -> Draft:
     """The stream of places on a grid whose congruent parts are coded as those of a header with this `congruence`."""
     if congruence:
-        grid = replace(grid, transforms=transforms_of(prepared, grid)[: None if congruence > 1 else 0])
+        grid = replace(grid, transforms=transforms_of(prepared, grid) if congruence > 1 else np.empty((0, 8), np.int32))
     return grid_draft(prepared, grid, places, brief=brief)
 
 
