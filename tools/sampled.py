@@ -6,7 +6,6 @@ marching cubes lies halfway between cells, in stairs. A camera that resolves few
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 
 import numpy as np
@@ -15,7 +14,7 @@ from scipy import spatial
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats, Mask, face_geometry
 from bsm.codec.geometry.metrics import distances_to_surface
-from tools.scans import CAMERAS, SAMPLES, Camera, Scan, turning, view
+from tools.scans import CAMERAS, SAMPLES, Camera, Scan, isosurface, turning, view
 
 MARGIN = 3  # cells about a shape
 THICK = 5.0  # slices, in cells across
@@ -54,7 +53,7 @@ def voxelized(field: Field, cells: int, thick: float = 1.0, reach: float = 1.0, 
     inside = np.repeat(field(np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)) < 0.0, copies, axis=2)
     steps[2] /= copies
     origin[2] -= 0.5 * (copies - 1) * steps[2]
-    positions, faces = isosurface(inside, steps, origin)
+    positions, faces = isosurface(np.where(inside, 0.5, -0.5), steps, origin)
     at, small = positions[faces].mean(axis=1), 1e-5 * reach
     slopes = [field(at + small * way) - field(at - small * way) for way in np.eye(3)]
     normals = np.stack(slopes, axis=1)
@@ -68,7 +67,9 @@ def voxelized_mesh(positions: Positions, faces: Faces, cells: int, thick: float 
     steps = float(extent.max()) / cells * np.array([1.0, 1.0, thick])
     counts = np.ceil(extent / steps).astype(int) + 2 * MARGIN
     origin = positions.min(axis=0) - (MARGIN - 0.5) * steps + 0.013 * steps
-    made, triangles = isosurface(filled((positions - origin) / steps, faces, counts), steps, origin)
+    made, triangles = isosurface(
+        np.where(filled((positions - origin) / steps, faces, counts), 0.5, -0.5), steps, origin
+    )
     geometry, random = face_geometry(positions, faces), np.random.default_rng(0)
     chosen = random.choice(len(faces), SAMPLES, p=geometry.areas / geometry.areas.sum())
     points = np.einsum("ij,ijk->ik", random.dirichlet(np.ones(3), SAMPLES), positions[faces[chosen]])
@@ -76,27 +77,6 @@ def voxelized_mesh(positions: Positions, faces: Faces, cells: int, thick: float 
     return Scan(
         made, triangles, geometry.normals[chosen[near]], lambda moved: distances_to_surface(moved, positions, faces)
     )
-
-
-def isosurface(inside: Mask, steps: Floats, origin: Floats) -> tuple[Positions, Faces]:
-    """Marching cubes at 0.5, the way round that makes normals point outwards."""
-    filters, data, numpy_support = (
-        importlib.import_module(f"vtkmodules.{name}")
-        for name in ("vtkFiltersCore", "vtkCommonDataModel", "util.numpy_support")
-    )
-    volume, marching = data.vtkImageData(), filters.vtkFlyingEdges3D()
-    volume.SetDimensions(inside.shape)
-    # Larger inside: the triangles of VTK face lower values.
-    values = np.ascontiguousarray(inside.ravel(order="F"), np.float32)
-    volume.GetPointData().SetScalars(numpy_support.numpy_to_vtk(values))
-    marching.SetInputData(volume)
-    marching.SetValue(0, 0.5)
-    marching.ComputeNormalsOff()
-    marching.Update()
-    surface = marching.GetOutput()
-    corners = numpy_support.vtk_to_numpy(surface.GetPoints().GetData())
-    faces = numpy_support.vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    return corners.astype(np.float64) * steps + origin, np.ascontiguousarray(faces, np.int32)
 
 
 def filled(positions: Positions, faces: Faces, counts: np.ndarray) -> Mask:

@@ -154,13 +154,33 @@ def turning(seed: int) -> Floats:
     return np.asarray(spatial.transform.Rotation.random(random_state=seed).as_matrix())
 
 
+def isosurface(values: Floats, steps: Floats | float, origin: Floats | float) -> tuple[Positions, Faces]:
+    """Marching cubes at 0 of values that are positive inside, whose normals point outwards."""
+    filters, data, numpy_support = (
+        importlib.import_module(f"vtkmodules.{name}")
+        for name in ("vtkFiltersCore", "vtkCommonDataModel", "util.numpy_support")
+    )
+    volume, marching = data.vtkImageData(), filters.vtkFlyingEdges3D()
+    volume.SetDimensions(values.shape)
+    # Larger inside: the triangles of VTK face lower values.
+    flat = np.ascontiguousarray(values.ravel(order="F"), np.float32)
+    volume.GetPointData().SetScalars(numpy_support.numpy_to_vtk(flat))
+    marching.SetInputData(volume)
+    marching.SetValue(0, 0.0)
+    marching.ComputeNormalsOff()
+    marching.Update()
+    surface = marching.GetOutput()
+    corners = numpy_support.vtk_to_numpy(surface.GetPoints().GetData())
+    faces = numpy_support.vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return corners.astype(np.float64) * steps + origin, np.ascontiguousarray(faces, np.int32)
+
+
 TRUNCATION, FALSE = 4.0, 2.0  # voxels: how far views reach; and from the truth, where surface is made up and cut away
 SAMPLES = 400_000
 
 
 def fused(positions: Positions, faces: Faces, camera: Camera, seed: int, poses: int = 12, cells: int = 90) -> Scan:
     """Fuse views: average the distances along their rays on a grid, and mesh the surface where they are 0."""
-    marching_cubes = importlib.import_module("skimage.measure").marching_cubes
     lone = placed(positions, camera, turning(seed)) - [0.0, 0.0, camera.far]
     half = 1.06 * np.abs(lone).max()
     step = 2.0 * half / (cells - 1)
@@ -178,20 +198,18 @@ def fused(positions: Positions, faces: Faces, camera: Camera, seed: int, poses: 
         counted = apart > -TRUNCATION * step
         sums += np.where(counted, np.minimum(apart / (TRUNCATION * step), 1.0), 0.0)
         weights += counted
-    cube = 3 * (cells,)
-    field, known = (sums / np.maximum(weights, 1.0)).reshape(cube), (weights > 0.0).reshape(cube)
-    corners, made, _, _ = marching_cubes(field, 0.0, spacing=3 * (step,), mask=known)
-    noisy, made = corners.astype(np.float64) - half, np.ascontiguousarray(made, np.int32)
+    field = np.where(weights > 0.0, sums / np.maximum(weights, 1.0), 1.0).reshape(3 * (cells,))
+    noisy, made = isosurface(-field, step, -half)
     geometry = face_geometry(lone, faces)
     random = np.random.default_rng(seed)
     chosen = random.choice(len(faces), SAMPLES, p=geometry.areas / geometry.areas.sum())
     points = np.einsum("ij,ijk->ik", random.dirichlet(np.ones(3), SAMPLES), lone[faces[chosen]])
     apart, near = spatial.cKDTree(points).query(face_geometry(noisy, made).centroids)
     kept = apart < FALSE * step
-    used, made = np.unique(made[kept], return_inverse=True)
+    used, number = np.unique(made[kept], return_inverse=True)
     return Scan(
         noisy[used],
-        np.ascontiguousarray(made.reshape(-1, 3), np.int32),
+        np.ascontiguousarray(number.reshape(-1, 3), np.int32),
         geometry.normals[chosen[near[kept]]],
         lambda moved: distances_to_surface(moved, lone, faces),
     )

@@ -19,11 +19,10 @@ from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.recipe import BENDS, RAYS, Patient, Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, discrepant, silent
+from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, silent
 from bsm.codec.denoise.safety import judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.metrics import Reference
 
 WHOLE = 8000
 PIECE = 2000
@@ -62,16 +61,11 @@ CANDIDATES = (
 HERALDS = 5
 SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 1.0, 0.1, 3.0) for sigma_r in (0.4, 0.25, 0.55))
 """For scans of one view."""
-FINE = (("patches", 0.35), ("own", 0.25), ("own", 0.4))
-FUSED = tuple(Recipe("positions", keep, *fine) for keep in (0.2, 0.1, 0.3) for fine in FINE)
-"""For views that are fused, whose triangles are slivers: their vertices slide."""
 _OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for width in (0.4, 0.25, 0.55)]
 AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
-GROUPS = {"fused": FUSED, "axis": AXIAL}
-UNEVEN_FUSED, UNEVEN = Recipe("positions", 0.1, "own", 0.4), (3.0, 150)
-"""For fused views of a real camera. Their noise is broader than any that is drawn here, so nothing is rehearsed: the
-filter goes on until vertices have moved this many times the fine noise."""
+FUSED = Step(Recipe(BENDS, 2.5, "own", 0.4), 0)
+"""For fused views. Their noise is broader than any that is drawn here, so nothing is rehearsed."""
 CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
 """For binary volumes; of thick slices, whose stairs are steeper, the width grows with thickness to the power of 2/3."""
 THICK, BENDS_ITERATIONS = 2.5, (8, 12)
@@ -79,7 +73,6 @@ THICK, BENDS_ITERATIONS = 2.5, (8, 12)
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
 STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
-LEFT_UNEVEN = 0.55  # share of the angle that stays then
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
@@ -158,10 +151,8 @@ def choose(
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
-    if finding.kind == "uneven fused":
-        return _persist(positions, finding, patient)
-    if finding.kind in ("cells", "steps"):
-        return _bounded(finding)
+    if finding.kind in ("cells", "steps", "fused"):
+        return _by_cause(finding)
     full = patient.topology
     members, part = sample(full.faces, finding.levels)
     patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels > 0.0
@@ -171,7 +162,7 @@ def choose(
         positions, patient = positions[members], Patient(part, len(members))
         patient.part = lambda: Learnt(*(every[some] for every, some in zip(whole.learnt(given), rows, strict=True)))
         patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
-    candidates = SEEN if finding.view is not None else GROUPS.get(finding.kind, CANDIDATES)
+    candidates = SEEN if finding.view is not None else AXIAL if finding.kind == "axis" else CANDIDATES
     share = LEARNT if candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white") else 0.0
     if finding.view is None:
         patient.expect(LARGEST_KEEP)
@@ -200,20 +191,13 @@ def choose(
     return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, share, forecast=forecast)
 
 
-def _persist(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:
-    """Filter for as long as the noise of a real camera asks."""
-    guesses = patient.treatments(positions).iterates(UNEVEN_FUSED)
-    times = discrepant(positions, guesses, patient.probe, finding.level, UNEVEN)
-    steps = (Step(UNEVEN_FUSED, times),)
-    untreated = Reference(positions, patient.topology.faces).theta(patient.treatments(positions).mean(steps))
-    noise = NoiseLevel(finding.level / finding.edge, 0.0)
-    return AutomaticChoice(steps, finding.kind, finding.reason, noise, untreated, LEFT_UNEVEN * untreated)
-
-
-def _bounded(finding: Finding) -> AutomaticChoice:
-    """Choose the filter that suits the cause, without a rehearsal: its bound limits every vertex."""
-    if finding.kind == "steps":
-        steps: tuple[Step, ...] = (Step(Recipe(RAYS, STEP_STRENGTH, "own", 0.25), STEP_ITERATIONS),)
+def _by_cause(finding: Finding) -> AutomaticChoice:
+    """Choose the filter that suits the cause, without a rehearsal."""
+    steps: tuple[Step, ...]
+    if finding.kind == "fused":
+        steps = (FUSED,)
+    elif finding.kind == "steps":
+        steps = (Step(Recipe(RAYS, STEP_STRENGTH, "own", 0.25), STEP_ITERATIONS),)
     else:
         assert isinstance(finding.bound, Cells)
         flat, stored = finding.bound.flatness, finding.bound.thick > 1

@@ -12,6 +12,7 @@ import numpy as np
 from bsm.bitstream.errors import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_options, named
+from bsm.codec.denoise.bends import fewer_bends
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
 from bsm.codec.denoise.noise.causes import Bound, Grid
@@ -24,7 +25,7 @@ from bsm.codec.denoise.surface import Mask, Topology, face_geometry, surface_nor
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
 LOCAL = "local"
 RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
-BENDS = "bends"  # the hand-over of thick slices, see `Cells.flattened`
+BENDS = "bends"  # that of thick slices, see `Cells.flattened`, and of fused views: what is kept is the bends' weight
 SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
 
 HandOver = Callable[[Positions, Positions, GuidedFilter], Positions]
@@ -135,6 +136,8 @@ class Treatments:
                 positions = view.flattened(self.noisy, self._topology, recipe.keep)
             elif recipe.hand_over == BENDS and isinstance(bound, Cells):
                 positions = bound.flattened(self.noisy, self._topology)
+            elif recipe.hand_over == BENDS:
+                positions = fewer_bends(self.noisy, self._topology, self._patient.probe.average, recipe.keep)
             else:
                 smooth = self._patient.smooth(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
                 positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._guided)

@@ -5,7 +5,7 @@ the noisy mesh after t iterations of a base recipe, and t rises until the rehear
 the guess was given. Noise of the kind that was found is drawn anew.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import islice
 
@@ -13,7 +13,6 @@ import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
-from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
 from bsm.codec.denoise.recipe import Patient, Recipe, Step, Treatments, blend
 from bsm.codec.denoise.surface import face_geometry, pair_distances
@@ -26,9 +25,6 @@ MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % l
 GAIN = 1.01  # members join while the error stays below this multiple: several make fewer mistakes than one
 SEED = 1
 ROUND = 0.1  # of all work, what the recipes of a round take, more or less
-DISCREPANCY, DISCREPANCY_PASSES = (2.2, 60), 8
-"""Noise of fused views is this much stronger than its fine level (a discrepancy principle, Morozov 1966): a guess that
-has lost less still has such noise, which looks like shape."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
@@ -57,17 +53,6 @@ GOALS: dict[str, Goal] = {
     "shape": shape,
     "both": lambda reference, positions: reference.theta(positions) * shape(reference, positions),
 }
-
-
-def discrepant(
-    noisy: Positions, guesses: Iterator[Positions], probe: Probe, level: float, asked: tuple[float, int] = DISCREPANCY
-) -> int:
-    """Return after how many iterations, of a number at most, vertices moved a ratio times as far as the fine noise."""
-    ratio, most = asked
-    normals = probe.smooth_normals(noisy, DISCREPANCY_PASSES)
-    moves = (np.einsum("ij,ij->i", noisy - guess, normals) for guess in islice(guesses, most))
-    far = (np.nanmedian(probe.levels(moved)) > ratio * level for moved in moves)
-    return next((count for count, enough in enumerate(far) if enough), most)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,8 +88,6 @@ class Rehearsal:
         patient.bound = self._finding.bound
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
         given = 1
-        if finding.kind == "fused":
-            given = discrepant(noisy, patient.treatments(noisy).iterates(base), patient.probe, finding.level)
         for done, guess in enumerate(patient.treatments(noisy).iterates(base)):
             if done < given:
                 continue
@@ -143,7 +126,7 @@ class Rehearsal:
         sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
         least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
         expected = float(after) * winner.error / noisy * least
-        known = self._finding.clear and self._finding.kind != "fused" and self._drowned < MOST_DROWNED
+        known = self._finding.clear and self._drowned < MOST_DROWNED
         return Forecast(before * self.untreated / noisy, expected, sure, known)
 
     @property

@@ -13,9 +13,10 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Mask
 
-MOST, MOST_UNKNOWN = 1.9, 1.25
+MOST, MOST_FUSED, MOST_UNKNOWN = 1.9, 3.0, 1.25
 """Movement along the normals over noise, above which a window has lost more than noise: where noise is known, which
-varies by chance between windows if neighbors share it, and with the slant in scans of one view; and where it is not."""
+varies by chance between windows if neighbors share it, and with the slant in scans of one view; in fused views, whose
+broad noise is stronger where few views meet; and where noise is not known."""
 MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
 FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
@@ -55,8 +56,9 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
-    shared = MOST_CORRELATED if finding.kind in ("correlated", "view", "fused", "uneven fused") else 1.0
-    most = MOST_UNKNOWN if unsure else MOST * min(max(movement, 1.0), shared)
+    shared = MOST_CORRELATED if finding.kind in ("correlated", "view", "fused") else 1.0
+    usual = MOST_FUSED if finding.kind == "fused" else MOST
+    most = MOST_UNKNOWN if unsure else usual * min(max(movement, 1.0), shared)
     bad = windows.valid & ~(ratio <= most)
     failed = float(bad[judged].mean()) if judged.any() else 0.0
     reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"

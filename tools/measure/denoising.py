@@ -29,11 +29,12 @@ from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
 from tools.noise import correlated_along_normals, gaussian_along_axis, gaussian_along_normals
 from tools.sampled import THICK, ball, box, in_steps, torus, voxelized, voxelized_mesh
-from tools.scans import CAMERAS, Scan, view
+from tools.scans import CAMERAS, Scan, fused, view
 
 TAUBIN = (10, 30, 100, 300)
 PLATE = (30.0, 20.0, 2.5)  # half sides, in cells
 SCANS = ("c3d_spot", "armadillo_12502", "fr_casting", "gargoyle_10002")
+PARTS = ("block", "fandisk_6475", "twelve_dodecahedron", "trim_star", "sharpsphere")
 STEPS = (0.5, 1.0, 2.0, 3.0)
 SLICES, SLICED, ORGANS = (3.0, 4.0, 6.0, 8.0), 72, (4, 10, 11, 16)
 """Of slices, cells across and a side; and seeds of `made_shape`."""
@@ -88,6 +89,8 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
         yield f"{camera}, {name}", partial(_made, mesh, name, view, model, SEED)
     for (camera, model), seed in product(CAMERAS.items(), ORGANS):
         yield f"{camera}, made {seed}", partial(_made, shaped, seed, view, model, SEED)
+    for name in (*SCANS, *PARTS):
+        yield f"fused views, {name}", partial(_made, mesh, name, fused, CAMERAS["structured light"], SEED)
     for name in SCANS:
         yield (
             f"correlated, {name}",

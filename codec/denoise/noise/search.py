@@ -40,11 +40,9 @@ LOCAL_STEP, LOCAL_SHARE, NEARBY = 1.5, 0.1, 4
 """Noise here and there: its level over the rest's, its share of the mesh, and rings of a vertex that tell its side."""
 CALM = 0.05  # level up to which the rest counts as clean
 TERRACED = 0.05  # fewer depths per vertex mean a camera with few depth levels
-FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.08), (0.15, 0.225), 1.04
-"""Of views fused on a lattice: level in mean edges, how uneven it may be there, and what broad filters may see. They
-read .07 to .11, .06 to .21, .93 to 1.01; fields without noise .01 to .07, .23 and more, 1.09 to 1.7."""
-FUSED_LEVEL, FUSED_UNEVEN, NARROWER = 0.05, 0.45, 0.97
-"""Fused views of a real camera: their least level, how uneven it may be, and how much broader filters may see."""
+FUSED_LEVEL, FUSED_UNEVEN, NARROWER = 0.05, 1.0, 1.02
+"""Of views fused on a lattice: the least level, how uneven it may be, and what broad filters may see over it. They read
+.05 to .15, .06 to .9, .9 to 1.0; fields without noise .004 to .11, .08 to 7, 1.05 (a fractal) to 1.9."""
 MARCHED = 1.06
 """Mean edge, in steps of the lattice, that marching cubes do not reach: it is .94 to .97, of regular triangles 1.14."""
 ONE_CELL = 0.9  # share of the stairs of a binary volume, from which on all its walls are one cell thick
@@ -175,16 +173,14 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
     everywhere = evidence.probe.windows.valid
     levels = evidence.levels[everywhere]
     level, uneven = float(np.median(levels)), spread(levels, evidence.probe.windows)
-    real = level < FUSED[0] or uneven > np.interp(level, FUSED, EVEN_FUSED)
-    if level < FUSED_LEVEL or (real and uneven > FUSED_UNEVEN):
+    if level < FUSED_LEVEL or uneven > FUSED_UNEVEN:
         return None
     if evidence.edge > MARCHED * lattice_step(positions) or not is_random(evidence.residuals(everywhere)):
         return None
-    if not np.quantile(evidence.broad[everywhere] / levels, 0.25) <= (NARROWER if real else NOT_BROADER):
+    if not np.quantile(evidence.broad[everywhere] / levels, 0.25) <= NARROWER:
         return None
     amount = np.full(len(positions), level * evidence.edge)
-    kind, reason = ("uneven fused", " of a real camera") if real else ("fused", "")
-    return Finding(kind, level * evidence.edge, amount, evidence.edge, f"noise of views{reason} fused on a lattice")
+    return Finding("fused", level * evidence.edge, amount, evidence.edge, "noise of views fused on a lattice")
 
 
 def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:

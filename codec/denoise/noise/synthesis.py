@@ -12,7 +12,7 @@ import numpy as np
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Floats, surface_normals
+from bsm.codec.denoise.surface import surface_normals
 from bsm.codec.geometry.metrics import mean_edge_length
 
 MEDIAN_ALONG, TENTH_ACROSS = 0.6745, 0.4590  # of one standard normal number's size, and of the length of two
@@ -53,24 +53,6 @@ WINDOWED, SHARED = 12, (0.5, 0.75)
 """Averagings for the noise that the pixels of a camera's window share, and its strength over the noise of single
 pixels: for cameras that measure depth, and for those that match windows, which have steps of depth."""
 
-FUSED = ((1.05, 2.0), (8.0, 0.9))
-"""Cells of fused views' noise, in mean edges, and its strength over fine levels: the field's, and what poses share."""
-
-
-def in_space(places: Floats, random: np.random.Generator) -> Floats:
-    """Noise at `places`, shape (n, 3), white at whole numbers and interpolated between; deviation 1, shape (n,)."""
-    places = places + random.random(3)
-    low = np.floor(places).astype(np.int64)
-    rest = places - low
-    low -= low.min(axis=0)
-    sides = low.max(axis=0) + 2
-    corners = np.array(list(np.ndindex(2, 2, 2)))
-    keys = np.ravel_multi_index(tuple(np.moveaxis(low[:, None] + corners, 2, 0)), tuple(sides))
-    weights = np.where(corners == 1, rest[:, None], 1.0 - rest[:, None]).prod(axis=2)
-    used, number = np.unique(keys, return_inverse=True)
-    noise = (random.normal(size=len(used))[number.reshape(keys.shape)] * weights).sum(axis=1)
-    return np.asarray(noise / (noise.std() or 1.0))
-
 
 class Synthesis:
     """Draws noise of the kind and strength of a finding."""
@@ -96,9 +78,6 @@ class Synthesis:
             noise = white[:, 0] + SHARED[finding.view.terraced] * shared / shared.std()
             return finding.view.at(positions, seen, seen + finding.view.level * noise)
         normals = surface_normals(positions, topology)
-        if finding.kind == "fused":
-            shares = [share * in_space(positions / (size * finding.edge), random) for size, share in FUSED]
-            return np.asarray(positions + (finding.levels * np.sum(shares, axis=0))[:, None] * normals)
         along = np.einsum("ij,ij->i", white, normals)[:, None]
         amount = self._probe.correlated(along, self._steps)
         if self._steps:

@@ -1,17 +1,15 @@
 """Scans of one view: a regular grid of pixels seen from an eye, with noise along the rays of the camera.
 
 The inverse depth of a plane is linear over the pixels. So the filter looks for the surface of fewest bends near the
-measured one: ``min sum d (w - w0)^2 + s sum l |bend w|`` (total variation of the gradient, Rudin, Osher,
-Fatemi 1992; by reweighted least squares), where vertices that stand out count less.
+measured one, where vertices that stand out count less.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse import linalg
 
 from bsm.codec.arrays import Positions
+from bsm.codec.denoise.bends import ROUNDS, bending, unbent
 from bsm.codec.denoise.noise.probe import SHARE, Probe
 from bsm.codec.denoise.surface import Floats, Topology
 
@@ -19,7 +17,7 @@ FAR = 1e3  # extents between an eye and the mesh from which on rays are parallel
 REGULAR, ONE_SIDED = 0.08, 0.98
 """Middle distance of pixels from the mean of their neighbors, in edges, and share of the faces seen from one side."""
 BEND = 0.05  # change of slope up to which bends are rounded, not sharp
-ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0
+STAND_OUT = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,22 +45,17 @@ class View:
         return np.asarray(self.eye + (positions - self.eye) * (before / after)[:, None])
 
     def flattened(self, positions: Positions, topology: Topology, strength: float) -> Positions:
-        given = self.heights(positions, topology)
+        given = self.heights(positions, topology)[:, None]
         plane = self.plane(positions)
         bends, lengths = bending(plane / pixel(plane, topology), topology)
         heights, trust = given.copy(), np.ones(len(given))
         for turn in range(ROUNDS):
-            bent = np.abs(bends @ heights)
-            least = max(BEND, float(np.median(bent))) if turn == 0 else BEND
-            weights = sparse.diags(strength * self.level * lengths / np.maximum(bent, least))
-            system = (sparse.diags(trust) + bends.T @ weights @ bends).tocsr()
-            heights, _ = linalg.cg(
-                system, trust * given, heights, rtol=EXACT, maxiter=STEPS, M=sparse.diags(1.0 / system.diagonal())
-            )
-            off = np.abs(heights - given)
+            weights = strength * self.level * lengths
+            heights = unbent(heights, given, trust, bends, weights, BEND, first=turn == 0)
+            off = np.abs(heights - given)[:, 0]
             usual = STAND_OUT * float(np.median(off)) / 0.6745
             trust = np.minimum(1.0, usual / np.maximum(off, 1e-9)) if usual > 0.0 else trust
-        return self.at(positions, given, heights)
+        return self.at(positions, given[:, 0], heights[:, 0])
 
 
 def pixel(plane: Floats, topology: Topology) -> float:
@@ -70,31 +63,6 @@ def pixel(plane: Floats, topology: Topology) -> float:
     starts, members = topology.neighbors
     owners = np.repeat(np.arange(topology.n), np.diff(starts))
     return float(np.linalg.norm(plane[owners] - plane[members], axis=1).mean()) or 1.0
-
-
-def bending(plane: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Floats]:
-    """How the gradient of values on the vertices changes over each edge between two faces; and the edges' lengths."""
-    first, second = (topology.faces[topology.pairs[:, side]] for side in range(2))
-    equal = first[:, :, None] == second[:, None, :]
-    hinge = equal.any(axis=2).sum(axis=1) == 2
-    first, second, equal = first[hinge], second[hinge], equal[hinge]
-    lone = equal.any(axis=2).argmin(axis=1)
-    rows = np.arange(len(first))
-    ends = [first[rows, (lone + turn) % 3] for turn in (1, 2)]
-    tips = [first[rows, lone], second[rows, equal.any(axis=1).argmin(axis=1)]]
-    begin, along = plane[ends[0]], plane[ends[1]] - plane[ends[0]]
-    lengths = np.maximum(np.linalg.norm(along, axis=1), 1e-9)
-    along /= lengths[:, None]
-    weights = np.zeros((len(first), 4))
-    for column, tip in enumerate(tips, start=2):
-        apart = plane[tip] - begin
-        share = np.einsum("ij,ij->i", apart, along) / lengths
-        height = np.abs(apart[:, 0] * along[:, 1] - apart[:, 1] * along[:, 0])
-        weights[:, column] = 1.0 / np.maximum(height, 0.1)
-        weights[:, 0] -= (1.0 - share) * weights[:, column]
-        weights[:, 1] -= share * weights[:, column]
-    where = np.repeat(rows, 4), np.stack([*ends, *tips], axis=1).ravel()
-    return sparse.csr_matrix((weights.ravel(), where), shape=(len(first), topology.n)), lengths
 
 
 def find_view(positions: Positions, probe: Probe) -> View | None:

@@ -12,7 +12,7 @@ from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import theta
 from bsm.files.mesh import read_mesh
 from tests.codec.denoise.denoise_shapes import cube, find, grid, probe_of, sphere
-from tools.scans import CAMERAS, Scan, fused, turning, view
+from tools.scans import CAMERAS, Scan, fused, isosurface, turning, view
 
 AWAY = turning(5)
 
@@ -22,12 +22,13 @@ def scan(shape, camera: str, noisy: bool = True) -> Scan:  # type: ignore[no-unt
     return view(*shape(30), model if noisy else model._replace(noise=lambda depth, *_: depth), 3)
 
 
-def test_noise_of_fused_views_is_taken_away() -> None:
-    pytest.importorskip("skimage")
-    made = fused(*cube(30), CAMERAS["time of flight"], 3, cells=50)
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_noise_of_fused_views_is_taken_away(camera: str) -> None:
+    pytest.importorskip("vtkmodules")
+    made = fused(*cube(30), CAMERAS[camera], 3, cells=50)
     result, choice = denoise_automatically(made.positions, made.faces)
     assert choice.kind == "fused" and not choice.reliable
-    assert made.angle(result) < 0.45 * made.angle(made.positions)
+    assert made.angle(result) < 0.4 * made.angle(made.positions)
     assert made.rms(result) < 0.8 * made.rms(made.positions)
 
 
@@ -37,18 +38,17 @@ def test_fused_views_of_a_real_camera_are_known(meshes: Path) -> None:
     """A cone of a public data set; total generalized variation leaves 7.2 of its 14.4 degrees."""
     noisy, clean = (read_mesh(meshes / "kinect" / f"cone_{name}.ply").mesh for name in ("noisy", "clean"))
     result, choice = denoise_automatically(noisy.positions, noisy.faces)
-    assert choice.kind == "uneven fused"
-    assert theta(clean.positions, result, clean.faces) < 7.6
-    assert choice.expected == pytest.approx(theta(clean.positions, result, clean.faces), rel=0.25)
+    assert choice.kind == "fused" and not choice.reliable
+    assert theta(clean.positions, result, clean.faces) < 7.2
 
 
 def test_surfaces_of_fields_without_noise_stay() -> None:
-    marching_cubes = pytest.importorskip("skimage.measure").marching_cubes
+    pytest.importorskip("vtkmodules")
     places = np.stack(np.meshgrid(*3 * [np.linspace(-1.2, 1.2, 50)], indexing="ij"), axis=-1)
     for field in (np.linalg.norm(places, axis=-1) - 1.0, np.abs(places @ AWAY).max(axis=-1) - 0.6):
-        corners, faces, _, _ = marching_cubes(field, 0.0)
+        corners, faces = isosurface(-field, 1.0, 0.0)
         assert lattice_step(corners) == pytest.approx(1.0, rel=1e-4)
-        result, choice = denoise_automatically(corners.astype(np.float64), np.ascontiguousarray(faces, np.int32))
+        result, choice = denoise_automatically(corners, faces)
         assert choice.kind == "none" and (result == corners).all()
 
 

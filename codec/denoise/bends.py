@@ -1,0 +1,70 @@
+"""Surfaces of few bends near a measured one: flat regions that long, sharp edges join.
+
+``min sum t |v - v0|^2 + sum w |bend v|`` (total variation of the gradient, Rudin, Osher, Fatemi 1992), by reweighted
+least squares.
+"""
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import linalg
+
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.geometry.metrics import mean_edge_length
+
+BEND = 0.02  # change of slope up to which bends are rounded, not sharp
+ROUNDS, STEPS, EXACT = 6, 120, 1e-5
+
+
+def fewer_bends(positions: Positions, topology: Topology, average: sparse.csr_matrix, weight: float) -> Positions:
+    """Positions, shape (n, 3), of fewer bends; their weight is in mean edges, and `average` tells who is where."""
+    middle, unit = positions.mean(axis=0), mean_edge_length(positions, topology.faces)
+    given = found = (positions - middle) / unit
+    bends, lengths = bending(average @ given, topology)
+    for turn in range(ROUNDS):
+        found = unbent(found, given, np.ones(topology.n), bends, weight * lengths, BEND, first=turn == 0)
+    return np.asarray(found * unit + middle)
+
+
+def unbent(
+    values: Floats,
+    given: Floats,
+    trust: Floats,
+    bends: sparse.csr_matrix,
+    weights: Floats,
+    least: float,
+    *,
+    first: bool,
+) -> Floats:
+    """Values, shape (n, d), of fewer bends after one round; those below `least` are rounded, in the first half."""
+    bent = np.linalg.norm(bends @ values, axis=1)
+    least = max(least, float(np.median(bent))) if first else least
+    system = (sparse.diags(trust) + bends.T @ sparse.diags(weights / np.maximum(bent, least)) @ bends).tocsr()
+    near = sparse.diags(1.0 / system.diagonal())
+    columns = zip((trust[:, None] * given).T, values.T, strict=True)
+    return np.stack([linalg.cg(system, *each, rtol=EXACT, maxiter=STEPS, M=near)[0] for each in columns], axis=1)
+
+
+def bending(places: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Floats]:
+    """How the gradient of values at the places, shape (n, d), changes over each edge between two faces; its length."""
+    first, second = (topology.faces[topology.pairs[:, side]] for side in range(2))
+    equal = first[:, :, None] == second[:, None, :]
+    hinge = equal.any(axis=2).sum(axis=1) == 2
+    first, second, equal = first[hinge], second[hinge], equal[hinge]
+    lone = equal.any(axis=2).argmin(axis=1)
+    rows = np.arange(len(first))
+    ends = [first[rows, (lone + turn) % 3] for turn in (1, 2)]
+    tips = [first[rows, lone], second[rows, equal.any(axis=1).argmin(axis=1)]]
+    begin, along = places[ends[0]], places[ends[1]] - places[ends[0]]
+    lengths = np.maximum(np.linalg.norm(along, axis=1), 1e-9)
+    along /= lengths[:, None]
+    weights = np.zeros((len(first), 4))
+    for column, tip in enumerate(tips, start=2):
+        apart = places[tip] - begin
+        share = np.einsum("ij,ij->i", apart, along) / lengths
+        height = np.linalg.norm(apart - (share * lengths)[:, None] * along, axis=1)
+        weights[:, column] = 1.0 / np.maximum(height, 0.1)
+        weights[:, 0] -= (1.0 - share) * weights[:, column]
+        weights[:, 1] -= share * weights[:, column]
+    where = np.repeat(rows, 4), np.stack([*ends, *tips], axis=1).ravel()
+    return sparse.csr_matrix((weights.ravel(), where), shape=(len(first), topology.n)), lengths
