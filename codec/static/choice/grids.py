@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import Any
 
 import numpy as np
 
@@ -116,14 +115,12 @@ def _rounded(
     return Grid(corner, step, largest), places
 
 
-def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -> tuple[Grid, Levels] | None:
+def _made_on_grid(positions: Matrix, cells: int) -> tuple[Grid, Levels] | None:
     """Return the grid with `cells` cells that positions, shape (n, 3), lie on, or None."""
     low = positions.min(axis=0)
-    near = kind((positions - low).max() / cells)
-    if not near > 0:
-        return None
-    for step in map(float, (near, np.nextafter(near, kind(0)), np.nextafter(near, kind(np.inf)))):
-        if step > 0.0 and np.isfinite(step):
+    near = float((positions - low).max()) / cells
+    for step in (near, math.nextafter(near, 0.0), math.nextafter(near, math.inf)):
+        if 0.0 < step < math.inf:
             places = np.rint((positions - low) / step)
             grid = Grid(tuple(map(float, low)), step, tuple(places.max(axis=0).astype(int).tolist()))
             if (grid.positions(places.astype(np.int32)) == positions).all():
@@ -217,7 +214,9 @@ class Gridded:
         if not may_repeat(self._prepared) or self._bounds.measures.normals is not None:
             return self  # sent normals stay in the axes of the mesh, and may be predicted from the grid
         turn = turn_of(self._prepared.positions, self._prepared.mesh.faces)
-        other = Gridded(self._prepared, self._bounds, turn=turn) if any(turn) else self
+        if not any(turn):
+            return self
+        other = Gridded(self._prepared, self._bounds, turn=turn)
         own, others = (grid.at(self.first).congruent.size for grid in (self, other))
         return other if others < (1.0 - LEAST_SAVED) * own else self
 
@@ -227,7 +226,7 @@ class Gridded:
         for within in (0.0, PART_OF_CELL * self._shaper.mean_edge * self._prepared.units.scale):
             if (step := made_on(positions, within)) is not None:
                 yield self._made(step / self._prepared.units.scale, mirrored=False)
-                exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step), np.float64)
+                exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step))
                 yield from () if exactly is None else (self._candidate(*exactly),)
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -68,7 +68,9 @@ class Search:
                 if share < SHAPED and way is not grid and way.at(grid.first).size > SHAPED * first.size:
                     continue  # places that are chosen repeat less
             like = (lambda made, gain=gain: made.like(parts) / gain) if gain < 1.0 else attrgetter("size")
-            found = widest(way, bounds, (near * least + leaning) / gain, tries=self._tries, size=like)
+            found = widest(
+                way, bounds, (near * least + leaning) / gain, tries=self._tries, size=like, each=self._crew.map
+            )
             if found is not None:
                 kept.append(found)
                 # The guess is for steps at which a mesh looks right.
@@ -206,6 +208,7 @@ def widest(
     most_bytes: float = math.inf,
     tries: int = TRIES,
     size: Callable[[Candidate], float] = attrgetter("size"),
+    each: Callable[[Callable[[Candidate], float], list[Candidate]], Iterable[float]] = map,
 ) -> Candidate | None:
     """Return the smallest candidate found that keeps the bounds, or has few folds; None: not below `most_bytes`."""
     kept = list[tuple[bool, Candidate]]()
@@ -232,6 +235,7 @@ def widest(
         else:
             slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered else SLACK
             secant(at, way.first, way.least, way.most, tries, slack=slack)
-    sized = [(folded, size(found), found) for folded, found in kept]
+    sizes = each(size, [found for _, found in kept])
+    sized = [(folded, taken, found) for (folded, found), taken in zip(kept, sizes, strict=True)]
     _, least, smallest = min(sized, key=itemgetter(0, 1), default=(False, math.inf, None))
     return smallest if least < most_bytes else None
