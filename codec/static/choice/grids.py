@@ -10,7 +10,7 @@ import numpy as np
 from bsm._core import rounded as places_on
 from bsm.bitstream.container.header import MOST_GRID, Header
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Levels, Matrix, Positions
+from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
@@ -18,14 +18,12 @@ from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import Grid, encode_grid, grid_field, grid_of, sampled_ratio
+from bsm.codec.static.ways.grid import SAMPLE, Grid, encode_grid, grid_of, sampled_size
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
 LEAST_SAVED = 0.03  # of the bytes, by congruent parts or other axes: a share that is worth another try
-SAMPLE = 1 << 11
-"""Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
 
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False, brief: bool = False) -> Draft:
@@ -66,25 +64,20 @@ def coded_like(prepared: Prepared, grid: Grid, places: Levels, brief: bool, cong
 
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
-    """A draft whose transforms are the better of two sets, less those quarters, but the first, that do not pay."""
+    """A draft whose transforms are the better of two sets, less those of its last two quarters that do not pay."""
     places, header = draft.places, draft.header
     if places is None or not header.congruence:
         return draft
     grid = grid_of(header)
     sets = transforms_of(prepared, grid)[: header.congruence - 1], transforms_of(prepared, grid, 2.0)
     kept, finer = ([part for part in np.array_split(some, 4) if len(part)] for some in sets)
-    for i in (4, 3, 2, 1):
+    for i in (4, 3, 2):
         some = finer if i == 4 else kept[:i] + kept[i + 1 :]
         if i == 4 or i < len(kept):
             grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]))
             coded = grid_draft(prepared, grid, places, brief=draft.may_be_brief)
             draft, kept = (coded, some) if coded.size < draft.size else (draft, kept)
     return draft
-
-
-def sampled_size(faces: Faces, grid: Grid, places: Levels) -> int:
-    """The bytes of the first vertices."""
-    return sum(map(len, grid_field(faces, grid.largest, places, 0, grid).write(SAMPLE)))
 
 
 def rounded(prepared: Prepared, bits: int) -> Draft:
@@ -235,8 +228,8 @@ class Gridded:
         coded = lru_cache(partial(coded_like, self._prepared, grid, places, brief))  # streams, made once
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
-        sampled = partial(sampled_ratio, self._prepared.mesh.faces, grid, places, SAMPLE)
-        few = len(places) <= SAMPLE or self._prepared.light
-        guess, also = None if few else lambda: light().size * sampled(), partial(congruent, self._prepared, coded=coded)
+        sampled, few = partial(sampled_size, self._prepared.mesh.faces, grid, places), len(places) <= SAMPLE
+        guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
+        also = partial(congruent, self._prepared, coded=coded)
         make, like = partial(coded, 0), lambda congruence: coded(min(congruence, 2)).size
         return Candidate(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)

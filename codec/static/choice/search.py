@@ -13,11 +13,12 @@ from operator import attrgetter, itemgetter
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
-from bsm.codec.static.choice.grids import LEAST_SAVED, SAMPLE, Gridded, congruent, may_repeat, paying, rounded
+from bsm.codec.static.choice.grids import LEAST_SAVED, Gridded, congruent, may_repeat, paying, rounded
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
+from bsm.codec.static.ways.grid import SAMPLE
 from bsm.codec.threads import Crew, threads_of
 
 REFINED = 3  # rounds of spending the bytes that congruent parts save

@@ -14,8 +14,9 @@ from bsm.bitstream.container.wire import with_lengths
 from bsm.codec.arrays import Indices, Levels, Positions
 from bsm.codec.geometry.turns import UNTURNED, Turn, turned_by
 
-FIRST, CHUNK = 1 << 12, 1 << 13
-"""Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""
+FIRST, CHUNK, SAMPLE = 1 << 12, 1 << 13, 1 << 11
+"""Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on.
+Vertices that tell that a mesh is on no grid, and about how large a grid is, before all are looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,10 +68,9 @@ def encode_grid(faces: Indices, grid: Grid, coded: Levels, exact: Positions | No
     return [packets.Grid(start, count, with_lengths(field.write(count))) for start, count in chunks]
 
 
-def sampled_ratio(faces: Indices, grid: Grid, coded: Levels, count: int) -> float:
-    """The bytes of the first `count` coded values, over those that the small model takes, which is quicker."""
-    usual, small = (sum(map(len, grid_field(faces, grid.largest, coded, light, grid).write(count))) for light in (0, 1))
-    return usual / small
+def sampled_size(faces: Indices, grid: Grid, coded: Levels, light: int = 0) -> int:
+    """The bytes of the first coded values."""
+    return sum(map(len, grid_field(faces, grid.largest, coded, light, grid).write(SAMPLE)))
 
 
 LAYER_CHUNK = 1 << 15  # vertices of a frame of refinement
