@@ -226,14 +226,15 @@ static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 lo
     return best;
 }
 
-/* The largest distance of a point to the nearest triangle, and all of them if `distances` has room; else smaller
- * distances need not be exact. `triangles` has nine numbers a row, in the order of the tree. */
+/* The largest distance of a point to the nearest triangle, and all of them if `distances` has room: exact where above
+ * the number that it held; else smaller ones need not be exact. `triangles` has nine numbers a row, in the order of the
+ * tree. */
 double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
                          ConstLongs first, ConstLongs count, Doubles distances) {
     int64_t found = 0;
     double most = 0.0;
     for (int64_t i = 0; i < points.rows; i++) {
-        double enough = i < distances.size ? 0.0 : most;
+        double enough = i < distances.size ? distances.data[i] * distances.data[i] : most;
         double squared = nearest(points.data + 3 * i, triangles, low, high, first, count, enough, &found);
         most = squared > most ? squared : most;
         if (i < distances.size) distances.data[i] = __builtin_sqrt(squared);

@@ -270,9 +270,9 @@ def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) 
     return points
 
 
-def distances_to_surface(points: Floats, positions: Positions, faces: Faces) -> Floats:
-    """Exact distance of each point to the nearest triangle, shape (k,)."""
-    distances = np.empty(len(points))
+def distances_to_surface(points: Floats, positions: Positions, faces: Faces, enough: Floats | float = 0.0) -> Floats:
+    """Distance of each point to the nearest triangle, shape (k,): exact where it is above `enough`."""
+    distances = np.zeros(len(points)) + enough
     _kernels.nearest_distances(np.ascontiguousarray(points), *_tree(positions, faces), distances)
     return distances
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
@@ -126,6 +127,15 @@ class LookMetric:
         self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
         self._known: dict[bytes, Look] = {}
         self._turned: dict[bytes, tuple[float, float]] = {}
+
+    def against(self, mesh: TriangleMesh) -> LookMetric:
+        """Return a metric of versions of another mesh, which shows the pictures of this original."""
+        other = copy(self)
+        other._mesh, other._shape = mesh, Shape.of(self._placed(mesh.positions), mesh.faces)
+        own = own_normals(mesh)
+        other._own = None if self._own is None or own is None else (self._own[0], own)
+        other._known, other._turned = {}, {}
+        return other
 
     def look(self, positions: Positions) -> Look:
         """How these positions, shape (n, 3), look on the faces of the original; with its own normals, too."""

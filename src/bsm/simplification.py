@@ -18,7 +18,7 @@ from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import distances_to_surface
+from bsm.codec.geometry.metrics import distances_to_surface, farthest_from_surface
 from bsm.codec.geometry.welding import degenerate
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.static.choice.attributes import Input
@@ -29,9 +29,12 @@ from bsm.codec.static.targets import ANY_ANGLE
 from bsm.console import Progress
 
 _TERMS, _BUCKETS = 10, 1 << 15  # of the scratch memory of the kernel
-TIMES = (2, 4, 8, 16)  # fewer triangles than in the original
+SHARES = tuple(2.0 ** (-k / 4) for k in range(1, 17))  # of the triangles of the original
 TRIES = 3  # streams of one simplified mesh, each under the promise that the one before calls for
-AIM, CLOSE = 0.98, 0.95  # shares of a bound that are aimed at, and that are near enough
+MOST, NEAR = 1.5, 1.03
+"""Triangles to encode, over the original's; and guessed bytes over the least so far, up to which a mesh is encoded."""
+POWER = 0.6  # of the share of the look that is left: the median of ten scans
+AIM = 0.98  # the share of a bound that is aimed at
 ENOUGH = 1.2  # times the triangles that were asked for, above which simplifying has failed
 
 
@@ -43,6 +46,7 @@ class Encoded:
     attempt: Attempt
     original: TriangleMesh
     apart: float | None = None
+    decoded: TriangleMesh | None = None
     notes: tuple[str, ...] = ()  # about the original
 
 
@@ -55,13 +59,44 @@ def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress
     with progress.part("encoding all triangles", 0.3):
         encoder = Encoder(mesh, options)
         best = Encoded(encoder, encoder.result(progress), source.whole)
-    for times in TIMES if not degenerate(source.whole.faces).all() else ():
-        with progress.part(f"encoding 1 of {times} triangles", 0.5):
-            found = source.encoded(len(source.whole.faces) // times, progress)
-        if found is None or found.attempt.size >= best.attempt.size:
+    found = source.stand_ins(progress)
+    whole = Input(source.whole, options, options).prepared.connectivity.data
+    shape, power, work = best.attempt.size - len(whole), POWER, 0.0
+    while found:
+        # As many bytes for the faces as there are, for the places a share of all; more of them where less look is left.
+        plain = {one: one.of_faces + one.share * shape for one in found}
+        guessed = {size * one.left**-power: one for one, size in plain.items()}
+        one = guessed[min(guessed)]
+        work += one.share
+        if min(guessed) > NEAR * best.attempt.size or work > MOST:
             break
-        best = found
-    return best
+        found.remove(one)
+        with progress.part(f"encoding {one.share:.0%} of the triangles", 0.5):
+            made = source.encoded(one, progress)
+        if made is None:
+            continue
+        power = math.log(max(made.attempt.size / plain[one], 1.0)) / -math.log(one.left)
+        best = min(best, made, key=lambda made: made.attempt.size)
+    return best if best.decoded is None else replace(best, apart=source.distance(best.decoded))
+
+
+@dataclass(frozen=True, eq=False)
+class StandIn:
+    """A mesh with a share of the triangles of another one."""
+
+    mesh: TriangleMesh
+    reach: Matrix  # how far each vertex may be off
+    share: float
+    of_faces: int  # bytes
+    left: float  # of the bound that must be kept
+
+
+class _Encoder(Encoder):
+    """Encodes a mesh that stands for another one, of which pictures are shown."""
+
+    def __init__(self, mesh: TriangleMesh, options: EncodeOptions, shown: LookMetric | None) -> None:
+        super().__init__(mesh, options)
+        self._input = self._input.but(shown=shown)
 
 
 class Source:
@@ -76,25 +111,30 @@ class Source:
         if options.target or promise.angle < ANY_ANGLE or promise.visual < math.inf:
             raise OptionError("simplify keeps the look and the largest error; it excludes targets and other bounds")
         self.options, self.promise, self._input = options, promise, Input(mesh, options, options)
-        joined = self._input.joined
+        joined, prepared = self._input.joined, self._input.prepared
         sent = (attribute for attribute, _ in self._input.wanted)
-        attributes = tuple(_of_vertices(attribute, mesh, joined.mesh.faces, joined.kept) for attribute in sent)
-        self.whole = replace(joined.mesh, attributes=attributes, metadata=mesh.metadata)
+        found = (_of_vertices(attribute, mesh, joined.mesh.faces, joined.kept) for attribute in sent)
+        attributes = tuple(replace(one, values=one.values[prepared.coding_order]) for one in found)
+        # In the order of coding, in which neighbors are near each other.
+        self.whole = replace(prepared.mesh, attributes=attributes, metadata=mesh.metadata)
 
     @cached_property
     def _reach(self) -> Matrix:
         """How far each vertex may be from the decoded surface, in the unit of the mesh, shape (n,)."""
         prepared = self._input.prepared
-        return (reaches(prepared, self.promise) * prepared.units.scale)[np.argsort(prepared.coding_order)]
+        return np.asarray(reaches(prepared, self.promise) * prepared.units.scale)
+
+    @cached_property
+    def _metric(self) -> LookMetric | None:
+        return None if self.promise.look == math.inf else LookMetric(self.whole, threads=self.options.threads)
 
     @cached_property
     def _looks(self) -> list[Callable[[TriangleMesh], Look | float | None]]:
-        whole, threads = self.whole, self.options.threads
-        if self.promise.look == math.inf:
+        if self._metric is None:
             return []
-        colors = look_values(whole, "color")
-        painted = [] if colors is None else [AttributeLook(whole, "color", colors, threads=threads).compare]
-        return [LookMetric(whole, threads=threads).compare, *painted]
+        colors, threads = look_values(self.whole, "color"), self.options.threads
+        painted = [] if colors is None else [AttributeLook(self.whole, "color", colors, threads=threads).compare]
+        return [self._metric.compare, *painted]
 
     def look(self, other: TriangleMesh) -> float:
         """The look distance of another mesh from the original, also in colors, as a share of the promise."""
@@ -102,16 +142,26 @@ class Source:
         found = (look.distance if isinstance(look, Look) else math.inf if look is None else look for look in looks)
         return max(found, default=0.0) / self.promise.look
 
-    def apart(self, other: TriangleMesh, reach: Matrix) -> tuple[float, float]:
-        """The largest distance of both surfaces as a share of the bound (others: `reach`), and in the mesh's unit."""
+    def apart(self, other: TriangleMesh, reach: Matrix) -> float:
+        """The largest distance of both surfaces as a share of the bound (others: `reach`); exact if above 1."""
+        shares = []
+        for one, two, bound in ((self.whole, other, self._reach), (other, self.whole, reach)):
+            allowed = np.concatenate([bound, *_of_sides(bound[one.faces], np.min)])
+            far = distances_to_surface(_samples(one), two.positions, two.faces, enough=allowed)
+            shares.append(float((far / allowed).max()))
+        return max(shares)
+
+    def distance(self, other: TriangleMesh) -> float:
+        """The largest distance of both surfaces, in the unit of the mesh."""
+        pairs = (self.whole, other), (other, self.whole)
+        return max(farthest_from_surface(_samples(one), two.positions, two.faces) for one, two in pairs)
+
+    def _moved(self, other: TriangleMesh, reach: Matrix) -> float:
+        """About the same as `apart`: of the vertices only."""
         whole = self.whole
-        points, allowed = _samples(whole, self._reach)
-        there = distances_to_surface(points, other.positions, other.faces)
-        share = float((there / allowed).max())
-        points, allowed = _samples(other, reach)
-        back = distances_to_surface(points, whole.positions, whole.faces)
-        share = max(share, float((back / allowed).max()))
-        return share, max(float(there.max()), float(back.max()))
+        there = distances_to_surface(whole.positions, other.positions, other.faces)
+        back = distances_to_surface(other.positions, whole.positions, whole.faces)
+        return max(float((there / self._reach).max()), float((back / reach).max()))
 
     def simplified(self, target: int) -> tuple[TriangleMesh, Matrix]:
         """The mesh with about `target` triangles and attributes of nearest vertices; and how far each may be off."""
@@ -127,20 +177,28 @@ class Source:
         attributes = tuple(replace(attribute, values=attribute.values[nearest]) for attribute in whole.attributes)
         return TriangleMesh(new * scale + low, faces, attributes, whole.metadata), reach
 
-    def encoded(self, target: int, progress: Progress) -> Encoded | None:
-        """Return the smallest stream of about `target` triangles that was found to keep the promise, if any."""
-        mesh, reach = self.simplified(target)
-        if len(mesh.faces) > ENOUGH * target:
-            return None
-        best: Encoded | None = None
-        promise, lost, off = self.promise, self.look(mesh), self.apart(mesh, reach)[0]
-        for _ in range(TRIES):
-            if not (lost < AIM and off < AIM):
+    def stand_ins(self, progress: Progress) -> list[StandIn]:
+        """Meshes of fewer and fewer triangles that could keep the promise."""
+        found = list[StandIn]()
+        for share in SHARES if not degenerate(self.whole.faces).all() else ():
+            with progress.part("simplifying", 0.1):
+                mesh, reach = self.simplified(round(share * len(self.whole.faces)))
+                left = 1.0 - (self.look(mesh) if self._looks else self._moved(mesh, reach))
+            if left <= 1.0 - AIM or len(mesh.faces) > ENOUGH * share * len(self.whole.faces):
                 break
-            # Squared differences of shades add up, and look distances grow with the 4/3rd power of their roots.
-            look, near = promise.look * (AIM**1.5 - lost**1.5) ** (2.0 / 3.0), AIM - off
+            faces = Input(mesh, self.options, self.options).prepared.connectivity.data
+            found.append(StandIn(mesh, reach, len(mesh.faces) / len(self.whole.faces), len(faces), min(left, AIM)))
+        return found
+
+    def encoded(self, one: StandIn, progress: Progress) -> Encoded | None:
+        """Return the smallest stream of a stand-in that was found to keep the promise, if any."""
+        promise, look, off, reach = self.promise, self.promise.look, self._moved(one.mesh, one.reach), one.reach
+        for _ in range(TRIES):
+            if not off < AIM:
+                break
+            near = AIM - off
             asked = replace(promise, look=look, farthest=near * promise.farthest, by_part=near * promise.by_part)
-            encoder = Encoder(mesh, replace(self.options, contract=asked))
+            encoder = _Encoder(one.mesh, replace(self.options, contract=asked), self._metric)
             try:
                 with progress.part("", 0.5):
                     attempt = encoder.result(progress)
@@ -149,17 +207,12 @@ class Source:
             decoded = decode(b"".join(attempt.frames), NAMED_LIMITS[self.options.limits](), self.options.threads)
             placed = np.full(len(decoded.positions), np.inf)
             np.minimum.at(placed, encoder.vertex_index, reach)
-            (share, apart), seen = self.apart(decoded, placed), self.look(decoded)
-            lost = max(seen**1.5 - ((encoder.look or 0.0) / promise.look) ** 1.5, 0.0) ** (2.0 / 3.0)
-            off = max(off, share - near)
-            if max(share, seen) > 1.0:
-                continue
-            if best is None or attempt.size < best.attempt.size:
-                encoder.look = seen * promise.look if self._looks else None
-                best = Encoded(encoder, attempt, self.whole, apart, self._input.joined.notes)
-            if seen >= CLOSE or not self._looks:
-                break
-        return best
+            share, seen = self.apart(decoded, placed), self.look(decoded)
+            if max(share, seen) <= 1.0:
+                encoder.look = seen * promise.look if self._metric else None
+                return Encoded(encoder, attempt, self.whole, None, decoded, self._input.joined.notes)
+            off, look = max(off, share - near), look * min(AIM / seen, 1.0)
+        return None
 
 
 def _of_vertices(attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: npt.NDArray[Any]) -> Attribute:
@@ -201,9 +254,11 @@ def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Fac
     return rows[used], numbers[faces], numbers
 
 
-def _samples(mesh: TriangleMesh, reach: Matrix) -> tuple[Matrix, Matrix]:
-    """The vertices and the middles of edges and faces, and the bound of each."""
-    corners, of_corners = mesh.positions[mesh.faces], reach[mesh.faces]
-    sides = [(0, 1), (1, 2), (2, 0), (0, 1, 2)]
-    points = np.concatenate([mesh.positions, *(corners[:, side].mean(axis=1) for side in sides)])
-    return points, np.concatenate([reach, *(of_corners[:, side].min(axis=1) for side in sides)])
+def _samples(mesh: TriangleMesh) -> Matrix:
+    """The vertices and the middles of edges and faces."""
+    return np.concatenate([mesh.positions, *_of_sides(mesh.positions[mesh.faces], np.mean)])
+
+
+def _of_sides(corners: Matrix, each: Callable[..., Matrix]) -> list[Matrix]:
+    """One value for each side of triangles, and one for each triangle."""
+    return [each(corners[:, side], axis=1) for side in ([0, 1], [1, 2], [2, 0], [0, 1, 2])]

@@ -20,7 +20,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
-from bsm.codec.look.measure import AttributeLook, has_look, own_normals, shades
+from bsm.codec.look.measure import AttributeLook, LookMetric, has_look, own_normals, shades
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, place_of, with_attributes
@@ -42,6 +42,7 @@ class Input:
     options: EncodeOptions
     coded: EncodeOptions  # how the shape is coded, which the best effort chooses
     looks: tuple[tuple[int, AttributeLook], ...] = ()  # attributes whose quality the look decides
+    shown: LookMetric | None = None  # pictures of another mesh, for which this one stands
 
     def but(self, **known: Any) -> Input:
         """Return an input with other values of some fields and results, and all else that was computed."""
@@ -111,11 +112,14 @@ class Input:
 
     def measuring(self, near: Nearing | None, *, alike: bool = False) -> Input:
         """Return an input whose measurements report their progress; `alike`: angles count all faces alike."""
-        return self.but(measures=Measures(self.prepared, self.options.threads, self.normals, alike=alike, near=near))
+        return self.but(measures=self._measuring(self.normals, alike=alike, near=near))
 
     @cached_property
     def measures(self) -> Measures:
-        return Measures(self.prepared, self.options.threads, self.normals)
+        return self._measuring(self.normals)
+
+    def _measuring(self, normals: Normals | None, **known: Any) -> Measures:
+        return Measures(self.prepared, self.options.threads, normals, shown=self.shown, **known)
 
     @property
     def search(self) -> Search:
@@ -156,7 +160,7 @@ class Input:
             bound = bound if self.free_normals is None else max(*shown, *shaded)
             shown.append(shaded[0])
         elif self._own_normals is not None:  # which viewers compute
-            given = Measures(self.prepared, self.options.threads, self._own_normals).look
+            given = self._measuring(self._own_normals).look
             shown.append(given.compare(replace(self.prepared.mesh, positions=decoded)).distance if given else 0.0)
         binding = bounds.binding(made, bound)
         return "" if bounds.keeps(made, bound) else bounds.had, max(shown), binding

@@ -35,7 +35,8 @@ these, none is asked how near it is to others."""
 
 
 class Measures:
-    """Measurements of an original, made once for all contracts; `alike`: angles count all faces alike."""
+    """Measurements of an original, made once for all contracts; `alike`: angles count all faces alike; `shown`:
+    pictures of the mesh for which this one stands."""
 
     def __init__(
         self,
@@ -45,12 +46,13 @@ class Measures:
         *,
         alike: bool = False,
         near: Nearing | None = None,
+        shown: LookMetric | None = None,
     ) -> None:
         self.prepared = prepared
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
         self.reaches = lru_cache(1)(partial(reaches, prepared))
-        self._threads = threads
+        self._threads, self.shown = threads, shown
         self.normals = normals
         self.near = near or Nearing(None)
         self.unseen = ""  # why there is no look
@@ -66,7 +68,7 @@ class Measures:
         # As given and as decoded, to the last bit: in BSM units, rounding may show other shades.
         mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, own)
         try:
-            return LookMetric(mesh, threads=self._threads)
+            return self.shown.against(mesh) if self.shown else LookMetric(mesh, threads=self._threads)
         except MeshError as error:
             self.unseen = error.message
             return None
@@ -162,16 +164,18 @@ class Bounds:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
         if self.metric is None:
             return self.even_step
-        # From one step for all looks, so that a stricter one begins with a finer step.
+        # From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
+        # another one looks different without any step.
+        aim = self.contract.look if self.measures.shown else 1.0
         step, positions = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.positions
         light, metric = self.measures.prepared.light, self.metric
         for _ in range(2):
             placed = self.measures.prepared.units.back(np.rint(positions / step) * step)
-            wider = 1.0 / max(metric.glance(placed) if light else metric.with_room(placed), LEAST)
+            wider = aim / max(metric.glance(placed) if light else metric.with_room(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break
-        return min(step * self.contract.look, COARSEST)
+        return min(step * self.contract.look / aim, COARSEST)
 
     @cached_property
     def even_step(self) -> float:
