@@ -1,5 +1,5 @@
 /** Meshes to streams: the encoder in C, compiled to WebAssembly. `encode` runs it in a worker, `encodeHere` where it is called. */
-import { compiled } from "./source";
+import { compiled } from "./fetched";
 
 /** The quality of an attribute: "exact", a number of bits, the largest error, or of normals degrees or "recompute". */
 export type Quality = "exact" | "recompute" | { bits: number } | { bound: number } | { percent: number } | { degrees: number };

@@ -4,7 +4,8 @@ import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
 import { needOf, type Build, type Need } from "./peek";
-import { here, isPage, PAGE, type Source } from "./source";
+import { isPage, PAGE } from "./fetched";
+import { here, type Source } from "./source";
 import { processors, WORTHWHILE } from "./threads";
 
 export { here, placeOf, type Source } from "./source";
