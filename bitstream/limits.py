@@ -5,20 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from typing import Any
 
-from bsm.bitstream.errors import (
-    ArgumentError,
-    BsmError,
-    CorruptError,
-    FormatError,
-    LimitError,
-    NumericError,
-    OptionError,
-    TargetError,
-    TruncatedError,
-    UnsupportedError,
-    public,
-)
+from bsm.bitstream import errors
+from bsm.bitstream.errors import ArgumentError, BsmError, LimitError, OptionError, public
 
 
 @public
@@ -194,46 +184,30 @@ NAMED_LIMITS = {"default": Limits, "service": Limits.service, "wide": Limits.wid
 
 
 _REFUSALS: dict[int, type[BsmError]] = {
-    2: OptionError,
-    3: FormatError,
-    4: CorruptError,
-    5: UnsupportedError,
-    6: LimitError,
-    7: NumericError,
-    10: TargetError,
-    12: TruncatedError,
+    **{2: OptionError, 3: errors.FormatError, 4: errors.CorruptError, 5: errors.UnsupportedError, 6: LimitError},
+    **{7: errors.NumericError, 10: errors.TargetError, 12: errors.TruncatedError},
 }
 
 
 def decoder_error(
-    status: int,
-    message: str,
-    offset: int,
-    frame: int,
-    block: int,
-    limit: str,
-    value: float,
-    limits: Limits,
-    shown: int,
-    present: int,
-    received: float,
+    status: int, message: str, offset: int, frame: int, block: int, limit: str, value: float, limits: Limits, state: Any
 ) -> Exception:
     """The error that the decoder in C reports, as an exception; places of -1 and an empty `limit` are not known."""
     if status not in _REFUSALS:
         return MemoryError(message)
     error = _REFUSALS[status](message)
     if limit and isinstance(error, LimitError):  # or damage, to those who tolerate it
-        error = LimitError(f"{message}; {_cure_of(limit, value, shown, present, received)}")
+        error = LimitError(f"{message}; {_cure_of(limit, value, state)}")
     places = {"offset": offset, "frame": frame, "block": block}
     return error.located(**{name: place for name, place in places.items() if place >= 0})
 
 
-def _cure_of(name: str, value: float, shown: int, present: int, received: float) -> str:
+def _cure_of(name: str, value: float, state: Any) -> str:
     def enough(limits: Limits) -> bool:
         if name == "work":
-            return value <= limits.work_for(shown, 0)
+            return value <= limits.work_for(state.shown, 0)
         if name == "memory":
-            return value <= limits.memory_for(present, int(received))
+            return value <= limits.memory_for(state.present, int(state.received))
         return bool(value <= getattr(limits, name, 0))
 
     return _cure(name, enough)

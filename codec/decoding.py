@@ -15,23 +15,9 @@ from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
+from bsm.codec import events
 from bsm.codec.arrays import Faces
 from bsm.codec.choices import checked_whole
-from bsm.codec.events import (
-    END_OF_STREAM,
-    NEED_DATA,
-    AttributeEvent,
-    BlockEvent,
-    Changes,
-    ConnectivityEvent,
-    EndEvent,
-    FrameEvent,
-    HeaderEvent,
-    Losses,
-    LossEvent,
-    RefinementEvent,
-    Signal,
-)
 from bsm.codec.geometry.attributes import DOMAINS, SEMANTICS, Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.progress import Progress
@@ -39,15 +25,15 @@ from bsm.codec.threads import threads_of
 
 Buffer: TypeAlias = bytes | bytearray | memoryview | npt.NDArray[Any]
 Event: TypeAlias = (
-    HeaderEvent
-    | ConnectivityEvent
-    | BlockEvent
-    | RefinementEvent
-    | AttributeEvent
-    | FrameEvent
-    | LossEvent
-    | EndEvent
-    | Signal
+    events.HeaderEvent
+    | events.ConnectivityEvent
+    | events.BlockEvent
+    | events.RefinementEvent
+    | events.AttributeEvent
+    | events.FrameEvent
+    | events.LossEvent
+    | events.EndEvent
+    | events.Signal
 )
 Self = TypeVar("Self", bound="StreamDecoder")
 Given = ParamSpec("Given")
@@ -143,8 +129,8 @@ class StreamDecoder:
     def events(self, chunks: Iterable[Buffer]) -> Iterator[Any]:
         """Decode a stream that arrives in chunks; yield each event as soon as its bytes are available."""
         given = iter(chunks)
-        while (event := self.next_event()) is not END_OF_STREAM:
-            if event is not NEED_DATA:
+        while (event := self.next_event()) is not events.END_OF_STREAM:
+            if event is not events.NEED_DATA:
                 yield event
             elif (chunk := next(given, None)) is not None:
                 self.receive_data(chunk)
@@ -166,26 +152,26 @@ class StreamDecoder:
         engine = self._open
         match kind:
             case 0:
-                return NEED_DATA
+                return events.NEED_DATA
             case 1:
-                return HeaderEvent(self._header)
+                return events.HeaderEvent(self._header)
             case 3:
-                loose = Changes(*engine.loose())
-                return ConnectivityEvent(engine.faces(faces), vertices, loose)
+                loose = events.Changes(*engine.loose())
+                return events.ConnectivityEvent(engine.faces(faces), vertices, loose)
             case 4:
-                return BlockEvent(*engine.changes(), index)
+                return events.BlockEvent(*engine.changes(), index)
             case 5:
                 moved, positions, _ = engine.changes()
-                return RefinementEvent(moved, positions)
+                return events.RefinementEvent(moved, positions)
             case 6 | 12:
                 name, domain, semantic, indices, rows, values = engine.values(index)
                 if not len(rows):  # computed from positions
                     return None
-                return AttributeEvent(name, DOMAINS[domain], SEMANTICS[semantic], indices, rows, values)
+                return events.AttributeEvent(name, DOMAINS[domain], SEMANTICS[semantic], indices, rows, values)
             case 9:
-                return EndEvent()
+                return events.EndEvent()
             case 10:
-                return END_OF_STREAM
+                return events.END_OF_STREAM
         raise AssertionError(f"event {kind} was not asked for")
 
     @property
@@ -307,10 +293,10 @@ class Decoder(StreamDecoder):
 
     def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:
         if kind == LOSS:
-            return LossEvent(None if index < 0 else index, self._loss())
+            return events.LossEvent(None if index < 0 else index, self._loss())
         if kind == END:
             self._sizes = vertices, faces
-            return EndEvent(Losses(*self._open.losses())) if self._tolerant else EndEvent()
+            return events.EndEvent(events.Losses(*self._open.losses())) if self._tolerant else events.EndEvent()
         return super()._event(kind, index, count, vertices, faces)
 
 
@@ -360,15 +346,15 @@ class SequenceDecoder(StreamDecoder):
 
     def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:
         if kind == LOSS:
-            return LossEvent(None, self._loss(), range(index, index + count) if index >= 0 else range(0))
+            return events.LossEvent(None, self._loss(), range(index, index + count) if index >= 0 else range(0))
         if kind == FRAME:
-            return FrameEvent(index, self._open.positions(vertices), self._faces, tuple(self._in_frame()))
+            return events.FrameEvent(index, self._open.positions(vertices), self._faces, tuple(self._in_frame()))
         if kind == HEADER:
             self._known.clear()
         if kind == ATTRIBUTE:
             self._know(index)
         event = super()._event(kind, index, count, vertices, faces)
-        if isinstance(event, ConnectivityEvent):
+        if isinstance(event, events.ConnectivityEvent):
             self._faces = event.faces
             for number in range(self._open.attribute_count()):  # those of an earlier run of this mesh
                 self._know(number)

@@ -116,7 +116,7 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
 nb::object error_of(const bsmdec_error &error, const nb::object &limits, const DecoderState &state) {
     return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
         (int)error.status, text_of(error.message), error.offset, error.frame, error.block,
-        error.limit != nullptr ? error.limit : "", error.value, limits, state.shown, state.present, state.received);
+        error.limit != nullptr ? error.limit : "", error.value, limits, state);
 }
 
 // Python threads that share an object take turns: results are copied before the next call begins.

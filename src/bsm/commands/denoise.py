@@ -17,17 +17,8 @@ from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_inputs, adder, asked, refuse_two_on_one_pipe
 from bsm.console import Console
+from bsm.files import mesh as meshes
 from bsm.files.formats.metadata import Written
-from bsm.files.mesh import (
-    MESH_FORMATS,
-    WRITTEN_FORMATS,
-    copied,
-    format_of_name,
-    read_mesh,
-    save_written,
-    unknown_suffix,
-    written_mesh,
-)
 from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
@@ -68,7 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
         "encoded near-lossless",
     )
-    add("--format", "", "format of the input and of a piped output", choices=(*MESH_FORMATS, "npy"))
+    add("--format", "", "format of the input and of a piped output", choices=(*meshes.MESH_FORMATS, "npy"))
     goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
     add("--for", "", goal, dest="goal", choices=GOALS, default=GOALS[0])
     add("--strength", "S", "fraction of every movement, 0 to 1 (default 1)", type=float, default=1.0)
@@ -121,23 +112,23 @@ def denoise_one(args: DenoiseJob, console: Console) -> Facts:
 
 
 def _suffix(name: str) -> str:
-    return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
+    return f".{meshes.format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
 def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
     stream = args.output.lower().endswith(f".{STREAM}")
-    kind = args.format if args.output == "-" else STREAM if stream else format_of_name(args.output)
-    if kind not in (*WRITTEN_FORMATS, STREAM):
+    kind = args.format if args.output == "-" else STREAM if stream else meshes.format_of_name(args.output)
+    if kind not in (*meshes.WRITTEN_FORMATS, STREAM):
         if args.output == "-":
-            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(WRITTEN_FORMATS)}")
-        raise unknown_suffix(args.output, STREAM)
+            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(meshes.WRITTEN_FORMATS)}")
+        raise meshes.unknown_suffix(args.output, STREAM)
     refuse_to_overwrite(args.output, args.may_replace(args.output))
 
     from bsm.api import encode, look
     from bsm.codec.denoise import FrameDenoiser
 
     with console.progress("reading", until=0.05):
-        source = read_mesh(args.input, args.format)
+        source = meshes.read_mesh(args.input, args.format)
     mesh = source.mesh
     begin = time.perf_counter()
     with console.progress("denoising", until=0.95) as progress:
@@ -152,7 +143,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     mean = float(moves[moves > 0.0].mean()) if touched else 0.0
     who = "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
     how = f"by {length(mean, unit)} on average, {length(farthest, unit)} at most"
-    same = not touched and kind == format_of_name(args.input) and Path(args.input).is_file()
+    same = not touched and kind == meshes.format_of_name(args.input) and Path(args.input).is_file()
     for note in source.notes if not same else ():
         console.note(f"{args.input}: {note}")
     copy = "; the file is copied" if same else ""
@@ -165,13 +156,13 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
         console.note(f"look       {seen.distance:.2g} from the input (at 1, both look the same)")
         more["look"] = asdict(seen)
     if same:
-        file = copied(args.input, mesh, args.output)
+        file = meshes.copied(args.input, mesh, args.output)
     elif kind == STREAM:
         file = Written(encode(moved, preset="near-lossless"))
     else:
-        file = written_mesh(moved, kind, args.output)
+        file = meshes.written_mesh(moved, kind, args.output)
     replacing: dict[str, Any] = {"overwrite": args.may_replace(args.output), "follow": args.follow}
-    left_out = save_written(args.output, file, overwrite_beside=args.force, **replacing)
+    left_out = meshes.save_written(args.output, file, overwrite_beside=args.force, **replacing)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {counted(vertices=len(mesh.positions))} -> {args.output}, {seconds:.2f} s")

@@ -16,17 +16,7 @@ from types import FrameType
 from typing import BinaryIO
 
 from bsm.bitstream.errors import OptionError
-from bsm.files.pipes import (
-    beside,
-    files_behind,
-    inside,
-    is_url,
-    name_in,
-    open_remote_output,
-    refuse_to_replace,
-    standard_output,
-    without_scheme_of_files,
-)
+from bsm.files import pipes
 
 try:
     import fcntl
@@ -55,12 +45,12 @@ def open_output(
     the user gave: the target of a symbolic link is replaced, and devices are written to. If the user gave only a
     folder, it is that: links below it are not followed."""
     if os.fspath(path) == "-":
-        piped = standard_output()
+        piped = pipes.standard_output()
         yield piped
         piped.flush()
         return
-    if isinstance(path, str) and is_url(path):
-        with open_remote_output(path, overwrite=overwrite) as remote:
+    if isinstance(path, str) and pipes.is_url(path):
+        with pipes.open_remote_output(path, overwrite=overwrite) as remote:
             yield remote
         return
     if os.path.isdir(path):
@@ -141,21 +131,21 @@ def _signals_wait() -> Iterator[None]:
 
 def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
     """Raise `FileExistsError` if `path` is a file and `overwrite` is false; ask before long work."""
-    if isinstance(path, str) and is_url(path):
-        refuse_to_replace(path, overwrite)
+    if isinstance(path, str) and pipes.is_url(path):
+        pipes.refuse_to_replace(path, overwrite)
     elif not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and can_be_replaced(path):
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
 
 
 def own_name(path: str) -> str:
     """Return the name that we use: - for standard input and output, and the path of a `file://` URL."""
-    return without_scheme_of_files(_PIPES.get(path, path))
+    return pipes.without_scheme_of_files(_PIPES.get(path, path))
 
 
 def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
     """Raise `OptionError` if an output would replace an input or another output, under whatever name or link."""
     names = [own_name(output) for output in outputs if output]
-    taken = {_identity(file) for name in map(own_name, inputs) for file in files_behind(name)} - {None}
+    taken = {_identity(file) for name in map(own_name, inputs) for file in pipes.files_behind(name)} - {None}
     found: set[object] = set()
     for output in names:
         identity = _identity(output)
@@ -169,7 +159,7 @@ def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
 
 def _identity(path: str) -> tuple[int, int] | str | None:
     """Return a key that is equal for all names of a file; None if it does not exist or is a device."""
-    if is_url(path):
+    if pipes.is_url(path):
         return path
     with suppress(OSError):
         found = os.stat(path)
@@ -179,7 +169,7 @@ def _identity(path: str) -> tuple[int, int] | str | None:
 
 def _place(path: str) -> str | None:
     """The place of an output that may not be there yet; None: a device, which may be written to twice."""
-    if path == "-" or is_url(path):
+    if path == "-" or pipes.is_url(path):
         return path
     if os.path.exists(path) and not os.path.isfile(path):
         return None
@@ -297,29 +287,29 @@ def default_output(path: str, suffix: str) -> str:
     if path == "-":
         return "-"
     output = _with_suffix(path, suffix)
-    found = beside(path, output.name) if is_url(path) else str(output)
-    if found == path or (not is_url(path) and output == Path(path)):
+    found = pipes.beside(path, output.name) if pipes.is_url(path) else str(output)
+    if found == path or (not pipes.is_url(path) and output == Path(path)):
         raise OptionError(f"the output would replace the input {path}; name another with -o")
     return no_link(found)
 
 
 def output_inside(folder: str, path: str, suffix: str) -> str:
     name = _with_suffix(path, suffix).name
-    return inside(folder, name) if is_url(folder) else no_link(str(Path(folder, name)))
+    return pipes.inside(folder, name) if pipes.is_url(folder) else no_link(str(Path(folder, name)))
 
 
 def no_link(path: str) -> str:
     """Return a name that the user did not give; `OptionError` for a symbolic link."""
-    if not is_url(path) and os.path.islink(path):
+    if not pipes.is_url(path) and os.path.islink(path):
         raise OptionError(f"{path} is a symbolic link; remove it, or name the output with -o")
     return path
 
 
 def _with_suffix(path: str, suffix: str) -> Path:
-    if is_url(path):
-        if not name_in(path):
+    if pipes.is_url(path):
+        if not pipes.name_in(path):
             raise OptionError(f"{path} gives the output no name; name it with -o")
-        return Path(name_in(path)).with_suffix(suffix)
+        return Path(pipes.name_in(path)).with_suffix(suffix)
     if glob.has_magic(path) and not Path(path).exists():
         raise OptionError(f"{path} names many files; name the output with -o")
     name = Path(path).name
@@ -329,5 +319,5 @@ def _with_suffix(path: str, suffix: str) -> Path:
 
 
 def refuse_terminal(path: str) -> None:
-    if path == "-" and standard_output().isatty():
+    if path == "-" and pipes.standard_output().isatty():
         raise OptionError("binary data is not written to a terminal; redirect it, or name a file with -o")

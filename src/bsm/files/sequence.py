@@ -34,17 +34,8 @@ from bsm.files.mesh import (
     save_written,
     written_mesh,
 )
+from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
-from bsm.files.motion.folder import (
-    LISTS,
-    frame_files,
-    in_order,
-    is_numbered,
-    listed,
-    names_many,
-    read_files,
-    write_files,
-)
 from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
@@ -53,7 +44,7 @@ ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS, *LISTS)  # forms of a whole sequence in one file
+SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS, *folder.LISTS)  # forms of a whole sequence in one file
 
 
 def open_sequence(
@@ -68,13 +59,13 @@ def open_sequence(
     if is_pipe(source) and file_format != "npy":
         return None
     given, asked = as_input(source), wanted or Wanted()
-    if not is_url(given.name) and names_many(given.name):
-        return open_frames(frame_files(given.name), file_format, limits, asked, isolated=isolated)
+    if not is_url(given.name) and folder.names_many(given.name):
+        return open_frames(folder.frame_files(given.name), file_format, limits, asked, isolated=isolated)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
-    if kind in LISTS and given.is_file:
-        names, times = listed(given.name, kind, limits)
+    if kind in folder.LISTS and given.is_file:
+        names, times = folder.listed(given.name, kind, limits)
         return open_frames(names, None, limits, replace(asked, times=times), isolated=isolated)
     moves = kind in (*CACHES, *USD_FORMATS) or (kind in GLTF and wanted is not None)
     if moves and not given.is_file:
@@ -109,12 +100,12 @@ def open_frames(
 ) -> Frames:
     """The sequence of these mesh files by their times or numbers; errors as of `open_sequence`."""
     asked = wanted or Wanted()
-    ordered = list(names) if asked.times else in_order(names)
+    ordered = list(names) if asked.times else folder.in_order(names)
     kinds = [kind_of(Input(name), file_format) for name in ordered]
     if is_apart(kinds, limits, isolated):
         apart: Frames = _apart(list(map(os.path.abspath, ordered)), file_format, limits, kinds[0], asked)
         return apart
-    return read_files(ordered, file_format, limits, asked)
+    return folder.read_files(ordered, file_format, limits, asked)
 
 
 def _apart(*given: Any) -> Any:
@@ -135,12 +126,12 @@ def sequence_writer(
     """Open a sequence for writing; yields what takes frame after frame."""
     shared = shared or Shared()
     held = FORMATS["usd" if kind in USD_FORMATS else kind].times
-    if is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
+    if folder.is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
         if is_url(path):
             raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
         numbered = shared.numbered
         frames = replace(shared, held=held if kind == "vtp" or (numbered and kind != "glb") else frozenset())
-        with write_files(path, kind, overwrite=overwrite) as write_mesh:
+        with folder.write_files(path, kind, overwrite=overwrite) as write_mesh:
             present, fresh = faces, True  # materials and images lie beside the first frame alone
             numbers = count_from(0)
 
@@ -267,9 +258,9 @@ def sequence_kind(path: str, file_format: str | None) -> str:
     if suffix in SEQUENCE_FORMATS and not Path(path).is_dir():
         if file_format not in (None, suffix):
             raise OptionError(f"{path}: the name does not go with --format {file_format}")
-        if is_numbered(path) and suffix not in WRITTEN_FORMATS:
+        if folder.is_numbered(path) and suffix not in WRITTEN_FORMATS:
             raise OptionError(f"{path}: {suffix.upper()} holds all frames in one file; leave out the number")
-        if is_numbered(path) or suffix in ONE_FILE:
+        if folder.is_numbered(path) or suffix in ONE_FILE:
             return suffix
         raise OptionError(
             f"{path}: this is a sequence; write it to one file (.{', .'.join(ONE_FILE)}), to a folder, to numbered "

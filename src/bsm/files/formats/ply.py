@@ -13,17 +13,7 @@ from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedEr
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
-from bsm.files.formats.metadata import (
-    Library,
-    Written,
-    left_out,
-    materials_in,
-    one_line,
-    parse_remarks,
-    refers_to_image,
-    remarks,
-    without_seams,
-)
+from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
 from bsm.files.room import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 
@@ -78,14 +68,18 @@ class Header:
     def metadata(self) -> Metadata:
         """Return the metadata in the comments; images are those of materials."""
         images = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
-        found = parse_remarks(line for _, line in self.comments)
+        found = formats.parse_remarks(line for _, line in self.comments)
         for keyword in COMMENTS:
             lines = [line for kind, line in self.comments if kind == keyword]
-            own = [line for line in lines if line and not line.startswith(f"{IMAGE} ") and not parse_remarks([line])]
+            own = [
+                line
+                for line in lines
+                if line and not line.startswith(f"{IMAGE} ") and not formats.parse_remarks([line])
+            ]
             if own:
                 found.setdefault(keyword, "\n".join(own))
-        entries = [item for material in materials_in(found).values() for item in material.items()]
-        shown = {value for name, value in entries if refers_to_image(name)}
+        entries = [item for material in formats.materials_in(found).values() for item in material.items()]
+        shown = {value for name, value in entries if formats.refers_to_image(name)}
         for number, name in enumerate(images):
             found[f"image.{number}.name"] = name
             if number not in shown:
@@ -365,21 +359,21 @@ def _wedges(table: _TextTable | _BinaryTable, corners: int, sizes: Ints) -> tupl
 _MOST_TEXT = 1 << 13  # characters of a comment; readers look for the end of a header in its first 64 KiB
 
 
-def write_ply(mesh: TriangleMesh, stem: str) -> Written:
+def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double. Values of
     corners are values of vertices where the corners of each have the same, and else lists of the faces."""
-    library = Library(mesh, stem)
+    library = formats.Library(mesh, stem)
     images = [f"{IMAGE} {name}" for name in library.images.values()]
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
     texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
-    free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
-    comments, omitted = remarks(mesh.metadata, library.written | texts.keys())
+    free = [f"{word} {formats.one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
+    comments, omitted = formats.remarks(mesh.metadata, library.written | texts.keys())
     single = np.float32 if single_suffices(mesh.positions) else np.float64
     columns: dict[str, list[tuple[str, Array]]] = {
         "vertex": list(zip("xyz", mesh.positions.astype(single).T)),
         "face": [("vertex_indices", mesh.faces)],
     }
-    for attribute in (without_seams(attribute, mesh) for attribute in mesh.attributes):
+    for attribute in (formats.without_seams(attribute, mesh) for attribute in mesh.attributes):
         if attribute.domain == "corner":
             known = [name for name, _ in columns["face"]]
             name = unused_name(re.sub(r"\s", "_", attribute.name), "corner", known)
@@ -396,7 +390,9 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
         lines += [f"element {element} {len(rows)}", *properties]
         body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
-    return Written(header.encode() + b"".join(body), left_out(mesh, mesh.attributes, omitted), library.beside)
+    return formats.Written(
+        header.encode() + b"".join(body), formats.left_out(mesh, mesh.attributes, omitted), library.beside
+    )
 
 
 def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:

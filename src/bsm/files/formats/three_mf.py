@@ -14,18 +14,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement
-from bsm.files.formats.metadata import (
-    Material,
-    Value,
-    Written,
-    as_gltf,
-    as_numbers,
-    described,
-    face_numbers,
-    kind_of_image,
-    left_out,
-    materials_in,
-)
+from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.room import Doubles, Ints, as_library_error, single_suffices
 from bsm.lengths import metres
@@ -81,8 +70,8 @@ class _Model:
         }
         self._made: dict[int, Part] = {}
         self._materials: dict[tuple[int, int], int] = {}
-        self._words: dict[int, Material] = {}
-        self._images: dict[str, Value] = {}
+        self._words: dict[int, formats.Material] = {}
+        self._images: dict[str, formats.Value] = {}
         self._left: dict[str, None] = {}
 
     def joined(self, reader: Any, size: int) -> Polygons:
@@ -99,9 +88,9 @@ class _Model:
         counts = [((mesh := self._objects[n]).GetVertexCount(), mesh.GetTriangleCount()) for n, *_ in shown]
         parts = (self._part(number, name).placed(matrix) for number, matrix, name in shown)
         found = joined_parts(parts, counts, self._limits, size)
-        metadata: dict[str, Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())], **self._about()}
+        metadata: dict[str, formats.Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())], **self._about()}
         known = any(self._words.values())
-        metadata |= {**(described(self._words) if known else {}), **self._images, **found.metadata}
+        metadata |= {**(formats.described(self._words) if known else {}), **self._images, **found.metadata}
         warned = dict(reader.GetWarning(i) for i in range(reader.GetWarningCount()))
         notes = [f"lib3mf warns: {text}" for code, text in warned.items() if code != _UUID][:_MOST_WARNINGS]
         return replace(found, notes=(*found.notes, *notes), dropped=tuple(self._left), metadata=metadata)
@@ -179,7 +168,7 @@ class _Model:
         columns = [Column(name, table, "corner", name, at.reshape(-1)) for name, (table, at) in tables.items()]
         return columns, materials
 
-    def _number(self, key: tuple[int, int], words: Material) -> int:
+    def _number(self, key: tuple[int, int], words: formats.Material) -> int:
         number = self._materials.setdefault(key, len(self._materials))
         self._words.setdefault(number, words)
         return number
@@ -190,7 +179,7 @@ class _Model:
             return self._materials[owner, -1]
         attachment = group.GetTexture2D().GetAttachment()
         data = _table(attachment, "attachment_writetobuffer", ctypes.c_uint8).tobytes()
-        if kind_of_image(data) is None:
+        if formats.kind_of_image(data) is None:
             self._left["a texture that is not an image"] = None
             return self._number((owner, -1), {})
         image = len(self._images) // 2
@@ -198,12 +187,12 @@ class _Model:
         self._images |= {f"image.{image}.name": name, f"image.{image}.data": data}
         return self._number((owner, -1), {"name": name, "map_Kd": image})
 
-    def _about(self) -> dict[str, Value]:
+    def _about(self) -> dict[str, formats.Value]:
         group = self._model.GetMetaDataGroup()
         return {str((e := group.GetMetaData(i)).GetName()): str(e.GetValue()) for i in range(group.GetMetaDataCount())}
 
 
-def _material(group: Any, place: int) -> Material:
+def _material(group: Any, place: int) -> formats.Material:
     color = group.GetDisplayColor(place)
     shares = [f"{byte / 255:.6g}" for byte in (color.Red, color.Green, color.Blue, color.Alpha)]
     opaque = color.Alpha == 255
@@ -219,7 +208,7 @@ def _matrix(transform: Any) -> Doubles:
 # ------------------------------------------------------------------------------------------------------ what is written
 
 
-def write_3mf(mesh: TriangleMesh, stem: str) -> Written:
+def write_3mf(mesh: TriangleMesh, stem: str) -> formats.Written:
     library = imported("lib3mf", "3MF is written with lib3mf", "formats")
     try:
         return _written(library, mesh)
@@ -227,7 +216,7 @@ def write_3mf(mesh: TriangleMesh, stem: str) -> Written:
         raise MeshError(f"lib3mf cannot write this mesh: {str(error)[:200]}") from error
 
 
-def _written(library: Any, mesh: TriangleMesh) -> Written:
+def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     model = library.get_wrapper().CreateModel()
     place, size = placement(mesh.metadata, "3mf"), metres(str(mesh.metadata.get("unit", "")))
     unit = next((number for number, known in enumerate(_SIZES) if size and math.isclose(known, size)), None)
@@ -241,7 +230,7 @@ def _written(library: Any, mesh: TriangleMesh) -> Written:
     tables = ((kind * len(rows)).from_buffer_copy(rows.tobytes()) for rows, kind in kinds)
     _call(item, "meshobject_setgeometry", *(each for table in tables for each in (ctypes.c_uint64(len(table)), table)))
     held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
-    numbers, materials = face_numbers(mesh, "material"), materials_in(mesh.metadata)
+    numbers, materials = formats.face_numbers(mesh, "material"), formats.materials_in(mesh.metadata)
     if numbers is not None and materials:
         held |= _paint(library, model, item, numbers.values[:, 0], materials)
     about = model.GetMetaDataGroup()
@@ -258,10 +247,12 @@ def _written(library: Any, mesh: TriangleMesh) -> Written:
     writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
     painted = numbers if materials else None
-    return Written(data, left_out(mesh, [painted], [name for name in mesh.metadata if name not in held]))
+    return formats.Written(
+        data, formats.left_out(mesh, [painted], [name for name in mesh.metadata if name not in held])
+    )
 
 
-def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mapping[int, Material]) -> set[str]:
+def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mapping[int, formats.Material]) -> set[str]:
     """Give each triangle the color of its material; return the metadata that this holds."""
     used, where = np.unique(numbers, return_inverse=True)
     group, held = model.AddBaseMaterialGroup(), set()
@@ -269,7 +260,7 @@ def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mappin
     places = np.full(len(used), usual, np.uint32)
     for place in np.flatnonzero(np.isin(used, [*materials])).tolist():
         number, words = int(used[place]), materials[int(used[place])]
-        color = as_numbers(as_gltf(words).get("baseColorFactor", "1 1 1 1"))
+        color = formats.as_numbers(formats.as_gltf(words).get("baseColorFactor", "1 1 1 1"))
         shares = conventions.to_srgb(np.array(color if len(color) == 4 else [1.0] * 4)).clip(0, 1)
         rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
         places[place] = group.AddMaterial(str(words.get("name") or f"material {number}"), rgba)
