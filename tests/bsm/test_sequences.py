@@ -191,6 +191,7 @@ def test_permutation_restores_the_order(npz, tmp_path):
     assert run_json("compare", npz, stream, "--permutation", order)["kg"] < 1
 
 
+@pytest.mark.slow
 def test_what_only_wide_limits_allow_is_written_for_them(tmp_path):
     positions, faces = bending(2, 60, 40)
     np.savez(tmp_path / "large.npz", positions=positions, faces=faces)

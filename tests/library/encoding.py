@@ -103,7 +103,14 @@ class Encoded:
 
 def library(*flags: str) -> ctypes.CDLL:
     """The whole library, of one file."""
-    made = build("-ffp-contract=off", "-O2", *flags, files=(amalgamated(encodes=True), interface()), encodes=True)
+    made = build(
+        "-ffp-contract=off",
+        "-O1",
+        "-DKERNEL_ONE_TARGET",
+        *flags,
+        files=(amalgamated(encodes=True), interface()),
+        encodes=True,
+    )
     made.bsmenc_release.argtypes = [c_void_p]
     return made
 

@@ -24,7 +24,7 @@ from tools.vectors.store import FOLDER, NEEDS, Vector, arrays_of, needs_of, read
 
 VECTORS = read_manifest()
 GOOD = [vector for vector in VECTORS if vector.error is None]
-LONG = {"good-grid-large", *LARGE}
+LONG = {"good-grid-large", "good-grid-noise", *LARGE}
 """What takes the reference decoder seconds."""
 OF_SKIPPED = re.compile("(bad|unsupported)-(attribute|values)")
 LACKING = [f"extension {name}" for name in ("light", "sequence", "paper", "congruence")]

@@ -40,7 +40,7 @@ def test_it_beats_a_fixed_number_of_iterations(shape) -> None:  # type: ignore[n
     assert theta(clean, denoised, faces) < theta(clean, guided_normal_filtering(noisy, faces, 20), faces)
 
 
-@pytest.mark.parametrize("shape", [cube, sphere])
+@pytest.mark.parametrize("shape", [cube, pytest.param(sphere, marks=pytest.mark.slow)])
 def test_the_angle_that_it_expects_is_the_one_that_comes(shape) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(20)
     for make in (gaussian_along_normals, gaussian_isotropic):
@@ -51,7 +51,7 @@ def test_the_angle_that_it_expects_is_the_one_that_comes(shape) -> None:  # type
         assert choice.expected / 1.3 < came < 1.3 * choice.at_most
 
 
-@pytest.mark.parametrize("shape", [cube, sphere])
+@pytest.mark.parametrize("shape", [cube, pytest.param(sphere, marks=pytest.mark.slow)])
 def test_noise_that_neighbors_share_leaves_every_part(shape) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(30)
     noisy = correlated_along_normals(clean, faces, 0.2, 3, rounds=4)

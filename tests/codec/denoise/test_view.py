@@ -93,7 +93,10 @@ def test_flattening_moves_along_the_rays_and_keeps_creases() -> None:
     assert np.linalg.norm((flat - roof)[ridge]) < 0.6 * np.linalg.norm((noisy - roof)[ridge])
 
 
-@pytest.mark.parametrize(("shape", "camera"), [*((cube, camera) for camera in CAMERAS), (sphere, "structured light")])
+@pytest.mark.parametrize(
+    ("shape", "camera"),
+    [*((cube, camera) for camera in CAMERAS), pytest.param(sphere, "structured light", marks=pytest.mark.slow)],
+)
 def test_noise_of_a_camera_is_taken_away_and_what_it_saw_without_noise_stays(shape, camera: str) -> None:  # type: ignore[no-untyped-def]
     made = scan(shape, camera)
     result, choice = denoise_automatically(made.positions, made.faces)

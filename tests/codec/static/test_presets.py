@@ -69,7 +69,7 @@ def sizes(mesh: TriangleMesh, effort: str) -> dict[str, int]:
 
 
 def test_the_best_effort_is_smaller_than_all_stricter_presets() -> None:
-    mesh = torus(40, 24)
+    mesh = torus(24, 16)
     usual, best = sizes(mesh, "normal"), sizes(mesh, "best")
     for at, name in enumerate(ORDER):
         assert best[name] <= min(usual[stricter] for stricter in ORDER[at:])

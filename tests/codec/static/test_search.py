@@ -83,7 +83,7 @@ def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, mo
     assert whole <= min(less)
 
 
-@pytest.mark.parametrize("effort", ["quick", "normal", "best"])
+@pytest.mark.parametrize("effort", ["quick", "normal", pytest.param("best", marks=pytest.mark.slow)])
 def test_a_further_way_makes_no_file_with_normals_larger(effort: str, monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = torus(40, 24)
     normals = Attribute("normal", smooth_normals(mesh).astype(np.float32), "vertex", "normal")
