@@ -155,11 +155,14 @@ def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = 
     return folder
 
 
-def build(
-    *flags: str, compiler: str = "cc", files: tuple[str, str] | None = None, encodes: bool = False
-) -> ctypes.CDLL:
+def build(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None) -> ctypes.CDLL:
     """The library, compiled from one file, of this source and header if they are given."""
-    library = ctypes.CDLL(str(compiled(*flags, compiler=compiler, files=files, encodes=encodes) / "bsmdec.so"))
+    return loaded(compiled(*flags, compiler=compiler, files=files))
+
+
+def loaded(folder: Path) -> ctypes.CDLL:
+    """What was compiled there, with the types of its functions."""
+    library = ctypes.CDLL(str(folder / "bsmdec.so"))
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
     if hasattr(library, "bsmdec_last_misuse"):

@@ -3,12 +3,13 @@
 import ctypes
 from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from bsm import TriangleMesh
-from tests.library.decoding import DOMAINS, KINDS, SEMANTICS, Entry, build
+from tests.library.decoding import DOMAINS, KINDS, SEMANTICS, Entry, compiled, loaded
 from tools.amalgamate import amalgamated, interface
 
 GRID, CELLS, LOSSLESS = range(3)
@@ -103,16 +104,15 @@ class Encoded:
 
 def library(*flags: str) -> ctypes.CDLL:
     """The whole library, of one file."""
-    made = build(
-        "-ffp-contract=off",
-        "-O1",
-        "-DKERNEL_ONE_TARGET",
-        *flags,
-        files=(amalgamated(encodes=True), interface()),
-        encodes=True,
-    )
+    made = loaded(compiled_whole(*flags))
     made.bsmenc_release.argtypes = [c_void_p]
     return made
+
+
+def compiled_whole(*flags: str) -> Path:
+    """A folder with decoder and encoder, compiled of one file."""
+    files = amalgamated(encodes=True), interface()
+    return compiled("-ffp-contract=off", "-O1", "-DKERNEL_ONE_TARGET", *flags, files=files, encodes=True)
 
 
 def encode(library: ctypes.CDLL, mesh: TriangleMesh, qualities: Any = (), **options: Any) -> Encoded:

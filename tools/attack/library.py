@@ -17,7 +17,8 @@ from random import Random
 import numpy as np
 
 from bsm import BsmError
-from tests.library.decoding import Decoded, build, decode, of_sequence, released
+from tests.library.decoding import Decoded, decode, of_sequence, released
+from tests.library.encoding import library
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.inputs import mutant, vector_seeds
 from tools.attack.tally import Outcome
@@ -124,7 +125,7 @@ def main() -> int:
     parser.add_argument("--flags", default="", help="of the compiler")
     args = parser.parse_args()
     wanted = {name: getattr(args, name) for name in ("exact", "tolerant", "sequences", "seconds")}
-    tally, found = compare(build(*args.flags.split()) if args.flags else released(), args.count, args.seed, **wanted)
+    tally, found = compare(library(*args.flags.split()) if args.flags else released(), args.count, args.seed, **wanted)
     print(dict(tally), *found[:20], f"{len(found)} findings", sep="\n")
     return 1 if found else 0
 

@@ -17,7 +17,7 @@ import numpy as np
 from bsm import Attribute, TriangleMesh
 from tests.library.encoding import CELLS, LOSSLESS, QUALITIES, UNREACHABLE, encode, library
 
-SANITIZED = ("-O1", "-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DKERNEL_ONE_TARGET")
+SANITIZED = ("-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 MISUSED = 2
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 
