@@ -141,7 +141,6 @@ def differential(shard: Shard, number: int, size: int) -> None:
         if isinstance(ours, LimitError):
             shard.tally.skipped += 1
             continue
-        shard.tally.saw(ours)
         released = by_release(stream)
         # Release 1.0 does not know the header fields of later versions, and refuses them before anything else.
         if isinstance(released, errors.UnsupportedError) and re.search(r"field \d+ is unknown", str(released)):
@@ -151,6 +150,7 @@ def differential(shard: Shard, number: int, size: int) -> None:
         if isinstance(ours, BsmError) and isinstance(released, BsmError) and "values where" in f"{ours}{released}":
             shard.tally.skipped += 1
             continue
+        shard.tally.saw(ours)
         shard.found(stream, shard.tally.hold(stream, ours, released))
 
 
