@@ -64,8 +64,9 @@ SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 1.0, 0.1, 3.0)
 _OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for width in (0.4, 0.25, 0.55)]
 AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
-FUSED = Step(Recipe(BENDS, 2.5, "own", 0.4), 0)
-"""For fused views. Their noise is broader than any that is drawn here, so nothing is rehearsed."""
+FUSED, FUSED_LEAST, FUSED_MOST = 7.0, 0.5, 2.5
+"""For fused views, the weight of bends over the unevenness of the noise, and its bounds: noise of cameras is uneven,
+and too broad to rehearse with; that of volumes is even, and as fine as their cells."""
 CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
 """For binary volumes; of thick slices, whose stairs are steeper, the width grows with thickness to the power of 2/3."""
 THICK, BENDS_ITERATIONS = 2.5, (8, 12)
@@ -195,7 +196,8 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
     """Choose the filter that suits the cause, without a rehearsal."""
     steps: tuple[Step, ...]
     if finding.kind == "fused":
-        steps = (FUSED,)
+        weight = min(max(FUSED * finding.uneven, FUSED_LEAST), FUSED_MOST)
+        steps = (Step(Recipe(BENDS, weight, "own", 0.4), 0),)
     elif finding.kind == "steps":
         steps = (Step(Recipe(RAYS, STEP_STRENGTH, "own", 0.25), STEP_ITERATIONS),)
     else:

@@ -58,6 +58,7 @@ class Finding:
     bound: Bound | None = None
     whiteness: float = 1.0
     view: View | None = None
+    uneven: float = 0.0
     clear: bool = True  # whether what lies beside the noise has none
 
     @property

@@ -40,7 +40,7 @@ LOCAL_STEP, LOCAL_SHARE, NEARBY = 1.5, 0.1, 4
 """Noise here and there: its level over the rest's, its share of the mesh, and rings of a vertex that tell its side."""
 CALM = 0.05  # level up to which the rest counts as clean
 TERRACED = 0.05  # fewer depths per vertex mean a camera with few depth levels
-FUSED_LEVEL, FUSED_UNEVEN, NARROWER = 0.05, 1.0, 1.02
+FUSED_LEVEL, FUSED_UNEVEN, NARROWER = 0.05, 1.0, 1.04
 """Of views fused on a lattice: the least level, how uneven it may be, and what broad filters may see over it. They read
 .05 to .15, .06 to .9, .9 to 1.0; fields without noise .004 to .11, .08 to 7, 1.05 (a fractal) to 1.9."""
 MARCHED = 1.06
@@ -180,7 +180,8 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
     if not np.quantile(evidence.broad[everywhere] / levels, 0.25) <= NARROWER:
         return None
     amount = np.full(len(positions), level * evidence.edge)
-    return Finding("fused", level * evidence.edge, amount, evidence.edge, "noise of views fused on a lattice")
+    reason = "noise of views fused on a lattice"
+    return Finding("fused", level * evidence.edge, amount, evidence.edge, reason, uneven=uneven)
 
 
 def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
