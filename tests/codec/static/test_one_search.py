@@ -9,8 +9,10 @@ import pytest
 
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.pictures import Canvas
+from bsm.codec.static.choice.attributes import Input
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import Contract
 from bsm.files.mesh import read_mesh
 from tests.shapes import torus
@@ -59,3 +61,25 @@ def test_folds_do_not_leave_the_look_unused(meshes: Path) -> None:
     cloth = read_mesh(str(meshes / "assets/cloth.obj")).mesh.bare
     size = Encoder(cloth, EncodeOptions(threads=1)).draft().size
     assert size < 3500  # 3800 with the usual steps along tangents
+
+
+@pytest.mark.parametrize("scale", [0.7, 1.1, 3.0])
+def test_the_last_check_draws_no_grid_again(scale: float) -> None:
+    draw, measured = Canvas.draw, Input.measured
+    drawn, last = list[Any](), list[tuple[bool, int]]()
+
+    def counted(*given: Any, **words: Any) -> Any:
+        drawn.append(given)
+        return draw(*given, **words)
+
+    def checked(given: Input, draft: Draft, contract: Contract) -> Any:
+        before, found = len(drawn), measured(given, draft, contract)
+        last.append((draft.places is not None, len(drawn) - before))
+        return found
+
+    mesh = torus()
+    noise = np.random.default_rng(5).normal(0.0, 0.1, mesh.positions.shape)
+    mesh = TriangleMesh(scale * (mesh.positions + noise) + 0.1, mesh.faces)
+    with patch.object(Canvas, "draw", counted), patch.object(Input, "measured", checked):
+        Encoder(mesh, EncodeOptions(threads=1)).encode()
+    assert last == [(True, 0)]
