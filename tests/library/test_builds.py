@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import bsm
 from tests.library.decoding import WARNINGS, build, compiled, decode, of_sequence
 from tools.amalgamate import ROOT, amalgamated, interface
 from tools.processors.__main__ import NotHere, complaint, lines, prepare, program
@@ -97,11 +98,13 @@ CRATE = Path(__file__).parents[2] / "library/rust"
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cargo") is None, reason="no Rust here")
-def test_the_crate_passes_its_tests(tmp_path: Path) -> None:
+def test_the_crate_passes_its_tests_and_its_example_runs(tmp_path: Path) -> None:
     own = {"CARGO_TARGET_DIR": str(tmp_path), "PYTHON": sys.executable, "CFLAGS": "-O1 -DKERNEL_ONE_TARGET"}
-    command = ["cargo", "test", "--offline", "--quiet", "--locked"]
-    done = subprocess.run(command, cwd=CRATE, env=os.environ | own, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    for command in (["test"], ["run", "--example", "encode"]):
+        words = ["cargo", *command, "--offline", "--quiet", "--locked", "--manifest-path", CRATE / "Cargo.toml"]
+        done = subprocess.run(words, cwd=tmp_path, env=os.environ | own, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert len(bsm.load(tmp_path / "tetrahedron.bsm").faces) == 4
 
 
 @pytest.mark.slow
