@@ -33,7 +33,7 @@ SHARES = tuple(2.0 ** (-k / 4) for k in range(1, 17))  # of the triangles of the
 TRIES = 3  # streams of one simplified mesh, each under the promise that the one before calls for
 MOST, NEAR = 1.5, 1.03
 """Triangles to encode, over the original's; and guessed bytes over the least so far, up to which a mesh is encoded."""
-POWER = 0.6  # of the share of the look that is left: the median of ten scans
+POWER = 0.6  # of the share of the look that is left: about the median of seven scans
 AIM = 0.98  # the share of a bound that is aimed at
 ENOUGH = 1.2  # times the triangles that were asked for, above which simplifying has failed
 
