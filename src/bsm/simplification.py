@@ -18,7 +18,7 @@ from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import distances_to_surface, farthest_from_surface
+from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
 from bsm.codec.geometry.welding import degenerate
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.static.choice.attributes import Input
@@ -110,7 +110,8 @@ class Source:
             raise OptionError("simplify changes vertices and faces; it excludes keep_order")
         if options.target or promise.angle < ANY_ANGLE or promise.visual < math.inf:
             raise OptionError("simplify keeps the look and the largest error; it excludes targets and other bounds")
-        self.options, self.promise, self._input = options, promise, Input(mesh, options, options)
+        self.options, self.promise, self._given = options, promise, mesh
+        self._input = Input(mesh, options, options)
         joined, prepared = self._input.joined, self._input.prepared
         sent = (attribute for attribute, _ in self._input.wanted)
         found = (_of_vertices(attribute, mesh, joined.mesh.faces, joined.kept) for attribute in sent)
@@ -152,9 +153,8 @@ class Source:
         return max(shares)
 
     def distance(self, other: TriangleMesh) -> float:
-        """The largest distance of both surfaces, in the unit of the mesh."""
-        pairs = (self.whole, other), (other, self.whole)
-        return max(farthest_from_surface(_samples(one), two.positions, two.faces) for one, two in pairs)
+        """The largest distance of both surfaces where `bsm compare` measures, in the unit of the mesh."""
+        return surface_distance(self._given.positions, self._given.faces, other.positions, other.faces).hausdorff
 
     def _moved(self, other: TriangleMesh, reach: Matrix) -> float:
         """About the same as `apart`: of the vertices only."""
