@@ -25,7 +25,7 @@ from bsm.codec.denoise.surface import Mask, Topology, face_geometry, surface_nor
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
 LOCAL = "local"
 RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
-BENDS = "bends"  # that of thick slices, see `Cells.flattened`, and of fused views: what is kept is the bends' weight
+BENDS = "bends"  # of thick slices, see `Cells.flattened`, and of fused views, where `keep` is the weight of bends
 SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
 
 HandOver = Callable[[Positions, Positions, GuidedFilter], Positions]

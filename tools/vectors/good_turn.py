@@ -104,9 +104,7 @@ TURNS_BAD: dict[str, Bad] = {
         lambda: _turned(turn=[1.0] * 3, scale=1e300, corner=[150_000_000, -150_000_000, 150_000_000]),
     ),
     "bad-brief-turned-more": Bad("an entry above 1, in one frame", "corrupt", lambda: _brief([0.0, 1.5, 0.0])),
-    "bad-brief-turned-no-number": Bad(
-        "an entry that is no number", "corrupt", lambda: _brief([float("nan"), 0.0, 0.0])
-    ),
+    "bad-brief-turned-no-number": Bad("an entry that is NaN", "corrupt", lambda: _brief([float("nan"), 0.0, 0.0])),
     "bad-brief-turned-short": Bad(
         "a turn that ends early",
         "corrupt",
