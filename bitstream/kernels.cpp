@@ -10,7 +10,7 @@ extern "C" {
 #include "bitstream/connectivity/connectivity.h"
 #include "bitstream/container/container.h"
 #include "bitstream/entropy/entropy.h"
-#include "bitstream/fields/fields.h"
+#include "bitstream/fields/twins.h"
 }
 
 BSM_STRUCT(Coder, Longs, Bytes)
@@ -40,6 +40,7 @@ void bind_bitstream(nb::module_ &m) {
     m.def("constant", [](const char *name) { return CONSTANTS.at(name); }, "name"_a);
 
     m.def("priors", [] { return nb::bytes(PRIORS, PRIORS_BYTES); });
+    m.def("start", [] { return nb::bytes(START, START_BYTES); });
 
     // Slots, selectors, inputs, limit and rate of the bank that a kernel needs; 0: what most have.
     m.def("bank_plan", [](const char *kernel) {

@@ -53,20 +53,20 @@ static bool fill(Context *context, Ints2 to, Written given, int64_t first, const
 }
 
 bool begin_positions(CodedField *field, Context *context, Written given, const int32_t *largest, int light,
-    const double *origin, double step, const double *exact, const int32_t *transforms, int64_t transforms_count) {
+    const double *origin, double step, const double *exact, const int32_t *transforms, int congruence) {
     begin(field, context, given);
     Header *header = &field->header;
     field->kind = ON_GRID;
     header->on_grid = true;
     header->light = light;
-    header->congruence = (int)least(transforms_count, MOST_TRANSFORMS) + 1;
+    header->congruence = congruence;
     header->scale = step;
     memcpy(header->center, origin, sizeof header->center);
     memcpy(header->grid, largest, sizeof header->grid);
     if (!begin_grid(&field->grid, context, header, const_ints2(field->faces), &field->arena, &field->scratch))
         return false;
     if (exact != NULL) memcpy(field->grid.positions.data, exact, (size_t)(3 * given.rows) * sizeof(double));
-    for (int64_t i = 0; i < TRANSFORM_ROW * transforms_count && i < TRANSFORM_ROW * MOST_TRANSFORMS; i++)
+    for (int64_t i = 0; i < TRANSFORM_ROW * field->grid.transforms.rows; i++)
         field->grid.transforms.data[i] = transforms[i];
     return fill(context, field->grid.values, given, 0, largest, false);
 }

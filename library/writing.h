@@ -39,10 +39,10 @@ typedef struct {
 } CodedField;
 
 /* Begin a field: positions on a grid, of floats in its cells also `exact` ones; levels; values of an attribute on rows
- * at vertices, with their places on a grid or NULL. A grid has rows of `transforms` of congruent parts (specification,
- * V 17.2), or is coded without if their count is -1. */
+ * at vertices, with their places on a grid or NULL. A grid has the header's `congruence`, and rows of so many
+ * `transforms` (specification, V 17.2). */
 bool begin_positions(CodedField *field, Context *context, Written given, const int32_t *largest, int light,
-    const double *origin, double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
+    const double *origin, double step, const double *exact, const int32_t *transforms, int congruence);
 bool begin_refinement(CodedField *field, Context *context, Written given);
 bool begin_attribute(CodedField *field, Context *context, Written given, const Declaration *declaration,
     int64_t vertices, const int32_t *at, const int32_t *places);

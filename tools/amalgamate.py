@@ -86,10 +86,10 @@ def sources(*, encodes: bool = False) -> list[str]:
     return [path for path in paths if path not in CHOICES]
 
 
-def priors() -> str:
-    """The learnt numbers of the specification as C."""
-    numbers = ",".join(map(str, (ROOT / "spec/priors.bin").read_bytes()))
-    return f"const unsigned char PRIORS[PRIORS_BYTES] = {{{numbers}}};\n"
+def learnt(name: str) -> str:
+    """Learnt numbers of the specification as C."""
+    numbers = ",".join(map(str, (ROOT / f"spec/{name.lower()}.bin").read_bytes()))
+    return f"const unsigned char {name}[{name}_BYTES] = {{{numbers}}};\n"
 
 
 def _read(path: str) -> str:
@@ -172,7 +172,7 @@ def amalgamated(*, encodes: bool = False) -> str:
         text = _SCALAR.format(text) if path.startswith(SHORT) else text
         (per_isa if path.endswith(".simd.c") else pieces).append(text)
     choices = [_OWN.sub("", _read(path)) for path in CHOICES]
-    return "".join([*pieces, *_each_isa("".join(per_isa)), *choices, _private(priors())])
+    return "".join([*pieces, *_each_isa("".join(per_isa)), *choices, _private(learnt("PRIORS") + learnt("START"))])
 
 
 def _each_isa(text: str) -> Iterator[str]:

@@ -23,25 +23,37 @@ LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_GRID)
 
 
 def gridded(
-    coded: EncodedConnectivity, values: Ints, counts: Iterable[int], transforms: Ints | None = None, **fields: Any
+    coded: EncodedConnectivity,
+    values: Ints,
+    counts: Iterable[int],
+    transforms: Ints | None = None,
+    learnt: bool = False,
+    **fields: Any,
 ) -> Frames:
     """Frames of a mesh on a grid, with `transforms`, shape (k, 8), of congruent parts."""
     fields = {"grid": values.max(axis=0).tolist()} | fields
-    fields |= {} if transforms is None else {"congruence": 1 + len(transforms)}
+    fields |= {} if transforms is None else {"congruence": 1 + len(transforms) + 17 * learnt}
     announced = {"vertices": len(values), "faces": len(coded.faces)}
     return [
         header_frame(**announced | fields),
         (FrameType.CONNECTIVITY, coded.payload),
-        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0), transforms),
+        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0), transforms, learnt),
     ]
 
 
 def grid_frames(
-    faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int, transforms: Ints | None = None
+    faces: Ints,
+    values: Ints,
+    counts: Iterable[int],
+    largest: Sequence[int],
+    light: int,
+    transforms: Ints | None = None,
+    learnt: bool = False,
 ) -> Frames:
     """Return GRID packets of this many vertices each."""
     frames, first = [], 0
-    field = grid_field(faces, largest, values, light, Grid((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms))
+    grid = Grid((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms, learnt=learnt)
+    field = grid_field(faces, largest, values, light, grid)
     for count in counts:
         frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + field.write(count)[0]))
         first += count

@@ -28,7 +28,7 @@ static const Field FIELDS[] = {
     {.key = RUN, .type = INTS_FIELD, .high = INT32_MAX, .most = 2},
     {.key = PAPER, .type = FLOATS_FIELD, .high = 0x1p30, .most = 8},
     {.key = ONORM, .type = INT_FIELD, .high = 64},
-    {.key = CONGRUENCE, .type = INT_FIELD, .high = 17},
+    {.key = CONGRUENCE, .type = INT_FIELD, .high = 34},
     {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
 };
 

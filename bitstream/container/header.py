@@ -141,13 +141,18 @@ class Header:
     """The numbers of `Paper`; empty: those of the law."""
     onorm: int = wire(21, int, 0, 64, default=0)
     """Onorm follows each of so many solutions of an iteration, with packed coefficients; 0: each solution."""
-    congruence: int = wire(22, int, 0, 17, default=0)
-    """1 plus the transforms between congruent parts, from which the values of a grid are also predicted; 0: without."""
+    congruence: int = wire(22, int, 0, 34, default=0)
+    """1 plus the transforms between congruent parts of a grid, and 17 more for a learnt start; 0: coded without."""
     turn: tuple[float, ...] = wire(24, tuple, -1.0, 1.0, lengths=(3, 3), default=(0.0, 0.0, 0.0))
     """The quaternion that turns the axes of a grid to those of the mesh, less its first entry, which is 1."""
 
     def __post_init__(self) -> None:
         normalize_fields(self, "header")
+
+    @property
+    def transforms(self) -> int:
+        """Transforms between congruent parts; -1: values of a grid are not predicted from such."""
+        return (self.congruence - 1) % 17 if self.congruence else -1
 
     @property
     def law(self) -> Paper:

@@ -148,6 +148,11 @@ typedef struct { /* a row of what Python keeps */
 
 enum { LEARNER_COLUMNS = sizeof(Learner) / sizeof(int64_t) };
 
+INLINE void start_learner(Longs2 learners, int64_t k, int term, int64_t weight) {
+    Learner *learner = (Learner *)learners.data + k;
+    learner->weight[term] = learner->start[term] = weight;
+}
+
 /* The number of terms is a constant wherever this is called, so that loops are unrolled. */
 INLINE int32_t foretell(const Learner *l, int terms, const int32_t *term, int32_t most) {
     int64_t sum = 0;

@@ -534,3 +534,12 @@ void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t
         remember_flap(t, f, place, true);
     }
 }
+
+void start_learnt(const ValueModel *model, Longs2 learners) {
+    const unsigned char *start = START;
+    for (int i = 0; i < START_ROWS * WEIGHT_ROW; i++) model->weights.data[i] = (int8_t)*start++ * (ONE / 16);
+    for (int i = 0; i < START_LEARNERS * MOST_TERMS; i++)
+        start_learner(learners, i / MOST_TERMS, i % MOST_TERMS, (int8_t)*start++ * (ONE / 16));
+    for (int i = 0; i < TWIN_ROWS; i++)
+        model->twins.data[TWIN_ROW * i + 2] = (int32_t)((2 * (uint32_t)*start++ + 1) << 27 | START_COUNT);
+}

@@ -60,6 +60,16 @@ typedef struct Twins {
     Frame frame[2]; /* of the first two flaps */
 } Twins;
 
+/* What other meshes taught: spec/start.bin, of which the build makes an array (V 17.10). */
+enum {
+    START_ROWS = VALUE_NODES + WEIGHT_SETS * KINDS,
+    START_LEARNERS = 60,
+    START_COUNT = 16, /* how often each hit rate counts as seen */
+    START_BYTES = START_ROWS * WEIGHT_ROW + START_LEARNERS * MOST_TERMS + TWIN_ROWS,
+};
+extern const unsigned char START[START_BYTES];
+void start_learnt(const ValueModel *model, Longs2 learners);
+
 /* Code the transforms of a grid, a row each of `numbers`. */
 int64_t code_transforms(Coder coder, ConstInts largest, Ints2 numbers);
 /* The transforms and their inverses. */

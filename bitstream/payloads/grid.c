@@ -21,7 +21,7 @@ static bool charge_grid(Context *context, const Header *header) {
         || !WITHIN(context, field_bytes, grid_field_bytes(n, m)))
         return false;
     if (is_congruent(header)) {
-        double images = 2 * (header->congruence - 1), bytes = twins_bytes(n, images);
+        double images = 2 * transforms_of(header), bytes = twins_bytes(n, images);
         if (!reserve(context, bytes, 0) || !charge(context, twins_work(n, images), 0)
             || !WITHIN(context, field_bytes, grid_field_bytes(n, m) + bytes))
             return false;
@@ -41,10 +41,9 @@ static bool begin_full(GridField *field, Arena *arena, Arena *scratch) {
         || !zero_longs2(arena, AXES, words, &grid->seen)
         || !make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS, &grid->learners))
         return false;
-    for (int64_t k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) {
-        start_learner(grid->learners, k, 0, 49152);
-        if (k >= SUM_LEARNERS) start_learner(grid->learners, k, 1, 8192);
-    }
+    for (int k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 0, 49152);
+    for (int k = SUM_LEARNERS; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 1, 8192);
+    if (starts_learnt(field->header)) start_learnt(&field->model, grid->learners);
     return true;
 }
 
@@ -71,7 +70,7 @@ static bool begin_floats(GridField *field, Arena *arena) {
 }
 
 static bool begin_twins(GridField *field, Arena *arena) {
-    int64_t n = field->header->vertices, transforms = field->header->congruence - 1, images = 2 * transforms;
+    int64_t n = field->header->vertices, transforms = transforms_of(field->header), images = 2 * transforms;
     Twins *twins;
     if (!TAKE_ZEROS(arena, 1, twins) || !TAKE(arena, MOST_ECHOES, twins->echo)
         || !TAKE_ZEROS(arena, ECHO_HEADS, twins->echo_head)

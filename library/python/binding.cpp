@@ -435,13 +435,14 @@ class Field : public Shared, Output {
     Field(Rows<int32_t, 3> faces, Table values) : faces(faces), values(values) {}
 
     void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact,
-        std::optional<Rows<int32_t, 8>> transforms) {
-        if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows()))
-            throw nb::value_error("a grid has three axes");
+        std::optional<Rows<int32_t, 8>> transforms, bool learnt) {
+        if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows())
+            || (transforms && transforms->shape(0) > 16))
+            throw nb::value_error("a grid has three axes, and at most 16 transforms");
         begin([&] {
             return encode_positions(encoding, given(), largest.data(), light, origin.data(), step,
                 exact ? exact->data() : nullptr, transforms ? transforms->data() : nullptr,
-                transforms ? (int64_t)transforms->shape(0) : -1);
+                transforms ? (int)transforms->shape(0) + 1 + 17 * learnt : 0);
         });
     }
     void levels() {
@@ -650,7 +651,7 @@ NB_MODULE(_core, m) {
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
-            "transforms"_a.none() = nb::none())
+            "transforms"_a.none() = nb::none(), "learnt"_a = false)
         .def("levels", in_turn(&Field::levels))
         .def("attribute", in_turn(&Field::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
         .def("write", in_turn(&Field::write), "count"_a)

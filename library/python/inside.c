@@ -171,9 +171,9 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
 }
 
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
-    double step, const double *exact, const int32_t *transforms, int64_t transforms_count) {
+    double step, const double *exact, const int32_t *transforms, int congruence) {
     return begin_positions(&encoding->field, &encoding->writer.context, given, largest, light, origin, step, exact,
-        transforms, transforms_count);
+        transforms, congruence);
 }
 
 bool encode_levels(Encoding *encoding, Written given) {

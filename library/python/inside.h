@@ -68,9 +68,9 @@ typedef struct {
 /* Carry an attribute, the first or the next one; its seams are the payload. Then write the decoded values. */
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);
 void carried_values(const Encoding *encoding, void *values);
-/* With rows of `transforms` of congruent parts (specification, V 17.2), or without if their count is -1. */
+/* With the `congruence` of the header, and its rows of `transforms` (specification, V 17.2). */
 bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
-    double step, const double *exact, const int32_t *transforms, int64_t transforms_count);
+    double step, const double *exact, const int32_t *transforms, int congruence);
 bool encode_levels(Encoding *encoding, Written given);
 bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places);

@@ -62,7 +62,7 @@ fn main() {
         let python = env::var("PYTHON").unwrap_or_else(|_| "python3".into());
         run(Command::new(python).args(["-m", "tools.amalgamate"]).arg(&out).current_dir(checkout));
         source = out.join("bsm.c");
-        for folder in ["library", "codec", "bitstream", "tools/amalgamate.py", "spec/priors.bin"] {
+        for folder in ["library", "codec", "bitstream", "tools/amalgamate.py", "spec/priors.bin", "spec/start.bin"] {
             println!("cargo:rerun-if-changed={}", checkout.join(folder).display());
         }
     }

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm._core.bitstream import priors
+from bsm._core.bitstream import priors, start
 from bsm.cli import main
 from tests.library.decoding import build, decode, of_sequence, released
 from tools.surgery import frames_of
@@ -76,11 +76,17 @@ def test_the_worked_blocks_are_those_of_the_reference_decoder():
     assert worked_blocks() in (FOLDER.parent / "README.md").read_text(), "run python -m tools.vectors --example"
 
 
-def test_the_learnt_numbers_are_named():
-    data = (SPEC / "priors.bin").read_bytes()
-    assert priors() == data, "the kernels were built from other numbers: tools/build_kernels.sh"
-    assert hashlib.sha256(data).hexdigest() in LAW["core-3-mathematics.md"]
-    assert hashlib.sha256(data).hexdigest() in (SPEC / "reference_decoder.py").read_text()
+@pytest.mark.parametrize(
+    ("name", "built", "documents"),
+    [
+        ("priors", priors, ["core-3-mathematics.md", "reference_decoder.py"]),
+        ("start", start, ["extension-congruence.md"]),
+    ],
+)
+def test_the_learnt_numbers_are_named(name, built, documents):
+    data = (SPEC / f"{name}.bin").read_bytes()
+    assert built() == data, "the kernels were built from other numbers: tools/build_kernels.sh"
+    assert all(hashlib.sha256(data).hexdigest() in (SPEC / document).read_text() for document in documents)
 
 
 @pytest.mark.skipif(shutil.which("file") is None, reason="file(1) is not here")

@@ -34,7 +34,7 @@ def make_sdist(sources: Path, output: Path) -> Path:
     path = max(output.glob("bsm_codec-*.tar.gz"), key=os.path.getmtime)
     with tarfile.open(path) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    needed = {"pyproject.toml", "CMakeLists.txt", "LICENSE", "spec/priors.bin", "codec/kernels.cpp"}
+    needed = {"pyproject.toml", "CMakeLists.txt", "LICENSE", "spec/priors.bin", "spec/start.bin", "codec/kernels.cpp"}
     if missing := needed - names:
         raise SystemExit(f"{path.name} lacks {', '.join(sorted(missing))}")
     return path

@@ -65,6 +65,7 @@ BRIEFS: dict[str, Good] = {
         ("fine", "a grid of 20 bits", lambda: on_grid(torus(9, 7), MOST_GRID // 2)),
         ("echoes", "congruent parts, no transforms", lambda: brief(placed(torus(16, 12), 500, []))),
         ("mirrors", "congruent parts, mirrors", lambda: brief(placed(torus(16, 12), 500, mirrors()))),
+        ("learnt", "a learnt start", lambda: brief(placed(torus(16, 12), 500, mirrors(), learnt=True))),
         ("short", "a payload with a CRC-16", lambda: on_grid(triangle(), 3)),
     )
 }
@@ -78,7 +79,7 @@ BRIEFS_BAD: dict[str, Bad] = {
     "bad-brief-limit": Bad("more vertices than are granted", "limit", lambda: _put(0, b"\x81\x80\x80\x08" * 2, 2)),
     "bad-brief-grid": Bad("a grid of 21 bits", "corrupt", lambda: _put(3, b"\x80\x80\x40", 1)),
     "bad-brief-varint": Bad("a varint that is not the shortest", "corrupt", lambda: _put(3, b"\xd0\0", 1)),
-    "bad-brief-congruence": Bad("17 transforms", "corrupt", lambda: _put(5, b"\x12")),
+    "bad-brief-congruence": Bad("17 transforms", "corrupt", lambda: _put(5, b"\x23")),
     "bad-brief-scale": Bad("a scale of 0", "corrupt", lambda: _put(6, b"\0\0\0\0")),
     "bad-brief-scale-negative": Bad("a scale below 0", "corrupt", lambda: _put(6, b"\xbf")),
     "bad-brief-infinite": Bad("a center that is not finite", "corrupt", lambda: _put(10, b"\x7f\x80\0\0")),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from random import Random
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -26,7 +27,7 @@ from tools.vectors.meshes import hub, patch, tangled, tent, tetrahedron, togethe
 Ints = npt.NDArray[np.int32]
 
 
-def placed(mesh: TriangleMesh, cells: int, turns: npt.ArrayLike, *counts: int, **fields: object) -> bytes:
+def placed(mesh: TriangleMesh, cells: int, turns: npt.ArrayLike, *counts: int, **fields: Any) -> bytes:
     """A mesh around the origin on a grid of so many cells to each side, and turns about the middle."""
     coded = encode_connectivity(mesh.faces, len(mesh.positions))
     unit = cells / np.abs(mesh.positions).max()
@@ -38,14 +39,14 @@ def placed(mesh: TriangleMesh, cells: int, turns: npt.ArrayLike, *counts: int, *
     return stream_of(gridded(coded, values, sizes, rows, **{"grid": [2 * cells] * 3} | fields))
 
 
-def drawn(mesh: TriangleMesh, largest: tuple[int, int, int], count: int, ends: bool = False) -> bytes:
+def drawn(mesh: TriangleMesh, largest: tuple[int, int, int], count: int, ends: bool = False, **fields: Any) -> bytes:
     """Values and transforms that have nothing to do with each other."""
     numbers, size = np.random.default_rng(count), len(mesh.positions)
     values = numbers.integers(0, np.array(largest) + 1, (size, 3))
     values = np.where(values * 2 > largest, largest, 0) if ends else values
     coded = encode_connectivity(mesh.faces, size)
     rows = any_transforms(Random(count), count, largest)
-    return stream_of(gridded(coded, values.astype(np.int32), [size], rows, grid=list(largest)))
+    return stream_of(gridded(coded, values.astype(np.int32), [size], rows, grid=list(largest), **fields))
 
 
 def about(axis: int, parts: int) -> npt.NDArray[np.float64]:
@@ -70,7 +71,7 @@ def _staying(count: int) -> bytes:
     return stream_of(gridded(coded, np.zeros((120, 3), np.int32), [120], rows, grid=[1, 1, 1]))
 
 
-def _changed(**fields: object) -> bytes:
+def _changed(**fields: Any) -> bytes:
     """Another header before a grid without transforms."""
     coded = encode_connectivity(torus(5, 4).faces, 20)
     return with_header(stream_of(gridded(coded, np.zeros((20, 3), np.int32), [20], grid=[1, 1, 1])), **fields)
@@ -112,12 +113,47 @@ CONGRUENCE: dict[str, Good] = {
         ("long", "more flaps than are remembered", lambda: placed(torus(64, 48), 300, [about(2, 16)])),
     )
 }
+CONGRUENCE |= {
+    f"good-congruence-learnt-{name}": Good(f"congruent parts, a learnt start: {probes}", make)
+    for name, probes, make in (
+        ("echoes", "flaps alike, no transforms", lambda: placed(torus(16, 12), 500, [], learnt=True)),
+        ("mirrors", "mirrors along the axes", lambda: placed(torus(16, 12), 500, mirrors(), learnt=True)),
+        ("turned", "turns about an axis", lambda: placed(torus(15, 12), 700, [about(2, 5)], learnt=True)),
+        ("chunks", "frames", lambda: placed(torus(16, 12), 500, mirrors(), 1, 90, 101, learnt=True)),
+        ("noise", "16 transforms without sense", lambda: drawn(torus(12, 10), (1000, 3, MOST_GRID), 16, learnt=True)),
+        ("ends", "ends of the range", lambda: drawn(tangled(), (MOST_GRID,) * 3, 9, True, learnt=True)),
+        ("hub", "a vertex with very many neighbors", lambda: drawn(hub(), (99, 999, 9), 5, learnt=True)),
+        ("tent", "more neighbors and flaps than count", lambda: drawn(tent(), (255, 255, 255), 7, learnt=True)),
+        ("point", "a grid of one place", lambda: drawn(tetrahedron(), (0, 0, 0), 4, learnt=True)),
+        ("long", "more flaps than are remembered", lambda: placed(torus(64, 48), 300, [about(2, 16)], learnt=True)),
+        ("turn", "turned axes", lambda: placed(torus(15, 12), 700, mirrors(), learnt=True, turn=[0.25, -0.5, 0.125])),
+    )
+}
 CONGRUENCE_BAD: dict[str, Bad] = {
     "bad-congruence-light": Bad("congruent parts of a light grid", "corrupt", lambda: _changed(light=1, congruence=1)),
     "bad-congruence-blocks": Bad(
         "congruent parts without a grid", "corrupt", lambda: _changed(grid=None, congruence=1)
     ),
-    "bad-congruence-more": Bad("17 transforms", "corrupt", lambda: _changed(congruence=18)),
+    "bad-congruence-more": Bad("17 transforms", "corrupt", lambda: _changed(congruence=35)),
     "bad-congruence-none": Bad("a default that is stored", "corrupt", lambda: _changed(congruence=0)),
+    "bad-congruence-learnt-light": Bad(
+        "a learnt start of a light grid", "corrupt", lambda: _changed(light=1, congruence=18)
+    ),
+    "bad-congruence-learnt-blocks": Bad(
+        "a learnt start without a grid", "corrupt", lambda: _changed(grid=None, congruence=18)
+    ),
+    "bad-congruence-learnt-short": Bad(
+        "a learnt start, 16 transforms, in a payload without", "truncated", lambda: _changed(congruence=34)
+    ),
+    "bad-congruence-learnt-not": Bad(
+        "a learnt start that the header does not have",
+        "corrupt",
+        lambda: with_header(placed(torus(16, 12), 500, mirrors(), learnt=True), congruence=4),
+    ),
+    "bad-congruence-learnt-wrong": Bad(
+        "a learnt start that only the header has",
+        "corrupt",
+        lambda: with_header(placed(torus(16, 12), 500, mirrors()), congruence=21),
+    ),
     "bad-congruence-short": Bad("16 transforms, in a payload without", "truncated", lambda: _changed(congruence=17)),
 }

@@ -28,8 +28,8 @@ def _turned(*counts: int, **fields: Any) -> bytes:
     mesh = torus(16, 12)
     coded = encode_connectivity(mesh.faces, len(mesh.positions))
     values: Ints = (mesh.positions[coded.vertex_order] * 100.0).round().astype("int32") + 500
-    fields = {"grid": [1000] * 3, "turn": TURN} | fields
-    return stream_of(gridded(coded, values, counts or [len(values)], None, **fields))
+    given: dict[str, Any] = {"grid": [1000] * 3, "turn": TURN} | fields
+    return stream_of(gridded(coded, values, counts or [len(values)], None, **given))
 
 
 def _brief(turn: list[float]) -> bytes:

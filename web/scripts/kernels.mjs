@@ -55,7 +55,7 @@ export function fingerprint() {
     const hash = createHash("sha256");
     const headers = ["bitstream", "codec", "library"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
     const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) => join("web", name));
-    for (const path of [...SOURCES, ...headers, "spec/priors.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
+    for (const path of [...SOURCES, ...headers, "spec/priors.bin", "spec/start.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
     return hash.digest("hex");
 }
 
@@ -155,7 +155,8 @@ export function compileKernels({ vectors, exported = PAGE, without, lacks, fast 
     try {
         const data = join(folder, "data.c");
         const priors = Uint8Array.from(readFileSync(join(ROOT, "spec/priors.bin")));
-        writeFileSync(data, packedPriors(priors));
+        const start = [...readFileSync(join(ROOT, "spec/start.bin"))];
+        writeFileSync(data, `${packedPriors(priors)}const unsigned char START[] = {${start}};\n`);
         const target = join(folder, "kernels.wasm");
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {

@@ -87,7 +87,7 @@ class Candidate:
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     guess: Callable[[], float] | None = None
     also: Callable[[Draft], Draft] = lambda draft: draft  # the same positions, perhaps in fewer bytes
-    like: Callable[[int], int] = lambda congruence: 0  # bytes of a grid with the `congruence` of another header
+    like: Callable[[int], int] = lambda transforms: 0  # bytes of a grid with the `transforms` of another header
     decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
 
     @cached_property

@@ -50,16 +50,16 @@ def congruent(prepared: Prepared, draft: Draft, coded: Callable[[int], Draft] | 
     for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
         grid = replace(alone, transforms=some)
         if len(some) or len(places) <= SAMPLE or sampled_size(faces, grid, places) < sampled_size(faces, alone, places):
-            least = min(least, coded(2 if len(some) else 1), key=lambda d: d.size)
+            least = min(least, coded(min(len(some), 1)), key=lambda d: d.size)
         if least.size < (1.0 - LEAST_SAVED) * draft.size:
             break
     return least
 
 
-def coded_like(prepared: Prepared, grid: Grid, places: Levels, brief: bool, congruence: int) -> Draft:
-    """The stream of places on a grid whose congruent parts are coded as those of a header with this `congruence`."""
-    if congruence:
-        grid = replace(grid, transforms=transforms_of(prepared, grid) if congruence > 1 else np.empty((0, 8), np.int32))
+def coded_like(prepared: Prepared, grid: Grid, places: Levels, brief: bool, transforms: int) -> Draft:
+    """The stream of places on a grid whose congruent parts are coded as those of a header with so many `transforms`."""
+    if transforms >= 0:
+        grid = replace(grid, transforms=transforms_of(prepared, grid) if transforms else np.empty((0, 8), np.int32))
     return grid_draft(prepared, grid, places, brief=brief)
 
 
@@ -69,7 +69,7 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     if places is None or not header.congruence:
         return draft
     grid = grid_of(header)
-    sets = transforms_of(prepared, grid)[: header.congruence - 1], transforms_of(prepared, grid, 2.0)
+    sets = transforms_of(prepared, grid)[: header.transforms], transforms_of(prepared, grid, 2.0)
     kept, finer = ([part for part in np.array_split(some, 4) if len(part)] for some in sets)
     for i in (4, 3, 2):
         some = finer if i == 4 else kept[:i] + kept[i + 1 :]
@@ -231,5 +231,5 @@ class Gridded:
         sampled, few = partial(sampled_size, self._prepared.mesh.faces, grid, places), len(places) <= SAMPLE
         guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
         also = partial(congruent, self._prepared, coded=coded)
-        make, like = partial(coded, 0), lambda congruence: coded(min(congruence, 2)).size
+        make, like = partial(coded, -1), lambda transforms: coded(min(transforms, 1)).size
         return Candidate(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)

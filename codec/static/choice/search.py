@@ -53,10 +53,10 @@ class Search:
         grid = grid.in_frame()
         first = grid.at(grid.first)
         if any(map(len, self._prepared.motions.values())):
-            self._crew.map(first.like, (0, 2))
-        saved, share, parts = self._saved(first), 1.0, 0
+            self._crew.map(first.like, (-1, 1))
+        saved, share, parts = self._saved(first), 1.0, -1
         if may_repeat(self._prepared):
-            share, parts = first.congruent.size / first.draft.size, first.congruent.header.congruence
+            share, parts = first.congruent.size / first.draft.size, first.congruent.header.transforms
         least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
         near = 1.0 if seen or contract.visual == math.inf else ALIKE
         ways = self._ways(bounds, grid, share)
@@ -91,7 +91,7 @@ class Search:
     def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
         """Grids of steps that are the same for all promises, each smaller than those before it."""
         best = min(kept, key=lambda candidate: candidate.congruent.size).congruent
-        like, least, rung = best.header.congruence, best.size, math.floor(RUNGS * math.log2(grid.first))
+        like, least, rung = best.header.transforms, best.size, math.floor(RUNGS * math.log2(grid.first))
         seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
         steps = [2.0 ** ((rung + 1 - finer) / RUNGS) for finer in range(RUNGS + 2 if seen else 2 * RUNGS)]
         made = (list(map(grid.at, steps[at : at + self._ahead])) for at in range(0, len(steps), self._ahead))

@@ -30,6 +30,7 @@ class Grid:
     exact: bool = False
     transforms: Levels | None = None  # of congruent parts, shape (k, 8); None: coded without
     turn: Turn = UNTURNED  # of its axes to those of the mesh
+    learnt: bool = True  # whether models of congruent parts start with what other meshes taught
 
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
@@ -38,9 +39,12 @@ class Grid:
     @property
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
-        light, congruence = int(self.light), 0 if self.transforms is None else 1 + len(self.transforms)
-        coded = {"light": EXACT if self.exact else light, "congruence": congruence, "turn": self.turn}
+        congruence = 0 if self.transforms is None else 1 + len(self.transforms) + 17 * self.learnt
+        coded = {"light": EXACT if self.exact else int(self.light), "congruence": congruence, "turn": self.turn}
         return {"center": self.origin, "scale": self.step, "grid": self.largest} | coded
+
+
+UNIT = Grid((0.0, 0.0, 0.0), 1.0, ())
 
 
 def grid_of(header: Header) -> Grid:
@@ -52,10 +56,8 @@ def grid_field(
     faces: Indices, largest: Sequence[int], coded: Levels, light: int = 0, grid: Grid | None = None, exact: Any = None
 ) -> Field:
     """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats in their cells."""
-    field = Field(faces, np.ascontiguousarray(coded, np.int32))
-    origin, step = ((0.0, 0.0, 0.0), 1.0) if grid is None else (grid.origin, grid.step)
-    transforms = None if grid is None else grid.transforms
-    field.grid(np.array(largest, np.int32), light, np.array(origin, np.float64), step, exact, transforms)
+    field, ends, grid = Field(faces, np.ascontiguousarray(coded, np.int32)), np.array(largest, np.int32), grid or UNIT
+    field.grid(ends, light, np.array(grid.origin, np.float64), grid.step, exact, grid.transforms, grid.learnt)
     return field
 
 

@@ -18,7 +18,7 @@ from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import Target
-from bsm.codec.static.ways.grid import Grid
+from bsm.codec.static.ways.grid import SAMPLE, Grid, encode_grid, grid_of, sampled_size
 from bsm.files.mesh import read_mesh
 from tools.surgery import with_header
 from tools.vectors.good_congruence import about, mirrors
@@ -58,7 +58,7 @@ def test_copies_cost_little(turn):
     plain, both = (b"".join(draft.frames) for draft in coded(mesh, 15))
     assert len(both) < 0.75 * len(plain), "two of three parts are images of the first"
     assert version_of(both) == 17 and version_of(plain) == 16
-    assert header_of(both).congruence > 1 and header_of(plain).congruence == 0
+    assert header_of(both).transforms > 0 and header_of(plain).congruence == 0
     assert (decode(both).positions == decode(plain).positions).all()
     assert (decode(both).faces == decode(plain).faces).all()
 
@@ -75,7 +75,7 @@ def test_transforms_that_do_not_pay_are_left_out():
     prepared = Encoder(mesh, EncodeOptions(grid=8, congruence=True))._input.prepared
     both = congruent(prepared, rounded(prepared, 8))
     some = paying(prepared, both)
-    assert some.size < both.size and 1 < some.header.congruence < both.header.congruence
+    assert some.size < both.size and 0 < some.header.transforms < both.header.transforms
     assert (decode(b"".join(some.frames)).positions == both.decoded).all()
 
 
@@ -131,10 +131,24 @@ def test_transforms_are_coded_as_near_as_they_can_be(seed, cells):
 
 def test_transforms_that_are_missing_are_refused():
     data = b"".join(coded(copies(bumpy(4), mirrors()[:1]), 11)[1].frames)
-    assert header_of(data).congruence == 2
-    for count in (1, 3, 17):
+    assert header_of(data).transforms == 1
+    for count in (1, 2, 3, 17, 18, 20, 34):
         with pytest.raises((CorruptError, TruncatedError)):
             decode(with_header(data, congruence=count))
+
+
+def test_streams_and_their_estimates_have_a_learnt_start():
+    mesh = copies(bumpy(8, 48, 30), mirrors()[:1])
+    draft = coded(mesh, 12)[1]
+    prepared = Encoder(mesh, EncodeOptions(grid=12))._input.prepared
+    faces, places, grid = prepared.mesh.faces, draft.places, grid_of(draft.header)
+    assert places is not None and len(places) > SAMPLE
+    learnt = replace(grid, transforms=transforms_of(prepared, grid))
+    not_learnt = replace(learnt, learnt=False)
+    assert learnt.fields["congruence"] == draft.header.congruence == not_learnt.fields["congruence"] + 17
+    assert encode_grid(faces, learnt, places)[0] in draft.body
+    less, more = (sampled_size(faces, either, places) for either in (learnt, not_learnt))
+    assert less < more
 
 
 @pytest.mark.real
