@@ -24,7 +24,7 @@ for (const [what, [most, files]] of Object.entries(LOADS)) {
     });
 }
 
-test("the page of tiles is at most 270000 bytes as `bsm view` sends it", () => {
+test("the page of tiles is at most 271000 bytes as `bsm view` sends it", () => {
     const sizes = ["viewer.js", "small.wasm"].map((name) => gzipSync(readFileSync(join(VIEWER, name)), { level: 9 }).length);
-    assert.ok(sizes[0] + sizes[1] <= 270_000, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
+    assert.ok(sizes[0] + sizes[1] <= 271_000, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
 });
