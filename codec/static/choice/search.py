@@ -142,7 +142,7 @@ class Search:
             return point if self._size(point) <= most_bytes else None
         bounds, found, saved = Bounds(self._measures, contract), list[tuple[float, Draft]](), 0.0
         for _ in range(REFINED):
-            plain = self._best(bounds, most_bytes + saved)
+            plain = self._best(bounds, most_bytes, saved)
             if plain is None:
                 break
             if self._size(plain.congruent) <= most_bytes:
@@ -152,17 +152,17 @@ class Search:
                 break
         return paying(self._prepared, min(found, key=itemgetter(0))[1]) if found else None
 
-    def _best(self, bounds: Bounds, most_bytes: float) -> Candidate | None:
-        """The best candidate that takes at most `most_bytes` without congruent parts."""
+    def _best(self, bounds: Bounds, most_bytes: float, saved: float) -> Candidate | None:
+        """The best candidate that takes at most `most_bytes`, a grid `saved` more, without congruent parts."""
         grid = Gridded(self._prepared, bounds)
-        found = list(grid.made())
+        found = [made for made in grid.made() if self._size(made.draft) <= most_bytes + saved]
         grid = grid.in_frame()
         for way in self._ways(bounds, grid):
             fitting: dict[float, Candidate] = {}
 
             def excess(fineness: float, way: Way = way, fitting: dict[float, Candidate] = fitting) -> float:
                 candidate = way.at(1.0 / fineness)
-                over = math.log(self._size(candidate.draft) / most_bytes)
+                over = math.log(self._size(candidate.draft) / (most_bytes + saved * isinstance(way, Gridded)))
                 if over <= 0.0:
                     fitting[fineness] = candidate
                 return over
@@ -170,8 +170,7 @@ class Search:
             with suppress(LimitError):
                 secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
             found += [fitting[finest] for finest in sorted(fitting)[-1:]]
-        found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c)]
-        return min(found, key=bounds.quality, default=None)
+        return min(filter(bounds.keeps, found), key=bounds.quality, default=None)
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look

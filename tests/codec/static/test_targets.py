@@ -69,6 +69,12 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
     assert reached[kind] >= (value - 0.25 if kind == "nmsve_db" else 0.95 * value)
 
 
+def test_blocks_get_no_room_that_only_grids_give_back() -> None:
+    mesh = torus(48, 32)  # of which congruent parts save 3 of 12 bits of a vertex
+    options = EncodeOptions(block_size=200, contract=None, target=Target("bpv", 9.0))
+    assert 8 * Encoder(mesh, options).result().size >= 0.75 * 9.0 * len(mesh.positions)
+
+
 @pytest.mark.parametrize("kind, value", [("theta_deg", 4.0), ("size", 2500.0)])
 def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
     mesh = torus(60, 30)
