@@ -28,8 +28,7 @@ def quaternion_of(turn: Matrix) -> Matrix:
     products, trace = np.empty((4, 4)), np.trace(turn)
     products[0] = products[:, 0] = trace, x, y, z
     products[1:, 1:] = turn + turn.T - trace * np.eye(3)
-    found: Matrix = np.linalg.eigh(products)[1][:, 3]
-    return found
+    return np.asarray(np.linalg.eigh(products)[1][:, 3])
 
 
 def turn_of(positions: Matrix, faces: Faces) -> Turn:

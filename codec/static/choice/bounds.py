@@ -86,7 +86,7 @@ class Candidate:
     unfold: Callable[[], "Candidate | None"] = lambda: None
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     guess: Callable[[], float] | None = None
-    also: Callable[[Draft], Draft] = lambda draft: draft  # the same positions, perhaps in fewer bytes
+    also: Callable[[Callable[[], Draft]], Draft] = lambda make: make()  # the same positions, perhaps in fewer bytes
     like: Callable[[int], int] = lambda transforms: 0  # bytes of a grid with the `transforms` of another header
     decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
 
@@ -97,7 +97,7 @@ class Candidate:
     @cached_property
     def congruent(self) -> Draft:
         """The stream, also predicted by congruent parts where that takes fewer bytes."""
-        return self.also(self.draft)
+        return self.also(lambda: self.draft)
 
     @cached_property
     def size(self) -> float:

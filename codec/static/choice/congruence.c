@@ -338,14 +338,12 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
             s.near[bit >> 6] |= UINT64_C(1) << (bit & 63);
         }
     }
-    int64_t tried = n / TRIED + 1, fitting = n / FITTING + 1, counted = n / COUNTED + 1;
+    int64_t tried = n / TRIED + 1, fitting = n / FITTING + 1, counted = n / COUNTED + 1, fitted = 0, kept = 0;
     count = sort_pool(&s, pool, count, FITTED, tried, LOOSE, 3);
-    int64_t fitted = 0;
     for (int64_t i = 0; i < count; i++) {
         Motion *own = pool + i;
-        if (!fit(&s, own, fitting, LOOSE) || !fit(&s, own, fitting, LOOSE / 2.0) || !fit(&s, own, fitting, CLOSE))
-            continue;
-        pool[fitted++] = *own;
+        if (fit(&s, own, fitting, LOOSE) && fit(&s, own, fitting, LOOSE / 2.0) && fit(&s, own, fitting, CLOSE))
+            pool[fitted++] = *own;
     }
     /* Which vertices each explains: of a vertex and its image the later. */
     int64_t size = (n - 1) / counted + 1;
@@ -356,7 +354,6 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
             int32_t u = nearest_vertex(&s, at, CLOSE);
             if (u >= 0 && u != v) covered.data[size * i + largest(u, v) / counted] = 1;
         }
-    int64_t kept = 0;
     while (kept < found.rows) {
         int64_t best = -1, most = 0;
         for (int64_t i = 0; i < fitted; i++) {

@@ -151,6 +151,7 @@ class Gridded:
     def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
         self._worth, self._turn = worth, turn
+        self.transforms = -1  # with about so many a grid surely takes fewer bytes
         own = turned_by(prepared.mesh.positions, turn, back=True)
         self._positions = prepared.units.into(own) if any(turn) else prepared.positions
         low = box_around(own)[0]
@@ -207,9 +208,9 @@ class Gridded:
         if not may_repeat(self._prepared) or self._bounds.measures.normals is not None:
             return self  # sent normals stay in the axes of the mesh, and may be predicted from the grid
         positions, faces = self._prepared.positions, self._prepared.mesh.faces
-        if not any(turn_of(positions, faces[:: 1 + len(faces) // (8 * SAMPLE)])):
+        if not any(turn := turn_of(positions, faces[:: 1 + len(faces) // (4 * SAMPLE)])):
             return self
-        other = Gridded(self._prepared, self._bounds, turn=turn_of(positions, faces))
+        other = Gridded(self._prepared, self._bounds, turn=turn)
         own, others = (grid.at(self.first).congruent.size for grid in (self, other))
         return other if others < (1.0 - LEAST_SAVED) * own else self
 
@@ -222,6 +223,9 @@ class Gridded:
                 exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step))
                 yield from () if exactly is None else (self._candidate(*exactly),)
 
+    def rounded(self, bits: int) -> Candidate:
+        return self._candidate(*_rounded(self._prepared, bits=bits))
+
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
         light = partial(grid_draft, self._prepared, grid, places, light=True, brief=brief)
@@ -230,6 +234,9 @@ class Gridded:
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
         sampled, few = partial(sampled_size, self._prepared.mesh.faces, grid, places), len(places) <= SAMPLE
         guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
-        also = partial(congruent, self._prepared, coded=coded)
+
+        def also(make: Callable[[], Draft]) -> Draft:
+            return congruent(self._prepared, make(), coded) if self.transforms < 0 else coded(min(self.transforms, 1))
+
         make, like = partial(coded, -1), lambda transforms: coded(min(transforms, 1)).size
         return Candidate(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)

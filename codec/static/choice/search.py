@@ -6,14 +6,13 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from itertools import chain
 from operator import attrgetter, itemgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
-from bsm.codec.static.choice.grids import LEAST_SAVED, Gridded, congruent, may_repeat, paying, rounded
+from bsm.codec.static.choice.grids import LEAST_SAVED, Gridded, may_repeat, paying, rounded
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
@@ -57,6 +56,7 @@ class Search:
         saved, share, parts = self._saved(first), 1.0, -1
         if may_repeat(self._prepared):
             share, parts = first.congruent.size / first.draft.size, first.congruent.header.transforms
+            grid.transforms = parts if share < 1.0 - LEAST_SAVED else -1
         least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
         near = 1.0 if seen or contract.visual == math.inf else ALIKE
         ways = self._ways(bounds, grid, share)
@@ -90,12 +90,14 @@ class Search:
 
     def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
         """Grids of steps that are the same for all promises, each smaller than those before it."""
-        best = min(kept, key=lambda candidate: candidate.congruent.size).congruent
-        like, least, rung = best.header.transforms, best.size, math.floor(RUNGS * math.log2(grid.first))
+        found = min(kept, key=lambda candidate: candidate.congruent.size)
+        best, rung = found.congruent, math.floor(RUNGS * math.log2(grid.first))
+        like, least = best.header.transforms, best.size
         seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
         steps = [2.0 ** ((rung + 1 - finer) / RUNGS) for finer in range(RUNGS + 2 if seen else 2 * RUNGS)]
         made = (list(map(grid.at, steps[at : at + self._ahead])) for at in range(0, len(steps), self._ahead))
-        sized = (zip(some, self._crew.map(lambda made: made.like(like), some), strict=True) for some in made)
+        hoped = ([c for c in some if c.step < found.step or bounds.keeps(c)] for some in made)  # pictures cost less
+        sized = (zip(some, self._crew.map(lambda made: made.like(like), some), strict=True) for some in hoped)
         for candidate, size in chain.from_iterable(sized):
             hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
             if seen and hopeless > few:  # without pictures, all can be tried
@@ -128,11 +130,8 @@ class Search:
             way.first /= 4.0
             if bounds.keeps(way.at(way.first)):
                 return widest(way, bounds) or way.at(way.first)
-        finest = rounded(self._prepared, finest_bits)
-        positions, also = self._prepared.units.into(finest.decoded), partial(congruent, self._prepared)
-        candidate = Candidate(0.0, positions, lambda: finest, also=also, decoded=finest.decoded)
-        if bounds.keeps(candidate):
-            return candidate
+        if bounds.keeps(finest := way.rounded(finest_bits)):
+            return finest
         raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:

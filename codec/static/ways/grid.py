@@ -64,10 +64,8 @@ def grid_field(
 def encode_grid(faces: Indices, grid: Grid, coded: Levels, exact: Positions | None = None) -> list[packets.Grid]:
     """The packets of coded values, shape (n, 3), between 0 and the grid's largest; of `exact` floats in their cells."""
     field, size = grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
-    starts = [*range(0, min(size, 1)), *range(FIRST, size, CHUNK)]
-    counts = [end - start for start, end in pairwise([*starts, size])]
-    chunks = zip(starts, counts, strict=True)
-    return [packets.Grid(start, count, with_lengths(field.write(count))) for start, count in chunks]
+    chunks = pairwise([*range(0, min(size, 1)), *range(FIRST, size, CHUNK), size])
+    return [packets.Grid(start, end - start, with_lengths(field.write(end - start))) for start, end in chunks]
 
 
 def sampled_size(faces: Indices, grid: Grid, coded: Levels, light: int = 0) -> int:
