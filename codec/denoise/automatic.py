@@ -64,9 +64,10 @@ SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 1.0, 0.1, 3.0)
 _OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for width in (0.4, 0.25, 0.55)]
 AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
-FUSED, FUSED_LEAST, FUSED_MOST = 7.0, 0.5, 2.5
-"""For fused views, the weight of bends over the unevenness of the noise, and its bounds: noise of cameras is uneven,
-and too broad to rehearse with; that of volumes is even, and as fine as their cells."""
+FUSED = tuple(Recipe(BENDS, weight, "own", 0.3) for weight in (0.3, 0.6, 0.15, 1.2))
+EVEN, FUSED_UNEVEN, FUSED_MOST = 0.15, 7.0, 2.5
+"""For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
+with: the weight of bends over the unevenness, and its bound."""
 CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
 """For binary volumes; of thick slices, whose stairs are steeper, the width grows with thickness to the power of 2/3."""
 THICK, BENDS_ITERATIONS = 2.5, (8, 12)
@@ -75,7 +76,6 @@ best on smooth shapes; its mean with the other filter loses nothing where detail
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
 STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
-LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
 LEARNT = 0.4  # share of learnt normals in the mean
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
@@ -152,7 +152,7 @@ def choose(
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
-    if finding.kind in ("cells", "steps", "fused"):
+    if finding.kind in ("cells", "steps") or finding.uneven > EVEN:
         return _by_cause(finding)
     full = patient.topology
     members, part = sample(full.faces, finding.levels)
@@ -163,10 +163,9 @@ def choose(
         positions, patient = positions[members], Patient(part, len(members))
         patient.part = lambda: Learnt(*(every[some] for every, some in zip(whole.learnt(given), rows, strict=True)))
         patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
-    candidates = SEEN if finding.view is not None else AXIAL if finding.kind == "axis" else CANDIDATES
+    candidates = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
     share = LEARNT if candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white") else 0.0
-    if finding.view is None:
-        patient.expect(LARGEST_KEEP)
+    patient.expect(max((recipe.keep for recipe in candidates if recipe.needs_coarse), default=0.0))
     goals = named("goal", GOALS, goal)
     rehearsal = Rehearsal(positions, finding.on(members), patient, candidates[0], goals, progress)
     if rehearsal.level.slides:  # noise has moved vertices along the surface, too
@@ -196,7 +195,7 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
     """Choose the filter that suits the cause, without a rehearsal."""
     steps: tuple[Step, ...]
     if finding.kind == "fused":
-        weight = min(max(FUSED * finding.uneven, FUSED_LEAST), FUSED_MOST)
+        weight = min(FUSED_UNEVEN * finding.uneven, FUSED_MOST)
         steps = (Step(Recipe(BENDS, weight, "own", 0.4), 0),)
     elif finding.kind == "steps":
         steps = (Step(Recipe(RAYS, STEP_STRENGTH, "own", 0.25), STEP_ITERATIONS),)

@@ -181,7 +181,7 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
         return None
     amount = np.full(len(positions), level * evidence.edge)
     reason = "noise of views fused on a lattice"
-    return Finding("fused", level * evidence.edge, amount, evidence.edge, reason, uneven=uneven)
+    return Finding("fused", level * evidence.edge, amount, evidence.edge, reason, uneven=uneven, clear=False)
 
 
 def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:

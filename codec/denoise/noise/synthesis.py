@@ -59,7 +59,7 @@ class Synthesis:
 
     def __init__(self, finding: Finding, probe: Probe, tangential: float) -> None:
         self._finding, self._probe, self._tangential = finding, probe, tangential
-        correlated = finding.kind == "correlated"
+        correlated = finding.kind in ("correlated", "fused")
         self._steps, self._strength = _correlation(finding.whiteness, probe) if correlated else (0, 1.0)
 
     def draw(self, positions: Positions, seed: int) -> Positions:

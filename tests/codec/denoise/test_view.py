@@ -5,10 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm.codec.arrays import Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.finding import lattice_step
 from bsm.codec.denoise.noise.view import View, find_view
-from bsm.codec.denoise.surface import Topology
+from bsm.codec.denoise.surface import Floats, Topology
 from bsm.codec.geometry.metrics import theta
 from bsm.files.mesh import read_mesh
 from tests.codec.denoise.denoise_shapes import cube, find, grid, probe_of, sphere
@@ -40,6 +41,26 @@ def test_fused_views_of_a_real_camera_are_known(meshes: Path) -> None:
     result, choice = denoise_automatically(noisy.positions, noisy.faces)
     assert choice.kind == "fused" and not choice.reliable
     assert theta(clean.positions, result, clean.faces) < 7.2
+
+
+def test_noise_of_volumes_is_rehearsed() -> None:
+    """It is even, and as fine as the cells: a filter for the broad noise of cameras leaves 5.5 of its 22 degrees."""
+    pytest.importorskip("vtkmodules")
+
+    def bumpy(places: Positions) -> Floats:
+        return np.asarray(np.linalg.norm(places, axis=-1) - 0.8 - 0.04 * np.sin(9.0 * places).sum(axis=-1))
+
+    step = 2.2 / 43
+    places = np.stack(np.meshgrid(*3 * [np.linspace(-1.1, 1.1, 44)], indexing="ij"), axis=-1)
+    noise = 0.3 * step * np.random.default_rng(3).normal(size=places.shape[:3])
+    corners, faces = isosurface(-bumpy(places) - noise, step, -1.1)
+    middles = corners[faces].mean(axis=1)
+    slopes = [bumpy(middles + 1e-4 * axis) - bumpy(middles - 1e-4 * axis) for axis in np.eye(3)]
+    normals = np.stack(slopes, axis=1) / np.linalg.norm(slopes, axis=0)[:, None]
+    made = Scan(corners, faces, normals, lambda moved: np.abs(bumpy(moved)))
+    result, choice = denoise_automatically(corners, faces)
+    assert choice.kind == "fused" and not choice.reliable
+    assert made.angle(result) < 5.0 and made.rms(result) < 0.5 * made.rms(corners)
 
 
 def test_surfaces_of_fields_without_noise_stay() -> None:
