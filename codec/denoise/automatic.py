@@ -24,9 +24,7 @@ from bsm.codec.denoise.safety import judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
 
-WHOLE = 8000
-PIECE = 2000
-PIECES = 3
+WHOLE, PIECE, PIECES = 6000, 2000, 2  # vertices up to which all are rehearsed on, and of two pieces from there on
 
 
 def sample(faces: Faces, levels: Floats) -> tuple[npt.NDArray[np.int64], Faces]:

@@ -6,8 +6,8 @@
 
 int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
     Longs starts, Ints members);
-int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t begin, Ints seen,
-              Longs reached_starts, Ints reached);
+int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t most, int64_t begin,
+              Ints seen, Longs reached_starts, Ints reached);
 void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals);
 void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances);
 void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, Doubles2 averaged);

@@ -47,17 +47,17 @@ int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts aroun
     return end;
 }
 
-/* Breadth-first from each point over adjacent points within the radius of it, point `begin` on. Returns the point
- * before which it stopped because a row of it might not fit into `reached`. `seen`, one entry a point, holds -1 when
- * the first point is asked for. */
-int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t begin, Ints seen,
-              Longs reached_starts, Ints reached) {
+/* Breadth-first from each point over adjacent points within the radius of it, point `begin` on; of rows of more than
+ * `most` every second, third, ... point. Returns the point before which it stopped because a row of it might not fit
+ * into `reached`. `seen`, one entry a point, holds -1 when the first point is asked for. */
+int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t most, int64_t begin,
+              Ints seen, Longs reached_starts, Ints reached) {
     int64_t end = begin > 0 ? reached_starts.data[begin] : 0;
     reached_starts.data[0] = 0;
     for (int64_t i = begin; i < points.rows; i++) {
         if (end + points.rows > reached.size) return i;
         Vector3 center = row_of(points.data, i);
-        int64_t head = end;
+        int64_t first = end, head = end;
         reached.data[end++] = seen.data[i] = (int32_t)i;
         while (head < end) {
             int32_t g = reached.data[head++];
@@ -69,7 +69,9 @@ int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double
                 if (dot(apart, apart) <= radius * radius) reached.data[end++] = p;
             }
         }
-        reached_starts.data[i + 1] = end;
+        int64_t every = (end - first - 1) / most + 1;
+        for (int64_t k = first; k < end; k += every) reached.data[first++] = reached.data[k];
+        reached_starts.data[i + 1] = end = first;
     }
     return points.rows;
 }

@@ -15,7 +15,7 @@ from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
 Floats = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-CROWD = 32
+CROWD, NO_CROWD = 32, 1 << 31
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,13 +90,14 @@ def without_first(rows: Rows) -> Rows:
     return Rows(rows.starts - np.arange(len(rows.starts)), rows.members[kept])
 
 
-def surroundings(positions: Positions, topology: Topology, radius: float) -> Rows:
-    """Faces that are reached from each face, within a radius in mean distances of adjacent centroids."""
+def surroundings(positions: Positions, topology: Topology, radius: float, most: int = NO_CROWD) -> Rows:
+    """Faces that are reached from each face, within a radius in mean distances of adjacent centroids; of crowds of over
+    `most` faces every second, third, and so on."""
     points = face_geometry(positions, topology.faces).centroids
     radius, count = radius * mean_centroid_distance(points, topology.pairs), len(points)
     starts, seen, reached = np.zeros(count + 1, np.int64), np.full(count, -1, np.int32), np.empty(33 * count, np.int32)
     done = 0
-    while (done := _kernels.reach(points, *topology.patches, radius, done, seen, starts, reached)) < count:
+    while (done := _kernels.reach(points, *topology.patches, radius, most, done, seen, starts, reached)) < count:
         # A row has at most as many members as there are faces; with room for one, the kernel goes on.
         reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
     return Rows(starts, reached[: starts[count]].copy())
