@@ -169,12 +169,6 @@ static bool triangle_of(const Space *s, ConstInts2 faces, ConstInts degrees, int
     return dot3(area, area) > 4.0 * LEAST_AREA * LEAST_AREA;
 }
 
-/* The same, seen in a mirror. */
-static Triangle mirrored(const Triangle *t) {
-    return (Triangle){{t->vertex[1], t->vertex[0], t->vertex[2]}, {t->degree[1], t->degree[0], t->degree[2]},
-        {t->side[0], t->side[2], t->side[1]}};
-}
-
 INLINE uint32_t side_key(const Triangle *t, uint32_t mask) {
     uint32_t hash = 1;
     for (int k = 0; k < 3; k++)
@@ -259,7 +253,10 @@ static void collect_votes(const Space *s, ConstInts2 faces, ConstInts degrees, i
     for (int64_t f = 0; f < faces.rows; f += stride) {
         if (!triangle_of(s, faces, degrees, f, &t)) continue;
         for (int mirror = 0; mirror < 2; mirror++) {
-            Triangle own = mirror ? mirrored(&t) : t;
+            Triangle own = t;
+            if (mirror)
+                own = (Triangle){{t.vertex[1], t.vertex[0], t.vertex[2]}, {t.degree[1], t.degree[0], t.degree[2]},
+                                 {t.side[0], t.side[2], t.side[1]}};
             int32_t g = head[side_key(&own, mask)];
             int pairs = 0;
             for (int walked = 0; g >= 0 && walked < MOST_WALKED && pairs < MOST_PAIRS; walked++, g = next[g]) {

@@ -62,8 +62,7 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
     centered = np.ascontiguousarray(positions - middle)
     kept = _kernels.find_motions(centered, faces, degrees, WORTH, heads, links, covered, room, found)
-    turns = found[:kept, :9].reshape(-1, 3, 3)
-    found[:kept, 9:] += middle - turns @ middle
+    found[:kept, 9:] += middle - found[:kept, :9].reshape(-1, 3, 3) @ middle
     return found[:kept]
 
 
@@ -77,8 +76,7 @@ def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> L
 def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int] | None:
     source = np.abs(turn).argmax(axis=1)
     sign = np.sign(turn[np.arange(3), source])
-    parallel = np.zeros((3, 3))
-    parallel[np.arange(3), source] = sign
+    parallel = np.eye(3)[source] * sign[:, None]
     if sorted(source) == [0, 1, 2] and (np.abs(turn - parallel) * span).max() < 1.0:
         middle = span[source] / 2.0
         moved = turn @ (span / 2.0) + shift

@@ -14,7 +14,7 @@ from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
-from bsm.codec.static.choice.congruence import mirrored_origin, transforms_of
+from bsm.codec.static.choice.congruence import MOST, mirrored_origin, transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
@@ -26,41 +26,21 @@ MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more t
 LEAST_SAVED = 0.03  # of the bytes, by congruent parts or other axes: a share that is worth another try
 
 
-def grid_draft(prepared: Prepared, grid: Grid, places: Levels, light: bool = False, brief: bool = False) -> Draft:
-    """The stream of places on a grid, shape (n, 3), none negative; with the small model, which is quick, if `light`."""
-    grid = replace(grid, light=light or prepared.light)
+def grid_draft(prepared: Prepared, grid: Grid, places: Levels, brief: bool = False, most: float = math.inf) -> Draft:
+    """The stream of places on a grid, shape (n, 3), none negative; cut if its first packet takes more than `most`."""
+    grid = replace(grid, light=grid.light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     coded = encode_grid(prepared.mesh.faces, grid, places)
-    return Draft(header, (*prepared.before_grid, *coded), grid.positions(places), places, brief)
+    first = next(coded)
+    body, begun = (*prepared.before_grid, first), len(first.data)
+    if begun <= most:
+        body += (*coded,)
+    return Draft(header, body, grid.positions(places), places, brief, begun, begun > most)
 
 
 def may_repeat(prepared: Prepared) -> bool:
     """Whether congruent parts are sought."""
     return prepared.congruence and not prepared.light and 0 < prepared.graph.size <= MOST_CONGRUENT
-
-
-def congruent(prepared: Prepared, draft: Draft, coded: Callable[[int], Draft] | None = None) -> Draft:
-    """Return a draft whose grid is also predicted by congruent parts, if that takes fewer bytes."""
-    places, header = draft.places, draft.header
-    if places is None or header.light or not may_repeat(prepared):
-        return draft
-    least, faces, alone = draft, prepared.mesh.faces, grid_of(header)
-    coded = coded or partial(coded_like, prepared, alone, places, draft.may_be_brief)
-    transforms = transforms_of(prepared, alone)
-    for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
-        grid = replace(alone, transforms=some)
-        if len(some) or len(places) <= SAMPLE or sampled_size(faces, grid, places) < sampled_size(faces, alone, places):
-            least = min(least, coded(min(len(some), 1)), key=lambda d: d.size)
-        if least.size < (1.0 - LEAST_SAVED) * draft.size:
-            break
-    return least
-
-
-def coded_like(prepared: Prepared, grid: Grid, places: Levels, brief: bool, transforms: int) -> Draft:
-    """The stream of places on a grid whose congruent parts are coded as those of a header with so many `transforms`."""
-    if transforms >= 0:
-        grid = replace(grid, transforms=transforms_of(prepared, grid) if transforms else np.empty((0, 8), np.int32))
-    return grid_draft(prepared, grid, places, brief=brief)
 
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
@@ -75,7 +55,7 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
         some = finer if i == 4 else kept[:i] + kept[i + 1 :]
         if i == 4 or i < len(kept):
             grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]))
-            coded = grid_draft(prepared, grid, places, brief=draft.may_be_brief)
+            coded = grid_draft(prepared, grid, places, draft.may_be_brief, draft.begun)
             draft, kept = (coded, some) if coded.size < draft.size else (draft, kept)
     return draft
 
@@ -226,17 +206,38 @@ class Gridded:
     def rounded(self, bits: int) -> Candidate:
         return self._candidate(*_rounded(self._prepared, bits=bits))
 
+    def _congruent(self, grid: Grid, places: Levels, coded: Callable[[int], Draft], make: Callable[[], Draft]) -> Draft:
+        """The stream of places on a grid, also predicted by congruent parts if that takes fewer bytes."""
+        if self.transforms >= 0:
+            return coded(self.transforms)
+        draft = least = make()
+        if not may_repeat(self._prepared):
+            return draft
+        sampled, transforms = partial(sampled_size, self._prepared.mesh.faces), transforms_of(self._prepared, grid)
+        for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
+            own = replace(grid, transforms=some)
+            if len(some) or len(places) <= SAMPLE or sampled(own, places) < sampled(grid, places):
+                least = min(least, coded(len(some)), key=lambda d: d.size)
+            if least.size < (1.0 - LEAST_SAVED) * draft.size:
+                break
+        return least
+
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
-        light = partial(grid_draft, self._prepared, grid, places, light=True, brief=brief)
-        coded = lru_cache(partial(coded_like, self._prepared, grid, places, brief))  # streams, made once
+        light = partial(grid_draft, self._prepared, replace(grid, light=True), places, brief)
+        drafts = dict[int, Draft]()
+
+        def coded(transforms: int, most: float = math.inf) -> Draft:
+            kind = min(transforms, 1)
+            if kind not in drafts or drafts[kind].cut:
+                some = None if kind < 0 else transforms_of(self._prepared, grid)[: kind * MOST]
+                drafts[kind] = grid_draft(self._prepared, replace(grid, transforms=some), places, brief, most)
+            return drafts[kind]
+
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
         sampled, few = partial(sampled_size, self._prepared.mesh.faces, grid, places), len(places) <= SAMPLE
         guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
-
-        def also(make: Callable[[], Draft]) -> Draft:
-            return congruent(self._prepared, make(), coded) if self.transforms < 0 else coded(min(self.transforms, 1))
-
-        make, like = partial(coded, -1), lambda transforms: coded(min(transforms, 1)).size
+        also = partial(self._congruent, grid, places, coded)
+        make, like = partial(coded, -1), lambda *given: coded(*given).size
         return Candidate(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)

@@ -17,7 +17,7 @@ from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
-from bsm.codec.static.ways.grid import SAMPLE
+from bsm.codec.static.ways.grid import FIRST, SAMPLE
 from bsm.codec.threads import Crew, threads_of
 
 REFINED = 3  # rounds of spending the bytes that congruent parts save
@@ -92,12 +92,13 @@ class Search:
         """Grids of steps that are the same for all promises, each smaller than those before it."""
         found = min(kept, key=lambda candidate: candidate.congruent.size)
         best, rung = found.congruent, math.floor(RUNGS * math.log2(grid.first))
-        like, least = best.header.transforms, best.size
+        more = LEAST_SAVED * best.size * min(FIRST / self._prepared.graph.size, 1.0)
+        least, like = best.size, (best.header.transforms, best.begun + more)
         seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
         steps = [2.0 ** ((rung + 1 - finer) / RUNGS) for finer in range(RUNGS + 2 if seen else 2 * RUNGS)]
         made = (list(map(grid.at, steps[at : at + self._ahead])) for at in range(0, len(steps), self._ahead))
         hoped = ([c for c in some if c.step < found.step or bounds.keeps(c)] for some in made)  # pictures cost less
-        sized = (zip(some, self._crew.map(lambda made: made.like(like), some), strict=True) for some in hoped)
+        sized = (zip(some, self._crew.map(lambda made: made.like(*like), some), strict=True) for some in hoped)
         for candidate, size in chain.from_iterable(sized):
             hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
             if seen and hopeless > few:  # without pictures, all can be tried

@@ -1,6 +1,6 @@
 """Packets of positions on a grid instead of blocks, and of the layer of refinement on blocks."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -61,11 +61,11 @@ def grid_field(
     return field
 
 
-def encode_grid(faces: Indices, grid: Grid, coded: Levels, exact: Positions | None = None) -> list[packets.Grid]:
-    """The packets of coded values, shape (n, 3), between 0 and the grid's largest; of `exact` floats in their cells."""
+def encode_grid(faces: Indices, grid: Grid, coded: Levels, exact: Positions | None = None) -> Iterator[packets.Grid]:
+    """Make the packets of coded values, shape (n, 3), 0 to the grid's largest; of `exact` floats in their cells."""
     field, size = grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
-    chunks = pairwise([*range(0, min(size, 1)), *range(FIRST, size, CHUNK), size])
-    return [packets.Grid(start, end - start, with_lengths(field.write(end - start))) for start, end in chunks]
+    for start, end in pairwise([*range(0, min(size, 1)), *range(FIRST, size, CHUNK), size]):
+        yield packets.Grid(start, end - start, with_lengths(field.write(end - start)))
 
 
 def sampled_size(faces: Indices, grid: Grid, coded: Levels, light: int = 0) -> int:

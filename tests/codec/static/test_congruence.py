@@ -12,13 +12,16 @@ from scipy.spatial import cKDTree
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.congruence import coded_transforms, transforms_of
-from bsm.codec.static.choice.grids import congruent, paying, rounded
+from bsm.codec.static.choice.grids import Gridded, paying, rounded
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble_encoding import Draft
-from bsm.codec.static.targets import Target
+from bsm.codec.static.preamble_encoding import Draft, Prepared
+from bsm.codec.static.targets import Contract, Target
 from bsm.codec.static.ways.grid import SAMPLE, Grid, encode_grid, grid_of, sampled_size
+from bsm.commands.info import summarize
+from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh
 from tools.surgery import with_header
 from tools.vectors.good_congruence import about, mirrors
@@ -41,11 +44,14 @@ def copies(mesh: TriangleMesh, turns: np.ndarray, apart: float = 20.0) -> Triang
     return together(mesh, *moved)
 
 
-def coded(mesh: TriangleMesh, bits: int) -> tuple[Draft, Draft]:
+def prepared_of(mesh: TriangleMesh, bits: int) -> Prepared:
+    return Encoder(mesh, EncodeOptions(grid=bits, congruence=True))._input.prepared
+
+
+def coded(prepared: Prepared, bits: int) -> tuple[Draft, Draft]:
     """A grid of so many bits, without and with congruent parts."""
-    prepared = Encoder(mesh, EncodeOptions(grid=bits, congruence=True))._input.prepared
-    plain = rounded(prepared, bits)
-    return plain, congruent(prepared, plain)
+    grids = Gridded(prepared, Bounds(Measures(prepared, 1), Contract(0.01)))
+    return rounded(prepared, bits), grids.rounded(bits).congruent
 
 
 def version_of(data: bytes) -> int:
@@ -55,7 +61,7 @@ def version_of(data: bytes) -> int:
 @pytest.mark.parametrize("turn", [mirrors()[0], about(2, 4), about(1, 7), about(0, 5) @ mirrors()[2]])
 def test_copies_cost_little(turn):
     mesh = copies(bumpy(1), np.array([turn, turn @ turn]))
-    plain, both = (b"".join(draft.frames) for draft in coded(mesh, 15))
+    plain, both = (b"".join(draft.frames) for draft in coded(prepared_of(mesh, 15), 15))
     assert len(both) < 0.75 * len(plain), "two of three parts are images of the first"
     assert version_of(both) == 17 and version_of(plain) == 16
     assert header_of(both).transforms > 0 and header_of(plain).congruence == 0
@@ -64,16 +70,16 @@ def test_copies_cost_little(turn):
 
 
 def test_a_mesh_without_congruent_parts_is_coded_as_by_1_0():
-    plain, both = coded(bumpy(2), 12)
-    assert both.frames == plain.frames
+    plain, both = coded(prepared_of(bumpy(2), 14), 14)
+    assert both.header == plain.header and both.body == plain.body
 
 
 def test_transforms_that_do_not_pay_are_left_out():
     small = bumpy(7, 5, 4)
     few = copies(TriangleMesh(0.3 * small.positions + [0.0, 8.0, 0.0], small.faces), np.array([about(1, 7)]), 6.0)
     mesh = together(copies(bumpy(1), mirrors()[:1]), few)
-    prepared = Encoder(mesh, EncodeOptions(grid=8, congruence=True))._input.prepared
-    both = congruent(prepared, rounded(prepared, 8))
+    prepared = prepared_of(mesh, 8)
+    _, both = coded(prepared, 8)
     some = paying(prepared, both)
     assert some.size < both.size and 0 < some.header.transforms < both.header.transforms
     assert (decode(b"".join(some.frames)).positions == both.decoded).all()
@@ -130,7 +136,7 @@ def test_transforms_are_coded_as_near_as_they_can_be(seed, cells):
 
 
 def test_transforms_that_are_missing_are_refused():
-    data = b"".join(coded(copies(bumpy(4), mirrors()[:1]), 11)[1].frames)
+    data = b"".join(coded(prepared_of(copies(bumpy(4), mirrors()[:1]), 11), 11)[1].frames)
     assert header_of(data).transforms == 1
     for count in (1, 2, 3, 17, 18, 20, 34):
         with pytest.raises((CorruptError, TruncatedError)):
@@ -139,14 +145,15 @@ def test_transforms_that_are_missing_are_refused():
 
 def test_streams_and_their_estimates_have_a_learnt_start():
     mesh = copies(bumpy(8, 48, 30), mirrors()[:1])
-    draft = coded(mesh, 12)[1]
+    draft = coded(prepared_of(mesh, 12), 12)[1]
     prepared = Encoder(mesh, EncodeOptions(grid=12))._input.prepared
     faces, places, grid = prepared.mesh.faces, draft.places, grid_of(draft.header)
     assert places is not None and len(places) > SAMPLE
     learnt = replace(grid, transforms=transforms_of(prepared, grid))
     not_learnt = replace(learnt, learnt=False)
     assert learnt.fields["congruence"] == draft.header.congruence == not_learnt.fields["congruence"] + 17
-    assert encode_grid(faces, learnt, places)[0] in draft.body
+    assert next(encode_grid(faces, learnt, places)) in draft.body
+    assert {"congruence", "learnt"} <= set(summarize(inspect_stream(iter(draft.frames)))["extensions"])
     less, more = (sampled_size(faces, either, places) for either in (learnt, not_learnt))
     assert less < more
 
