@@ -43,7 +43,7 @@ def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
 
 
 SIGMA_R = 0.35
-RADIUS, CROWD = 2.0, 64
+RADIUS = 2.0
 VERTEX_ITERATIONS = 10
 """The authors' defaults; with half or twice as many vertex iterations, 1.4 and 0.9 % more of the angle is left."""
 
@@ -58,7 +58,7 @@ class GuidedFilter:
         self, positions: Positions, topology: Topology, within: Callable[[Positions], Positions] = np.asarray
     ) -> None:
         self.topology, self._within = topology, within
-        self._near = surroundings(positions, topology, RADIUS, CROWD)
+        self._near = surroundings(positions, topology, RADIUS)
 
     def step(self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Positions:
         """Positions after one iteration: filter the normals once, then let the vertices follow."""

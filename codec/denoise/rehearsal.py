@@ -31,7 +31,7 @@ LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the
 UNSURE, LEAST = {"correlated": 0.87, "grid": 0.87, "axis": 0.7}, 0.87
 """Kinds whose rehearsal does not show whether detail is lost, as on meshes of few vertices; and the least error there,
 over the rehearsed one."""
-MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
+MOST_DROWNED = 0.1  # share of faces lower than the noise is high, from which on angles cannot be estimated
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
 
 Goal = Callable[[Reference, Positions], float]

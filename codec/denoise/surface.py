@@ -15,7 +15,8 @@ from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
 Floats = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-CROWD, NO_CROWD = 32, 1 << 31
+CROWD = 32
+CROWDED = 16.0  # faces within a distance, over its square: about twice as many as there are of even triangles
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,9 +91,10 @@ def without_first(rows: Rows) -> Rows:
     return Rows(rows.starts - np.arange(len(rows.starts)), rows.members[kept])
 
 
-def surroundings(positions: Positions, topology: Topology, radius: float, most: int = NO_CROWD) -> Rows:
-    """Faces that are reached from each face, within a radius in mean distances of adjacent centroids; of crowds of over
-    `most` faces every second, third, and so on."""
+def surroundings(positions: Positions, topology: Topology, radius: float) -> Rows:
+    """Faces that are reached from each face, within a radius in mean distances of adjacent centroids; of crowds every
+    second, third, ... face."""
+    most = int(CROWDED * radius**2)
     points = face_geometry(positions, topology.faces).centroids
     radius, count = radius * mean_centroid_distance(points, topology.pairs), len(points)
     starts, seen, reached = np.zeros(count + 1, np.int64), np.full(count, -1, np.int32), np.empty(33 * count, np.int32)

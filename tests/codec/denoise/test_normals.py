@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise.normals import FINE_STEPS, FineStep, bilateral_normal_filtering, filter_normals, patch_guidance
-from bsm.codec.denoise.surface import Topology, face_geometry, follow_normals, without_first
+from bsm.codec.denoise.surface import CROWDED, Topology, face_geometry, follow_normals, surroundings, without_first
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, members, sphere
 from tools.noise import gaussian_along_normals
@@ -48,6 +48,21 @@ def test_degenerate_and_non_manifold_meshes_stay_finite(step: FineStep, scale: f
     moved = step(positions, broken, 3)
     assert np.isfinite(moved).all()
     assert (moved[-2] == positions[-2]).all()
+
+
+def test_crowds_are_thinned_out_evenly() -> None:
+    flat, faces = grid(30)
+    crowded = flat * [1.0, 0.02, 1.0]
+    crowded[:, 0] = 30.0 * (flat[:, 0] / 30.0) ** 4
+    near = surroundings(crowded, Topology(faces, len(flat)), 2.0)
+    sizes, owners = np.diff(near.starts), np.repeat(np.arange(len(faces)), np.diff(near.starts))
+    assert (near.members[near.starts[:-1]] == np.arange(len(faces))).all()  # each face is near itself
+    assert CROWDED * 4 / 2 < sizes.max() <= CROWDED * 4
+    centroids = face_geometry(crowded, faces).centroids
+    apart = np.linalg.norm(centroids[near.members] - centroids[owners], axis=1)
+    crowd = owners == sizes.argmax()
+    assert apart[crowd].max() > 0.8 * apart.max()  # not only the nearest ones
+    assert len(np.unique(near.members[crowd])) == sizes.max()
 
 
 def test_the_boundary_stays_where_the_method_says_so() -> None:
