@@ -1,4 +1,5 @@
 /* A picture of a mesh, from one side: a depth buffer, and shades from normals that are interpolated over faces. */
+#include "codec/geometry/geometry.h"
 #include "codec/look/look.h"
 
 #define AMBIENT 0.12f
@@ -134,48 +135,46 @@ INLINE Span crossed(const Group *g, int k, double y, double size) {
     return (Span){first_center(one < other ? one : other, size), behind_center(one < other ? other : one, size)};
 }
 
-INLINE double power_of_two(double x) {
-    union {
-        double number;
-        int64_t bits;
-    } power = {x + WHOLE};
-    power.bits = (int64_t)((uint64_t)(power.bits + 1023) << 52);
-    return power.number;
-}
-
-/* Which pixels each face of up to `rows` rows, and as many columns as `LANES` is, has inside: a byte for each row. */
-INLINE void cover(const Group *g, int rows, double size, uint64_t *inside) {
-    double found[2][LANES] = {{0.0}, {0.0}}, byte = 1.0;
-    for (int j = 0; j < rows; j++, byte = j == 4 ? 1.0 : byte * 256.0) {
-        double *sums = found[j / 4];
+/* The pixels of up to `rows` rows of each face, and how many they are. */
+INLINE void cover(const Group *g, int rows, double size, double (*from)[LANES], double (*to)[LANES], double *inside) {
+    EACH_LANE inside[k] = 0.0;
+    for (int j = 0; j < rows; j++)
         EACH_LANE {
-            double y = g->first[k] + (double)j + 0.5, left = g->left[k];
+            double y = g->first[k] + (double)j + 0.5;
             Span span = crossed(g, k, y, size);
-            double bits = power_of_two(clamped(span.to - left, LANES)) - power_of_two(clamped(span.from - left, LANES));
-            bits = bits > 0.0 ? bits : 0.0;
-            sums[k] += (y < g->end[k] ? bits : 0.0) * byte;
+            from[j][k] = span.from;
+            to[j][k] = y < g->end[k] ? span.to : 0.0;
+            inside[k] += higher(to[j][k] - from[j][k], 0.0);
         }
-    }
-    for (int k = 0; k < LANES; k++) inside[k] = (uint64_t)(int64_t)found[0][k] | (uint64_t)(int64_t)found[1][k] << 32;
 }
 
-/* A face that is drawn: its first corner in the picture, the others from there on, and the normals of all. */
+/* What a face shows at a place from its first corner on: its depth, and how much of its normal is along the light, are
+ * sums of a constant and parts of both coordinates. The squared length of the normal has parts of squares, too. */
 typedef struct {
-    double at[3], second[3], third[3], inverse, normals[9], light[3];
+    double at[2], low, high, depth[3], facing[3], length[6];
     int32_t number;
 } Plane;
 
 INLINE Plane plane_of(Model model, int32_t number, double inverse) {
-    Plane plane = {.inverse = inverse, .number = number};
     Face face = face_at(model, number);
-    for (int i = 0; i < 3; i++) {
-        plane.at[i] = face.a[i];
-        plane.second[i] = face.b[i] - face.a[i];
-        plane.third[i] = face.c[i] - face.a[i];
-        plane.light[i] = model.light[i];
+    const double *a = face.a, *b = face.b, *c = face.c, *light = model.light;
+    const float *normals = model.normals + 9 * (int64_t)number;
+    double across[2] = {(c[1] - a[1]) * inverse, (a[1] - b[1]) * inverse};
+    double down[2] = {(a[0] - c[0]) * inverse, (b[0] - a[0]) * inverse};
+    double second = b[2] - a[2], third = c[2] - a[2], n[3], x[3], y[3];
+    for (int d = 0; d < 3; d++) {
+        n[d] = (double)normals[d];
+        double one = (double)normals[3 + d] - n[d], other = (double)normals[6 + d] - n[d];
+        x[d] = one * across[0] + other * across[1];
+        y[d] = one * down[0] + other * down[1];
     }
-    for (int i = 0; i < 9; i++) plane.normals[i] = (double)model.normals[9 * (int64_t)number + i];
-    return plane;
+    return (Plane){{a[0], a[1]},
+                   a[2] + lower(lower(second, third), 0.0),
+                   a[2] + higher(higher(second, third), 0.0),
+                   {a[2], second * across[0] + third * across[1], second * down[0] + third * down[1]},
+                   {dot3(n, light), dot3(x, light), dot3(y, light)},
+                   {dot3(n, n), 2.0 * dot3(n, x), 2.0 * dot3(n, y), dot3(x, x), 2.0 * dot3(x, y), dot3(y, y)},
+                   number};
 }
 
 typedef double Four __attribute__((vector_size(8 * SPAN)));
@@ -183,52 +182,64 @@ typedef int64_t FourLongs __attribute__((vector_size(8 * SPAN)));
 typedef int64_t HalfLongs __attribute__((vector_size(4 * SPAN)));
 typedef float FourSingles __attribute__((vector_size(4 * SPAN)));
 typedef int32_t FourInts __attribute__((vector_size(4 * SPAN)));
+typedef float Eight __attribute__((vector_size(4 * TILE)));
+typedef int32_t EightInts __attribute__((vector_size(4 * TILE)));
+typedef Eight UnalignedEight __attribute__((aligned(4), may_alias));
 typedef FourSingles UnalignedSingles __attribute__((aligned(4), may_alias));
 typedef FourInts UnalignedInts __attribute__((aligned(4), may_alias));
 
-INLINE Four all_within(Four x) {
-    Four one = (Four){0.0} + 1.0;
-    FourLongs above = x > 0.0, below = x < 1.0;
-    return (Four)(above & ((below & (FourLongs)x) | (~below & (FourLongs)one)));
+/* Each from `low` to `high`. */
+INLINE Four all_within(Four x, double low, double high) {
+    Four least = (Four){0.0} + low, most = (Four){0.0} + high;
+    FourLongs above = x > least;
+    x = (Four)((above & (FourLongs)x) | (~above & (FourLongs)least));
+    FourLongs below = x < most;
+    return (Four)((below & (FourLongs)x) | (~below & (FourLongs)most));
 }
-
-INLINE FourInts chosen(FourInts mask, FourInts one, FourInts other) { return (mask & one) | (~mask & other); }
 
 INLINE void keep(FourInts mask, FourInts values, void *to) {
     UnalignedInts *at = to;
-    *at = chosen(mask, values, *at);
+    *at = (mask & values) | (~mask & *at);
+}
+
+INLINE bool any(FourInts mask) {
+    HalfLongs halves = (HalfLongs)mask;
+    return halves[0] | halves[1];
 }
 
 /* Draw those of `SPAN` columns whose bits are set in `inside`: depths at the centers of pixels, and shades. */
 INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t inside, Canvas on) {
-    const double *b = plane->second, *c = plane->third, *n = plane->normals, *light = plane->light;
+    const double *depth = plane->depth, *light = plane->facing, *square = plane->length;
     const Four lanes = {0.5, 1.5, 2.5, 3.5};
     const FourInts bits = {1, 2, 4, 8};
-    Four across = ((double)column + lanes) - plane->at[0];
-    double down = (double)row + 0.5 - plane->at[1];
-    Four s = all_within((across * c[1] - down * c[0]) * plane->inverse);
-    Four r = all_within((b[0] * down - b[1] * across) * plane->inverse);
-    FourSingles z = __builtin_convertvector((plane->at[2] + s * b[2] + r * c[2] + WHOLE) - WHOLE, FourSingles);
+    Four x = ((double)column + lanes) - plane->at[0];
+    double y = (double)row + 0.5 - plane->at[1];
+    /* In narrow faces, rounding errors are larger than depths and normals. */
+    Four deep = all_within(depth[0] + y * depth[2] + x * depth[1], plane->low, plane->high);
+    FourSingles z = __builtin_convertvector((deep + WHOLE) - WHOLE, FourSingles);
     int64_t pixel = row * on.picture.columns + column;
     FourSingles before = *(const UnalignedSingles *)(on.depth.data + pixel);
     FourInts seen = (z >= before) & ((inside & bits) != 0);
-    HalfLongs any = (HalfLongs)seen;
-    if (!(any[0] | any[1])) return;
-    Four q = 1.0 - s - r;
-    Four nx = q * n[0] + s * n[3] + r * n[6];
-    Four ny = q * n[1] + s * n[4] + r * n[7];
-    Four nz = q * n[2] + s * n[5] + r * n[8];
-    FourSingles facing = __builtin_convertvector(nx * light[0] + ny * light[1] + nz * light[2], FourSingles);
-    FourSingles length = __builtin_convertvector(nx * nx + ny * ny + nz * nz, FourSingles);
-    FourSingles endless = (FourSingles){0.0f} + __builtin_inff();
-    length = (FourSingles)chosen(length > DARK, (FourInts)length, (FourInts)endless);
+    if (!any(seen)) return;
+    double start = square[0] + y * (square[2] + y * square[5]), slope = square[1] + y * square[4];
+    FourSingles facing = __builtin_convertvector(light[0] + y * light[2] + x * light[1], FourSingles);
+    FourSingles length = __builtin_convertvector(start + x * (slope + x * square[3]), FourSingles);
+    FourInts lit = length > DARK + facing * facing;
     for (int k = 0; k < SPAN; k++) length[k] = __builtin_sqrtf(length[k]);
-    facing = (FourSingles)((FourInts)facing & INT32_MAX);
-    FourSingles shades = AMBIENT + DIFFUSE * (facing / length);
-    seen &= (z > before) | (shades > *(const UnalignedSingles *)(on.picture.data + pixel));
+    FourInts share = (FourInts)(facing / length) & lit & INT32_MAX;
+    FourSingles shades = AMBIENT + DIFFUSE * (FourSingles)share;
+    FourInts tied = seen & (z == before);
+    if (any(tied)) seen &= ~tied | (shades > *(const UnalignedSingles *)(on.picture.data + pixel));
     if (on.owner.rows) keep(seen, (FourInts){0} + plane->number, on.owner.data + pixel);
     keep(seen, (FourInts)z, on.depth.data + pixel);
     keep(seen, (FourInts)shades, on.picture.data + pixel);
+}
+
+INLINE void draw_row(const Plane *plane, int64_t row, double from, double to, Canvas on) {
+    for (int64_t column = (int64_t)from; column < (int64_t)to; column += SPAN) {
+        int64_t at = least(column, on.picture.columns - SPAN), last = least((int64_t)to - at, SPAN);
+        draw_span(plane, row, at, (1 << last) - (1 << (column - at)), on);
+    }
 }
 
 INLINE void draw_rows(const Group *g, int at, const Plane *plane, Canvas on) {
@@ -240,36 +251,23 @@ INLINE void draw_rows(const Group *g, int at, const Plane *plane, Canvas on) {
             from[k] = span.from;
             to[k] = span.to;
         }
-        for (int k = 0; k < LANES && row + k < end; k++)
-            for (int64_t column = (int64_t)from[k]; column < (int64_t)to[k]; column += SPAN) {
-                int64_t at = least(column, on.picture.columns - SPAN), last = least((int64_t)to[k] - at, SPAN);
-                draw_span(plane, row + k, at, (1 << last) - (1 << (column - at)), on);
-            }
+        for (int k = 0; k < LANES && row + k < end; k++) draw_row(plane, row + k, from[k], to[k], on);
     }
 }
 
 INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on) {
     Group g;
-    uint64_t inside[LANES];
-    double most = 0.0;
-    bool small[LANES];
+    double from[LANES][LANES], to[LANES][LANES], inside[LANES], most = 0.0;
     prepare(model, numbers, on, &g);
-    for (int k = 0; k < LANES; k++) {
-        double rows = g.end[k] - g.first[k], columns = g.right[k] - g.left[k];
-        small[k] = higher(rows, columns) <= LANES;
-        most = higher(most, small[k] ? rows : 0.0);
-    }
-    cover(&g, (int)most, (double)on.picture.columns, inside);
+    for (int k = 0; k < LANES; k++) most = higher(most, g.end[k] - g.first[k] <= LANES ? g.end[k] - g.first[k] : 0.0);
+    cover(&g, (int)most, (double)on.picture.columns, from, to, inside);
     for (int k = 0; k < count; k++) {
-        if (small[k] ? !inside[k] : !(g.first[k] < g.end[k]) || !(g.left[k] < g.right[k])) continue;
+        bool small = g.end[k] - g.first[k] <= LANES;
+        if (small ? !(inside[k] > 0.0) : !(g.left[k] < g.right[k])) continue;
         Plane plane = plane_of(model, numbers[k], g.inverse[k]);
-        if (!small[k]) draw_rows(&g, k, &plane, on);
-        int64_t row = (int64_t)g.first[k], left = (int64_t)g.left[k];
-        for (uint64_t rows = small[k] ? inside[k] : 0; rows; rows >>= LANES, row++)
-            for (int64_t bits = (int64_t)(rows % (1 << LANES)), column = left; bits; bits >>= SPAN, column += SPAN) {
-                int64_t at = least(column, on.picture.columns - SPAN);
-                draw_span(&plane, row, at, (int32_t)(bits % (1 << SPAN)) << (column - at), on);
-            }
+        if (!small) draw_rows(&g, k, &plane, on);
+        for (int j = 0; small && j < (int)(g.end[k] - g.first[k]); j++)
+            draw_row(&plane, (int64_t)g.first[k] + j, from[j][k], to[j][k], on);
     }
 }
 
@@ -280,13 +278,13 @@ INLINE void find_farthest(Singles2 depth, const int32_t *drawn, Singles2 farthes
             /* The last ones are whole, too, and so overlap. */
             int64_t top = least(TILE * row, depth.rows - TILE), left = least(TILE * column, depth.columns - TILE);
             const float *depths = depth.data + top * depth.columns + left;
-            float found[TILE], *whole = farthest.data + row * farthest.columns + column;
-            for (int k = 0; k < TILE; k++) found[k] = depths[k];
-            for (int64_t y = 1; y < TILE; y++)
-                for (int k = 0; k < TILE; k++) {
-                    float other = depths[y * depth.columns + k];
-                    found[k] = other < found[k] ? other : found[k];
-                }
+            float *whole = farthest.data + row * farthest.columns + column;
+            Eight found = *(const UnalignedEight *)depths;
+            for (int64_t y = 1; y < TILE; y++) {
+                Eight other = *(const UnalignedEight *)(depths + y * depth.columns);
+                EightInts less = other < found;
+                found = (Eight)((less & (EightInts)other) | (~less & (EightInts)found));
+            }
             *whole = found[0];
             for (int k = 1; k < TILE; k++) *whole = found[k] < *whole ? found[k] : *whole;
         }

@@ -345,6 +345,26 @@ def test_of_faces_at_one_place_the_brightest_is_shown():
         assert np.ptp(picture[owner >= 0]) < 1e-6
 
 
+def test_narrow_faces_are_as_bright_as_faces_can_be_and_no_nearer_than_their_corners():
+    """Their depths and shades are sums whose rounding errors are large; the last face is in front of them."""
+    random = np.random.default_rng(3)
+    middles = random.integers(0, 64, (2000, 2)) + 0.5
+    along = np.exp2(random.uniform(0, 40, (2000, 1))) * random.integers(-1, 2, (2000, 2))
+    aside = np.exp2(random.uniform(-48, 6, (2000, 1))) * random.normal(size=(2000, 2))
+    narrow = np.stack([middles + along, middles - along, middles + aside], axis=1)
+    depths = random.uniform(0, 9, (2000, 3, 1))
+    front = [[(-900.0, -900.0, 10.0), (900.0, -900.0, 10.0), (0.0, 900.0, 10.0)]]
+    positions = np.vstack([np.concatenate([narrow, depths], axis=2), front]).reshape(-1, 3)
+    normals = np.tile(np.eye(3, dtype=np.float32).ravel(), (2001, 1))
+    faces, camera = np.arange(6003, dtype=np.int32).reshape(-1, 3), np.r_[np.eye(3, 4).ravel(), 0.6, 0.0, 0.8]
+    canvas = Canvas(64)
+    canvas.draw(positions, faces[:-1], normals, camera)
+    shown = canvas.samples[canvas.owner >= 0]
+    assert len(shown) > 1000 and shown.min() >= np.float32(0.12) and shown.max() <= np.float32(0.9)
+    canvas.draw(positions, faces, normals, camera)
+    assert (canvas.owner == 2000).all()
+
+
 def test_vertices_that_come_to_one_place_are_shaded_as_one():
     coarse = moved(MESH, np.round(MESH.positions / MESH.diagonal * 20) / 20 * MESH.diagonal)
     assert LookMetric(MESH).look(coarse.positions) == look(MESH, coarse)
