@@ -22,13 +22,13 @@ def turned_by(places: Positions, turn: Turn, back: bool = False) -> Positions:
     return np.asarray(places + share * (once + np.cross(axis, once)))
 
 
-def quaternion_of(turn: Matrix) -> Matrix:
-    """The unit quaternion of a rotation, shape (3, 3)."""
-    (_, _, y), (z, _, _), (_, x, _) = turn - turn.T
-    products, trace = np.empty((4, 4)), np.trace(turn)
-    products[0] = products[:, 0] = trace, x, y, z
-    products[1:, 1:] = turn + turn.T - trace * np.eye(3)
-    return np.asarray(np.linalg.eigh(products)[1][:, 3])
+def quaternion_of(turns: Matrix) -> Matrix:
+    """The unit quaternions of rotations, shape (..., 3, 3)."""
+    back, trace = np.swapaxes(turns, -1, -2), np.trace(turns, axis1=-2, axis2=-1)[..., None]
+    products, skew = np.empty((*turns.shape[:-2], 4, 4)), (turns - back)[..., [2, 0, 1], [1, 2, 0]]
+    products[..., 0, :] = products[..., :, 0] = np.concatenate([trace, skew], axis=-1)
+    products[..., 1:, 1:] = turns + back - trace[..., None] * np.eye(3)
+    return np.asarray(np.linalg.eigh(products)[1][..., 3])
 
 
 def turn_of(positions: Matrix, faces: Faces) -> Turn:

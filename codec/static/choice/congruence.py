@@ -69,34 +69,32 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
 def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> Levels:
     """The numbers of transforms x -> turn x + shift of places on a grid, shape (k, 8), of turns, shape (k, 3, 3)."""
     span = np.asarray(largest, np.int64)
-    rows = [_coded(turn, shift, span) for turn, shift in zip(turns, shifts, strict=True)]
-    return np.array([row for row in rows if row is not None], np.int32).reshape(-1, 8)
+    most, middle, moved = int(max(span.max(), 1)), span / 2.0, turns @ (span / 2.0) + shifts
+    source = np.abs(turns).argmax(axis=2)
+    sign = np.sign(np.take_along_axis(turns, source[..., None], axis=2)[..., 0])
+    near = (np.abs(turns - np.eye(3)[source] * sign[..., None]) * span).max(axis=(1, 2)) < 1.0
+    parallel = near & (np.sort(source, axis=1) == np.arange(3)).all(axis=1)
+    kind = 8 * (2 * source[:, 0] + ((source[:, 1] - source[:, 0]) % 3 == 2)) + (sign < 0) @ np.array([1, 2, 4])
+    given = np.rint(moved - sign * middle[source]) + np.where(sign > 0, span[source], 0)
 
+    mirrored = np.linalg.det(turns) < 0.0
+    side = np.where(mirrored, -1.0, 1.0)[:, None, None]
+    quaternion = quaternion_of(side * turns)
+    bits = min(most.bit_length() + 2, MOST_FINENESS)
+    which = np.abs(quaternion).argmax(axis=1)[:, None]
+    unit = np.rint(quaternion / np.take_along_axis(quaternion, which, axis=1) * (1 << bits))
+    a, v = unit[:, :1, None], unit[:, 1:]
+    across = np.cross(v[:, None], np.eye(3)).transpose(0, 2, 1)
+    spun = (
+        (a * a - np.square(v).sum(axis=1)[:, None, None]) * np.eye(3)
+        + 2.0 * v[:, :, None] * v[:, None]
+        + 2.0 * a * across
+    )
+    turned = side * spun / np.square(unit).sum(axis=1)[:, None, None]
+    quarters = np.rint(4.0 * (moved - turned @ middle)) + 12 * most
+    others = unit[np.arange(4) != which].reshape(-1, 3) + (1 << bits)
 
-def _coded(turn: Matrix, shift: Matrix, span: npt.NDArray[np.int64]) -> list[int] | None:
-    source = np.abs(turn).argmax(axis=1)
-    sign = np.sign(turn[np.arange(3), source])
-    parallel = np.eye(3)[source] * sign[:, None]
-    if sorted(source) == [0, 1, 2] and (np.abs(turn - parallel) * span).max() < 1.0:
-        middle = span[source] / 2.0
-        moved = turn @ (span / 2.0) + shift
-        given = np.rint(moved - sign * middle).astype(np.int64)
-        numbers = given + np.where(sign > 0, span[source], 0)
-        order = 2 * int(source[0]) + int((source[1] - source[0]) % 3 == 2)
-        kind = 8 * order + sum(1 << j for j in range(3) if sign[j] < 0)
-        return None if (numbers < 0).any() or (numbers > span + span[source]).any() else [kind, 0, 0, 0, 0, *numbers]
-    mirrored = np.linalg.det(turn) < 0.0
-    quaternion = quaternion_of(-turn if mirrored else turn)
-    bits = min(int(max(span.max(), 1)).bit_length() + 2, MOST_FINENESS)
-    which = int(np.abs(quaternion).argmax())
-    unit = np.rint(quaternion / quaternion[which] * (1 << bits))
-    a, v, (x, y, z) = unit[0], unit[1:], unit[1:]
-    across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    spun = (a * a - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * a * across
-    coded = spun / (unit @ unit) * (-1.0 if mirrored else 1.0)
-    middle = span / 2.0
-    quarters = np.rint(4.0 * (turn @ middle + shift - coded @ middle)).astype(np.int64) + 12 * int(max(span.max(), 1))
-    others = np.delete(unit, which).astype(np.int64) + (1 << bits)
-    if (quarters < 0).any() or (quarters > 24 * max(span.max(), 1)).any():
-        return None
-    return [AXIS_KINDS + int(mirrored), which, *others, *quarters]
+    ends = np.where(parallel[:, None], span + span[source], 24 * most)
+    axial = np.column_stack([kind, np.zeros((len(turns), 4)), given])
+    rows = np.where(parallel[:, None], axial, np.column_stack([AXIS_KINDS + mirrored, which, others, quarters]))
+    return rows[((rows[:, 5:] >= 0) & (rows[:, 5:] <= ends)).all(axis=1)].astype(np.int32)

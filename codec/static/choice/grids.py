@@ -51,10 +51,10 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     grid = grid_of(header)
     sets = transforms_of(prepared, grid)[: header.transforms], transforms_of(prepared, grid, 2.0)
     kept, finer = ([part for part in np.array_split(some, 4) if len(part)] for some in sets)
-    for i in (4, 3, 2):
-        some = finer if i == 4 else kept[:i] + kept[i + 1 :]
-        if i == 4 or i < len(kept):
-            grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]))
+    for i in (5, 4, 3, 2):  # where hardly anything is left to code, models may learn faster from nothing
+        some = kept if i == 5 else finer if i == 4 else kept[:i] + kept[i + 1 :]
+        if i < len(kept) or (i == 4 and not np.array_equal(*sets)) or (i == 5 and 4 * draft.size < len(places)):
+            grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]), learnt=i < 5)
             coded = grid_draft(prepared, grid, places, draft.may_be_brief, draft.begun)
             draft, kept = (coded, some) if coded.size < draft.size else (draft, kept)
     return draft

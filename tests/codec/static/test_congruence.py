@@ -158,6 +158,16 @@ def test_streams_and_their_estimates_have_a_learnt_start():
     assert less < more
 
 
+def test_models_start_from_nothing_where_that_takes_fewer_bytes():
+    side = np.arange(33) / 16.0 - 1.0
+    x, y = np.tile(side, 33), np.repeat(side[::-1], 33)
+    corners = np.arange(33 * 33).reshape(33, 33)
+    a, b, c, d = (part.ravel() for part in (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]))
+    faces = np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3).astype(np.int32)
+    data = encode(TriangleMesh(np.stack([x, y, 2.0 * x * x + y * y], axis=1), faces))
+    assert 0 < header_of(data).congruence <= 17
+
+
 @pytest.mark.real
 @pytest.mark.parametrize("name", ["assets/1002_tray_bottom.STL", "assets/ADIS16480.STL"])
 def test_real_parts_take_fewer_bytes(meshes: Path, name):
