@@ -198,6 +198,9 @@ class Search:
         with suppress(LimitError):  # blocks that decoders would refuse
             size, usual = grid.at(grid.first).size, refined.at(max(refined.first, refined.least)).size
             if size < usual or share * size < usual - refined.base.coded:  # as if larger blocks took nothing
+                if share >= SHAPED and bounds.contract.look < math.inf:  # first what is smaller at the bound, about
+                    most = 3.0 * prepared.graph.size / 8.0 / math.log(2.0)  # bytes that a finer step takes
+                    grids.sort(key=lambda way: way.at(way.first).size + most * bounds.excess(way.at(way.first)))
                 return grids + blocks
         return blocks + grids
 
