@@ -233,11 +233,9 @@ def widest(
 
     with suppress(LimitError):  # blocks that decoders would refuse
         layered = isinstance(way, Refined) and bounds.contract.look < math.inf
-        if tries < TRIES:  # a first step that will do in most cases
-            secant(at, way.first * math.exp(-4.0 * SLACK), way.least, way.most, tries, slack=8.0 * SLACK)
-        else:
-            slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered else SLACK
-            secant(at, way.first, way.least, way.most, tries, slack=slack)
+        quick = tries < TRIES  # a first step that will do in most cases
+        slack = SLACK * (8.0 if quick else 0.25 if tries > TRIES else 2.0 if layered else 1.0)
+        secant(at, way.first * math.exp(-4.0 * SLACK * quick), way.least, way.most, tries, slack=slack)
     sizes = each(size, [found for _, found in kept])
     sized = [(folded, taken, found) for (folded, found), taken in zip(kept, sizes, strict=True)]
     _, least, smallest = min(sized, key=itemgetter(0, 1), default=(False, math.inf, None))
