@@ -36,9 +36,9 @@ STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75
 length of the mean normal around it below which it stands out."""
 STRAYS, STRAY_SHARE, STRAY_USUAL, FARTHER = 25, 0.0018, 1.0, 2.5
 """How many are plainly off, how far nine tenths may be, and how much farther those are: noise alone has fewer."""
-STRAY_FAR, STRAY_LEFT = 1.5, 0.15
-"""Median way back of those plainly off, in mean edges, and the share that may still stand out there: slivers of CAD
-models go 0.1 to 1.3 edges, or a fifth stays."""
+STRAY_FAR, STRAY_LEFT, STRAY_OFF = 1.5, 0.15, 0.9
+"""Of those plainly off: median way back, in mean edges, the share that may still stand out there, and how far they may
+still be off. Slivers of CAD models go 0.1 to 1.3 edges, or a fifth stays, or they are 1.3 off (outliers up to 0.4)."""
 STRAY_TURNS = 2
 HIGH = 2.2  # height over the noise around, from which on vertices are strays where there are many; noise so high gains
 ROUNDS = 40
@@ -92,7 +92,7 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
         middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
         place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
     way = np.median(np.linalg.norm(place - positions, axis=1)[plain])
-    far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces)
+    far = way > STRAY_FAR * mean_edge_length(place, probe.topology.faces) and np.median(distance[plain]) < STRAY_OFF
     return place if far and _spiky(place, probe)[plain].mean() < STRAY_LEFT else positions
 
 
