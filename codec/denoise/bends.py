@@ -8,41 +8,28 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from bsm.codec.arrays import Positions
 from bsm.codec.denoise.surface import Floats, Topology
-from bsm.codec.geometry.metrics import mean_edge_length
 
 BEND = 0.02  # change of slope up to which bends are rounded, not sharp
-ROUNDS, STEPS, EXACT = 6, 120, 1e-5
+ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0
 
 
-def fewer_bends(positions: Positions, topology: Topology, average: sparse.csr_matrix, weight: float) -> Positions:
-    """Positions, shape (n, 3), of fewer bends; their weight is in mean edges, and `average` tells who is where."""
-    middle, unit = positions.mean(axis=0), mean_edge_length(positions, topology.faces)
-    given = found = (positions - middle) / unit
-    bends, lengths = bending(average @ given, topology)
+def fewer_bends(given: Floats, places: Floats, topology: Topology, weight: float) -> Floats:
+    """Values, shape (n, d), of fewer bends over the places, both in mean edges; what stands out counts less."""
+    bends, lengths = bending(places, topology)
+    values, trust = given, np.ones(len(given))
     for turn in range(ROUNDS):
-        found = unbent(found, given, np.ones(topology.n), bends, weight * lengths, BEND, first=turn == 0)
-    return np.asarray(found * unit + middle)
-
-
-def unbent(
-    values: Floats,
-    given: Floats,
-    trust: Floats,
-    bends: sparse.csr_matrix,
-    weights: Floats,
-    least: float,
-    *,
-    first: bool,
-) -> Floats:
-    """Values, shape (n, d), of fewer bends after one round; those below `least` are rounded, in the first half."""
-    bent = np.linalg.norm(bends @ values, axis=1)
-    least = max(least, float(np.median(bent))) if first else least
-    system = (sparse.diags(trust) + bends.T @ sparse.diags(weights / np.maximum(bent, least)) @ bends).tocsr()
-    near = sparse.diags(1.0 / system.diagonal())
-    columns = zip((trust[:, None] * given).T, values.T, strict=True)
-    return np.stack([linalg.cg(system, *each, rtol=EXACT, maxiter=STEPS, M=near)[0] for each in columns], axis=1)
+        bent = np.linalg.norm(bends @ values, axis=1)
+        sharp = np.maximum(bent, BEND if turn else max(BEND, float(np.median(bent))))
+        system = (sparse.diags(trust) + bends.T @ sparse.diags(weight * lengths / sharp) @ bends).tocsr()
+        near = sparse.diags(1.0 / system.diagonal())
+        columns = zip((trust[:, None] * given).T, values.T, strict=True)
+        found = [linalg.cg(system, *each, rtol=EXACT, maxiter=STEPS, M=near)[0] for each in columns]
+        values = np.stack(found, axis=1)
+        off = np.linalg.norm(values - given, axis=1)
+        usual = STAND_OUT * float(np.median(off)) / 0.6745
+        trust = np.minimum(1.0, usual / np.maximum(off, 1e-9)) if usual > 0.0 else trust
+    return values
 
 
 def bending(places: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Floats]:

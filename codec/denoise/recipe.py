@@ -21,6 +21,7 @@ from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, patch_guidance
 from bsm.codec.denoise.surface import Mask, Topology, face_geometry, surface_normals
+from bsm.codec.geometry.metrics import mean_edge_length
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
 LOCAL = "local"
@@ -137,7 +138,10 @@ class Treatments:
             elif recipe.hand_over == BENDS and isinstance(bound, Cells):
                 positions = bound.flattened(self.noisy, self._topology)
             elif recipe.hand_over == BENDS:
-                positions = fewer_bends(self.noisy, self._topology, self._patient.probe.average, recipe.keep)
+                middle, unit = self.noisy.mean(axis=0), mean_edge_length(self.noisy, self._topology.faces)
+                given = (self.noisy - middle) / unit
+                places = self._patient.probe.average @ given
+                positions = middle + unit * fewer_bends(given, places, self._topology, recipe.keep)
             else:
                 smooth = self._patient.smooth(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
                 positions = HAND_OVERS[recipe.hand_over](self.noisy, smooth, self._guided)

@@ -1,7 +1,7 @@
 """Scans of one view: a regular grid of pixels seen from an eye, with noise along the rays of the camera.
 
 The inverse depth of a plane is linear over the pixels. So the filter looks for the surface of fewest bends near the
-measured one, where vertices that stand out count less.
+measured one.
 """
 
 from dataclasses import dataclass
@@ -9,15 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.bends import ROUNDS, bending, unbent
+from bsm.codec.denoise.bends import fewer_bends
 from bsm.codec.denoise.noise.probe import SHARE, Probe
 from bsm.codec.denoise.surface import Floats, Topology
 
 FAR = 1e3  # extents between an eye and the mesh from which on rays are parallel
 REGULAR, ONE_SIDED = 0.08, 0.98
 """Middle distance of pixels from the mean of their neighbors, in edges, and share of the faces seen from one side."""
-BEND = 0.05  # change of slope up to which bends are rounded, not sharp
-STAND_OUT = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,14 +45,7 @@ class View:
     def flattened(self, positions: Positions, topology: Topology, strength: float) -> Positions:
         given = self.heights(positions, topology)[:, None]
         plane = self.plane(positions)
-        bends, lengths = bending(plane / pixel(plane, topology), topology)
-        heights, trust = given.copy(), np.ones(len(given))
-        for turn in range(ROUNDS):
-            weights = strength * self.level * lengths
-            heights = unbent(heights, given, trust, bends, weights, BEND, first=turn == 0)
-            off = np.abs(heights - given)[:, 0]
-            usual = STAND_OUT * float(np.median(off)) / 0.6745
-            trust = np.minimum(1.0, usual / np.maximum(off, 1e-9)) if usual > 0.0 else trust
+        heights = fewer_bends(given, plane / pixel(plane, topology), topology, strength * self.level)
         return self.at(positions, given[:, 0], heights[:, 0])
 
 
