@@ -7,6 +7,7 @@ of meshes is asked for its help always, and run as it stands where there are rea
 import ast
 import inspect
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -124,6 +125,8 @@ def run(folder, script, timeout=300):
     """Run a script in the folder, as somebody would who works there with this checkout."""
     environment = {
         **os.environ,
+        # A wheel for one level of processors compiles in half the time.
+        **({"CMAKE_ARGS": "-DBSM_LEVEL=1"} if platform.machine() == "x86_64" else {}),
         "PATH": f"{folder}/bin:{os.environ['PATH']}",
         "PYTHONPATH": f"{folder}/site:{ROOT}:{ROOT / 'src'}",
     }
@@ -169,7 +172,8 @@ def test_blocks(name, block, folder):
         if re.search(r"^bsm encode bunny\.ply(?! +-f)", block, flags=re.MULTILINE):
             (folder / "bunny.bsm").unlink()
         try:
-            # A server runs until it is stopped; tests/bsm/test_view.py talks to it.
+            # A server runs until it is stopped; tests/bsm/test_view.py talks to it. That C compiles needs no optimizer.
+            block = re.sub(r"^cc -O3 ", "cc -O0 ", block, flags=re.MULTILINE)
             passed(run(folder, re.sub(r"^bsm view .*\n", "", block, flags=re.MULTILINE)))
         finally:
             (folder / "bunny.bsm").write_bytes(stream)

@@ -19,6 +19,7 @@ import numpy.typing as npt
 from tools.amalgamate import ROOT, amalgamated, interface
 
 FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-shared")
+QUICKLY = ("-O1", "-DKERNEL_ONE_TARGET")
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, END_OF_STREAM, ERROR = range(1, 12)
 
@@ -135,9 +136,9 @@ class Decoded:
 
 
 def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None, encodes: bool = False) -> Path:
-    """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these files and flags, whoever asks."""
+    """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these files and flags (QUICKLY, if none)."""
     source, header = files or (amalgamated(), interface())
-    command = [compiler, *FLAGS, *(WARNINGS if files is None or encodes else ["-w"]), *flags]
+    command = [compiler, *FLAGS, *(WARNINGS if files is None or encodes else ["-w"]), *(flags or QUICKLY)]
     name = hashlib.sha256(
         "\0".join([source, header, interface(encodes=True) * encodes, *command]).encode()
     ).hexdigest()[:16]

@@ -99,7 +99,7 @@ CRATE = Path(__file__).parents[2] / "library/rust"
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cargo") is None, reason="no Rust here")
 def test_the_crate_passes_its_tests_and_its_example_runs(tmp_path: Path) -> None:
-    own = {"CARGO_TARGET_DIR": str(tmp_path), "PYTHON": sys.executable, "CFLAGS": "-O1 -DKERNEL_ONE_TARGET"}
+    own = {"CARGO_TARGET_DIR": str(tmp_path), "PYTHON": sys.executable, "CFLAGS": "-O0 -DKERNEL_ONE_TARGET"}
     for command in (["test"], ["run", "--example", "encode"]):
         words = ["cargo", *command, "--offline", "--quiet", "--locked", "--manifest-path", CRATE / "Cargo.toml"]
         done = subprocess.run(words, cwd=tmp_path, env=os.environ | own, capture_output=True, text=True, check=False)
@@ -241,7 +241,10 @@ def test_a_checkout_is_built_by_the_same_command(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_other_processors_decode_the_same() -> None:
-    """A sample; `python -m tools.processors` takes all vectors and processors."""
+    """Large numbers first and products fused; `python -m tools.processors` takes all processors and vectors.
+
+    Zig compiles the C library of each processor anew, which takes longer than everything else here.
+    """
     folder, streams = ROOT / ".cache/processors", sorted((ROOT / "spec/vectors").glob("*/*.bsm"))[::8]
     prepare(folder)
     here = program(folder, "here", ["cc", "-O1"])
@@ -249,8 +252,6 @@ def test_other_processors_decode_the_same() -> None:
     expected = lines([str(here)], folder, streams)
     assert len(expected) == len(streams)
     try:
-        # In turn, since both compile into the folder of the fetched compiler.
-        for name in ("aarch64", "s390x"):
-            assert complaint(folder, name, expected, streams, "-O1") is None, name
+        assert complaint(folder, "s390x", expected, streams, "-O1") is None
     except NotHere as error:
         pytest.skip(str(error))

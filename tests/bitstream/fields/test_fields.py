@@ -44,7 +44,6 @@ def largest_of(name: str, draw) -> list[int]:
 
 
 @named
-@settings(max_examples=100)
 @given(SOUPS, st.sampled_from([0, 9, 2**31 - 1]), KINDS, SEEDS, st.sampled_from([1, 3, 20, 1000]), st.data())
 def test_values_come_back(name, mesh, reach, kind, seed, chunk, data):
     faces, vertices = mesh
