@@ -26,26 +26,11 @@ KERNEL int64_t averaged(ConstSingles2 samples, Singles2 small) {
     return 0;
 }
 
-INLINE void blur(const float *restrict from, float *restrict to, int64_t count, const float *weights) {
+/* One row of a blur along rows, or down columns: `rows` are those that it sums. */
+INLINE void blur(const float *const *rows, float *restrict to, int64_t count, const float *weights) {
     for (int64_t i = 0; i < count; i++) {
-        const float *at = from + i + REACH;
-        float sum = weights[0] * at[0];
-        for (int64_t k = 1; k <= REACH; k++) sum += weights[k] * (at[-k] + at[k]);
-        to[i] = sum;
-    }
-}
-
-/* The same down a column of rows that are kept in a ring; the one at hand is at `middle`. */
-INLINE void blur_down(const float *restrict rows, int64_t stride, int64_t middle, float *restrict to, int64_t count,
-                      const float *weights) {
-    const float *center = rows + middle * stride, *above[REACH], *below[REACH];
-    for (int64_t k = 0; k < REACH; k++) {
-        above[k] = rows + (middle + KEPT - 1 - k) % KEPT * stride;
-        below[k] = rows + (middle + 1 + k) % KEPT * stride;
-    }
-    for (int64_t i = 0; i < count; i++) {
-        float sum = weights[0] * center[i];
-        for (int64_t k = 0; k < REACH; k++) sum += weights[k + 1] * (above[k][i] + below[k][i]);
+        float sum = weights[0] * rows[REACH][i];
+        for (int64_t k = 1; k <= REACH; k++) sum += weights[k] * (rows[REACH - k][i] + rows[REACH + k][i]);
         to[i] = sum;
     }
 }
@@ -73,31 +58,39 @@ KERNEL int64_t contrast(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         scratch.columns < stride || scratch.rows < FIELDS * (KEPT + 2))
         return MISUSED;
     float *padded = scratch.data, *down = padded + FIELDS * stride, *ring = down + FIELDS * stride;
-    float base = (float)steady, most = 0.0f;
+    float base = (float)steady, most[LANES] = {0.0f};
     double found[LANES] = {0.0};
     for (int64_t row = -REACH; row < first.rows + REACH; row++) {
         int64_t place = (row + KEPT) % KEPT, at = row - REACH;
         take_row(first, second, row, stride, padded);
-        for (int field = 0; field < FIELDS; field++)
-            blur(padded + field * stride, ring + (field * KEPT + place) * stride, n, half.data);
+        for (int field = 0; field < FIELDS; field++) {
+            const float *rows[KEPT];
+            for (int64_t k = 0; k < KEPT; k++) rows[k] = padded + field * stride + k;
+            blur(rows, ring + (field * KEPT + place) * stride, n, half.data);
+            for (int64_t k = 0; k < KEPT; k++) rows[k] = ring + (field * KEPT + (row + 1 + k + KEPT) % KEPT) * stride;
+            if (at >= 0) blur(rows, down + field * stride, n, half.data);
+        }
         if (at < 0) continue;
-        for (int field = 0; field < FIELDS; field++)
-            blur_down(ring + field * KEPT * stride, stride, at % KEPT, down + field * stride, n, half.data);
         const float *one = first.data + at * n, *other = second.data + at * n;
-        float *unlike = down;
+        float *unlike = down, *apart = down + stride;
         for (int64_t i = 0; i < n; i++) {
-            float x = down[i], y = down[stride + i], squares = down[SQUARES * stride + i];
+            float x = down[i], y = apart[i], squares = down[SQUARES * stride + i];
             float change = squares - 2.0f * down[PRODUCT * stride + i], spread = squares - (x * x + y * y);
             float weighed = (change > 0.0f ? change : 0.0f) / (base + (spread > 0.0f ? spread : 0.0f));
-            float apart = __builtin_fabsf(x - y);
-            most = apart > most ? apart : most;
+            apart[i] = __builtin_fabsf(x - y);
             unlike[i] = (one[i] < COVERED) | (other[i] < COVERED) ? weighed : 0.0f;
         }
-        for (int64_t i = n; i < n + LANES - 1; i++) unlike[i] = 0.0f;
+        for (int64_t i = n; i < n + LANES - 1; i++) unlike[i] = apart[i] = 0.0f;
         for (int64_t i = 0; i < n; i += LANES)
-            for (int64_t k = 0; k < LANES; k++) found[k] += (double)unlike[i + k];
+            for (int64_t k = 0; k < LANES; k++) {
+                found[k] += (double)unlike[i + k];
+                most[k] = apart[i + k] > most[k] ? apart[i + k] : most[k];
+            }
     }
-    sums.data[0] = 0.0, sums.data[1] = (double)most;
-    for (int k = 0; k < LANES; k++) sums.data[0] += found[k];
+    sums.data[0] = sums.data[1] = 0.0;
+    for (int k = 0; k < LANES; k++) {
+        sums.data[0] += found[k];
+        sums.data[1] = (double)most[k] > sums.data[1] ? (double)most[k] : sums.data[1];
+    }
     return 0;
 }
