@@ -112,12 +112,6 @@ void host_give(Context *context, void *memory, size_t size) {
     context->host.release(context->host.host, memory, size);
 }
 
-/* Where memory begins after a slab's own numbers. */
-static size_t first_of(const Slab *slab) {
-    uintptr_t start = (uintptr_t)(slab + 1);
-    return sizeof *slab + (size_t)(-start & (LINE - 1));
-}
-
 static void drop_slab(Arena *arena) {
     Slab *slab = arena->top;
     arena->top = slab->below;
@@ -143,7 +137,7 @@ void *find_memory(Arena *arena, int64_t count, size_t size) {
         slab = host_memory(arena->context, 1, whole);
         if (slab == NULL) return NULL;
         *slab = (Slab){arena->top, whole, 0};
-        slab->used = first_of(slab);
+        slab->used = sizeof *slab + (size_t)(-(uintptr_t)(slab + 1) & (LINE - 1)); /* memory begins on a line */
         arena->top = slab;
     }
     void *memory = (char *)slab + slab->used;

@@ -18,12 +18,6 @@ void end_attributes(Attributes *attributes) {
     release_all(&attributes->coding);
 }
 
-/* Numbers that an attribute has at most, coded or not (F 5.8). */
-static double numbers_of(const Declaration *d, int64_t faces) {
-    double rows = d->coding == RECOMPUTED ? 3.0 * (double)faces : (double)d->rows;
-    return rows * (d->words > d->components ? d->words : d->components);
-}
-
 /* What the last two attributes with seams have at each edge, 3 times the last: 0 nothing, 1 no seam, 2 seam (D 2.5). */
 static void look_at_others(const Attributes *attributes, int64_t before, Bytes others) {
     int factor = 3;
@@ -88,7 +82,9 @@ static bool find_joins(Attributes *attributes, int64_t index, Attribute *attribu
 bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams,
     Arena *scratch) {
     Context *context = attributes->context;
-    double numbers = attributes->numbers + numbers_of(declaration, attributes->faces.rows);
+    bool recomputed = declaration->coding == RECOMPUTED;
+    double rows = recomputed ? 3.0 * (double)attributes->faces.rows : (double)declaration->rows; /* at most (F 5.8) */
+    double numbers = attributes->numbers + rows * (double)largest(declaration->words, declaration->components);
     if (!charge(context, DECLARED_WORK, 0) || !WITHIN(context, attribute_values, numbers)) return false;
     Attribute *attribute;
     if (!TAKE_ZEROS(attributes->arena, 1, attribute)) return false;

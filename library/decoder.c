@@ -173,11 +173,6 @@ static bool accept_damage(bsmdec *decoder) {
     return decoder->sequence.active ? accept_damage_in_sequence(decoder) : accept_damage_in_mesh(decoder);
 }
 
-/* Nothing follows. */
-static bool accept_end(bsmdec *decoder) {
-    return decoder->sequence.active ? end_sequence(decoder) : finish_mesh(decoder);
-}
-
 /* Read received bytes until there is an event, an error, or nothing more. */
 static bsmdec_event_type advance(bsmdec *decoder) {
     Context *context = &decoder->context;
@@ -186,7 +181,8 @@ static bsmdec_event_type advance(bsmdec *decoder) {
         Packet packet;
         Arrival arrival = next_packet(&decoder->reader, &packet);
         if (arrival == NO_MORE && !decoder->ended)
-            arrival = accept_end(decoder) ? A_PACKET : NOTHING_BUT_AN_ERROR; /* a tolerant reader may find no END */
+            arrival = (decoder->sequence.active ? end_sequence(decoder) : finish_mesh(decoder))
+                ? A_PACKET : NOTHING_BUT_AN_ERROR; /* a tolerant reader may find no END */
         else if (arrival == A_PACKET && !accept_packet(decoder, &packet)) arrival = NOTHING_BUT_AN_ERROR;
         else if (arrival == A_DAMAGE && !accept_damage(decoder)) arrival = NOTHING_BUT_AN_ERROR;
         if (arrival == NO_MORE_YET) return BSMDEC_NEED_DATA;

@@ -338,12 +338,6 @@ bool show(bsmdec *decoder, int64_t index) {
     return decoder->has_positions;
 }
 
-/* A frame that may not come here. */
-static bool misplaced(bsmdec *decoder, const Packet *packet) {
-    FAIL(&decoder->context, CORRUPT, "unexpected section type #", packet->type);
-    return lose_gop(decoder);
-}
-
 static bool accept_block(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (!begin_first_frame(decoder)) return false;
@@ -374,9 +368,9 @@ static bool accept_in_run(bsmdec *decoder, const Packet *packet) {
             return accept_section(decoder, packet);
     }
     if (!enter_gops(decoder)) return false;
-    bool done = packet->type == GOP_FRAME ? accept_gop(decoder, packet)
-                                          : packet->type == END_FRAME || misplaced(decoder, packet);
-    return done && cache_mesh(decoder);
+    if (packet->type == GOP_FRAME) return accept_gop(decoder, packet) && cache_mesh(decoder);
+    if (packet->type != END_FRAME) FAIL(&decoder->context, CORRUPT, "unexpected section type #", packet->type);
+    return (packet->type == END_FRAME || lose_gop(decoder)) && cache_mesh(decoder);
 }
 
 bool accept_in_sequence(bsmdec *decoder, const Packet *packet) {

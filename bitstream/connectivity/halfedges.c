@@ -52,6 +52,27 @@ void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, I
     }
 }
 
+/* Join what `match_halfedges` left at edges of more than two half-edges: each with the first of the next eight in the
+ * opposite direction that is not of the same three corners. So sheets that lie on each other stay whole. Returns
+ * whether any were joined. */
+bool join_sheets(ConstInts origin, ConstInts order, Ints twin) {
+    enum { SHEETS = 8 };
+    bool joined = false;
+    for (int64_t i = 0; i < order.size; i++) {
+        int32_t h = order.data[i], start = origin.data[h], end = origin.data[next_halfedge(h)];
+        for (int64_t j = i + 1; j < least(order.size, i + 1 + SHEETS) && twin.data[h] < 0; j++) {
+            int32_t other = order.data[j];
+            bool opposite = origin.data[other] == end && origin.data[next_halfedge(other)] == start;
+            bool same = origin.data[previous_halfedge(other)] == origin.data[previous_halfedge(h)];
+            if (!opposite || same || twin.data[other] >= 0) continue;
+            twin.data[h] = other;
+            twin.data[other] = h;
+            joined = true;
+        }
+    }
+    return joined;
+}
+
 /* Number the fans by first corner: the fan of each corner, and the vertex of each fan. Returns how many there are. */
 int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex) {
     int64_t size = origin.size;

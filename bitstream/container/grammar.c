@@ -95,18 +95,16 @@ static bool check_run(Context *context, const Grammar *grammar, const Header *he
     return grammar->lossy || check_values_before(context, grammar, MOST_ATTRIBUTES);
 }
 
-static bool is_called(const Declaration *a, const Declaration *b) {
-    return a->name_size == b->name_size && memcmp(a->name, b->name, (size_t)a->name_size) == 0;
-}
-
 static bool check_attribute(Context *context, const Grammar *grammar, const Packet *packet) {
     const Declaration *d = packet->declaration;
     int64_t index = packet->index;
     if (index != grammar->declared_count || index >= grammar->header->attributes)
         return FAIL(context, CORRUPT, "attribute #, where attribute # must follow", index, grammar->declared_count);
-    for (int k = 0; k < MOST_ATTRIBUTES; k++)
-        if (grammar->declared[k] != NULL && is_called(grammar->declared[k], d))
+    for (int k = 0; k < MOST_ATTRIBUTES; k++) {
+        const Declaration *e = grammar->declared[k];
+        if (e != NULL && e->name_size == d->name_size && memcmp(e->name, d->name, (size_t)d->name_size) == 0)
             return FAIL(context, CORRUPT, "attribute # has the name of attribute #", index, k);
+    }
     bool own_seams = d->domain == BSMDEC_CORNER && d->seams_of == 0;
     if (packet->data.size > 0 && !own_seams)
         return FAIL(context, CORRUPT, "seams of an attribute that has none of its own");

@@ -13,12 +13,6 @@ typedef struct {
     float *lower, *upper, *panel, *some;
 } Completion;
 
-INLINE Completion completion_of(int64_t h, float *memory) {
-    int64_t size = whole_vectors(h);
-    float *panel = memory + 2 * size * size;
-    return (Completion){size, memory, memory + size * size, panel, panel + size * LANES};
-}
-
 /* Numbers of scratch that completing h columns takes. */
 int64_t ISA(completion_space)(int64_t h) {
     int64_t size = whole_vectors(h);
@@ -99,8 +93,9 @@ static const double LEAST_PIVOT = 0x1p-20;
 
 /* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no smaller pivot. */
 int64_t ISA(complete_columns)(ConstSingles2 first, Singles scratch, Singles2 whole) {
-    int64_t h = first.columns, n = first.rows, c = whole.columns;
-    Completion own = completion_of(h, aligned(scratch.data));
+    int64_t h = first.columns, n = first.rows, c = whole.columns, size = whole_vectors(h);
+    float *memory = aligned(scratch.data), *panel = memory + 2 * size * size;
+    Completion own = {size, memory, memory + size * size, panel, panel + size * LANES};
     for (int64_t r = 0; r < n; r++)
         for (int64_t b = 0; b < h; b++) whole.data[r * c + b] = first.data[r * h + b];
     if (!(factorize_sum(first, own) >= LEAST_PIVOT)) return false;

@@ -7,11 +7,6 @@ static const double EXACT_SHIFT = 0x1p-5;
 static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
 enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
 
-/* Columns that follow from L, by the rows of a block (M 8.7). */
-static int64_t iterated_columns(const Header *header, int64_t rows) {
-    return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
-}
-
 bool take_factor(Arena *arena, const Patch *patch, Factor *factor) {
     int64_t size = patch->fronts.places.data[patch->fronts.places.size - 1];
     return take_singles(arena, size + 15, &factor->values) && take_singles(arena, patch->size, &factor->inverse);
@@ -74,7 +69,7 @@ bool iterate_columns(Context *context, const Patch *patch, const Factor *factor,
 
 static Schedule schedule_of(const Header *header, int64_t rows, bool follows) {
     const Paper *paper = &header->paper;
-    int64_t most = iterated_columns(header, rows);
+    int64_t most = header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows; /* M 8.7 */
     if (!follows && paper->exact) return (Schedule){EXACT_POWER, EXACT_ITERATIONS, most, 0};
     return (Schedule){paper->power, follows ? paper->iterations : paper->key_iterations, most, header->onorm};
 }

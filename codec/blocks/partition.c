@@ -62,11 +62,6 @@ static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t st
     }
 }
 
-/* Distance to the low end minus that to the high end, and `most` that both may be. */
-INLINE uint32_t key_of(const int32_t *distances, uint32_t v, uint32_t most) {
-    return (uint32_t)(distances[2 * (int64_t)v] - distances[2 * (int64_t)v + 1]) + most;
-}
-
 /* Sort a segment by distance to its low end minus distance to its high end, ties by place in `queue`: a counting sort,
  * in one pass unless there are far more values than vertices. No vertex is farther than `most` from both ends. */
 static void sort_segment(Work *work, uint32_t *segment, int64_t size, uint32_t most) {
@@ -78,7 +73,8 @@ static void sort_segment(Work *work, uint32_t *segment, int64_t size, uint32_t m
     for (uint32_t shift = 0;;) {
         for (int64_t k = 0; k < (int64_t)mask + 2; k++) buckets[k] = 0;
         for (int64_t i = 0; i < size; i++) {
-            digits[i] = key_of(distances, source[i], most) >> shift & mask;
+            const int32_t *low = distances + 2 * (int64_t)source[i], *high = low + 1;
+            digits[i] = ((uint32_t)(*low - *high) + most) >> shift & mask;
             buckets[digits[i] + 1]++;
         }
         for (int64_t k = 0; k < (int64_t)mask; k++) buckets[k + 1] += buckets[k];
