@@ -165,9 +165,9 @@ class LookMetric:
         """How positions, shape (n, 3), look with normals that follow from them."""
 
         def seen() -> Look:
-            placed, faces = self._placed(positions), self._shape.faces
+            placed, known = self._placed(positions), self._shape
             # Vertices that have come to one place are one.
-            return self._seen(self._pictures, placed, faces, Shape.of(placed, faces).normals(placed))
+            return self._seen(self._pictures, placed, known.faces, Shape.of(placed, known.faces, known).normals(placed))
 
         return self._once(seen, positions)
 
