@@ -192,3 +192,17 @@ def test_a_mesh_that_a_file_split_is_compared_where_rounding_merged_vertices():
     decoded = decode(bsm.encode(SAMPLE, grid=4))
     found = bsm.compare(SAMPLE, soup(decoded))
     assert found.merged > 0 and found == bsm.compare(SAMPLE, decoded)
+
+
+def test_other_axes_and_units_are_named(tmp_path, capsys):
+    mesh = torus(9, 7)
+    for name, known in {
+        "a": {"up": "y", "unit": "meters"},
+        "b": {"up": "Y", "unit": "meter"},
+        "c": {"up": "z", "unit": "mm"},
+        "d": {},
+    }.items():
+        bsm.save(TriangleMesh(mesh.positions, mesh.faces, metadata=known), tmp_path / f"{name}.npz")
+    for name, notes in (("b", 0), ("c", 2), ("d", 0)):
+        assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / f"{name}.npz")]) == 0
+        assert capsys.readouterr().err.count("positions are compared as they are") == notes

@@ -33,7 +33,7 @@ from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, 
 from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, plan_trees
 from bsm.jobs.report import largest_error
 from bsm.jobs.task import Facts
-from bsm.lengths import length, unit_of
+from bsm.lengths import length, metres, unit_of
 from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
 COLORED = ("ply", "obj", "glb")  # formats that hold colors of vertices
@@ -148,6 +148,12 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
         return
     with console.progress("reading") as progress:
         whole = [_load(path, args, console) for path in (args.original, args.decoded)]
+        for name, known in (("up", str.lower), ("unit", metres)):
+            own, other = (str(mesh.metadata.get(name, "")) for mesh in whole)
+            if own and other and known(own) != known(other):
+                console.note(
+                    f"positions are compared as they are, and {name} is {printable(own)} and {printable(other)}"
+                )
         original, decoded = (mesh.without_isolated_vertices()[0] for mesh in whole)
         seen: Look | None = None
         more: dict[str, Any] = {}

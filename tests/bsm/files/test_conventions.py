@@ -75,6 +75,9 @@ def test_what_lib3mf_does_not_write_is_named(tmp_path):
     pytest.importorskip("lib3mf")
     with pytest.raises(MeshError, match="lib3mf cannot write"):
         write_mesh(tmp_path / "a.3mf", TriangleMesh(1e12 * TRIANGLE, [[0, 1, 2]]))
+    for faces in ([[0, 1, 1]], [[2, 1, 2], [0, 0, 0]]):
+        with pytest.raises(MeshError, match=f"^{len(faces)} faces? with one vertex twice.*write PLY"):
+            write_mesh(tmp_path / "a.3mf", TriangleMesh(TRIANGLE, [[0, 1, 2], *faces]))
 
 
 def test_a_unit_that_is_unknown_is_kept_and_changes_no_size():

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from bsm.bitstream.errors import MeshError, imported
+from bsm.bitstream.errors import MeshError, counted, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
@@ -24,6 +24,7 @@ _SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of these in meters
 _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")
 _OTHERS = {"Composite": "composite materials", "Multi": "layers of materials"}
 _UUID, _MOST_WARNINGS = 32944, 4  # a warning of each file by most slicers; warnings that notes name
+_ELSE = "write PLY, OBJ or OFF"
 _Painted = Literal["color", "texcoord"]
 
 
@@ -213,7 +214,7 @@ def write_3mf(mesh: TriangleMesh, stem: str) -> formats.Written:
     try:
         return _written(library, mesh)
     except library.ELib3MFException as error:
-        raise MeshError(f"lib3mf cannot write this mesh: {str(error)[:200]}") from error
+        raise MeshError(f"lib3mf cannot write this mesh: {str(error)[:200]}; {_ELSE}") from error
 
 
 def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
@@ -223,7 +224,9 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     scale = size / _SIZES[1] if unit is None and size else 1.0
     model.SetUnit(library.ModelUnit(1 if unit is None else unit))
     if not single_suffices(positions := scale * mesh.positions @ place.turn.T):
-        raise MeshError("the coordinates need double precision, which 3MF does not have; write PLY, OBJ or OFF")
+        raise MeshError(f"the coordinates need double precision, which 3MF does not have; {_ELSE}")
+    if repeated := int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum()):
+        raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
     item = model.AddMeshObject()
     points, corners = positions.astype(np.float32), mesh.faces.astype(np.uint32)
     kinds = ((points, library.Position), (corners, library.Triangle))
