@@ -11,11 +11,11 @@ import pytest
 from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.look.measure import look
-from bsm.codec.static.options import changed
+from bsm.codec.static.options import BALANCED, changed
 from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
-from tests.shapes import patch, torus
+from tests.shapes import patch, together, torus
 
 PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
 ORDER = ("small", "balanced", "fine", "near-lossless")
@@ -73,6 +73,15 @@ def test_the_best_effort_is_smaller_than_all_stricter_presets() -> None:
     usual, best = sizes(mesh, "normal"), sizes(mesh, "best")
     for at, name in enumerate(ORDER):
         assert best[name] <= min(usual[stricter] for stricter in ORDER[at:])
+
+
+@pytest.mark.parametrize("size", [(14, 10), (10, 8)])
+def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> None:
+    one = torus(*size)
+    mesh = together(one, TriangleMesh(one.positions * (1.0, 1.0, -1.0) + (3.1, 0.123, 0.2), one.faces[:, ::-1]))
+    nearby = [replace(BALANCED, look=look) for look in (1.0, 0.999, 0.98, 0.95)]
+    usual = [Encoder(mesh, EncodeOptions(contract=contract, threads=1)).draft().size for contract in nearby]
+    assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= min(usual) < usual[0]
 
 
 @pytest.mark.real
