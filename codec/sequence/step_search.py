@@ -23,7 +23,7 @@ DEVIATIONS = 4.0
 """Standard deviations: an attempt is accepted once all frames that may exceed the bound within them are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
 SLACK, SLACK_OF_ONE = 0.06, 0.15
-"""Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
+"""Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick; twice, of the smallest."""
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
 EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
@@ -31,7 +31,7 @@ EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
 relative to the largest; and the largest logarithm of a weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
 RELIEF = 0.3  # share of the largest change of a weight by which the excess falls, about
-TRIES, ENOUGH = 20, 5  # attempts at a step: at most, and those after which one that keeps the promise suffices
+TRIES, ENOUGH = 20, 5  # attempts at a step: at most, and those after which one that is near the bound suffices
 _PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
 
@@ -55,7 +55,7 @@ class StepSearch:
     def __init__(self, frames: Positions, faces: Faces, promise: Contract, scale: float, threads: int | None) -> None:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._reach = promise.farthest / scale if promise.absolute else promise.farthest
-        self._metrics: dict[int, LookMetric | None] = {}
+        self._metrics: dict[int, LookMetric] = {}
         self._room = KEPT
         self._knots: set[int] = set()
         self.worst_look = 0.0  # of the frames that were drawn of the returned encoding
@@ -65,24 +65,29 @@ class StepSearch:
 
     def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
         """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
-        kept: Found | None = None
-        step, evened, missed, most = first, np.zeros(len(self._frames)), 0, COARSEST_STEP
+        kept: tuple[Found, float, float, Matrix] | None = None
+        step, evened, missed, high = first, np.zeros(len(self._frames)), 0, COARSEST_STEP
         uneven = weighed and len(evened) > 1 and bool(self._knots)
         slack = SLACK if len(evened) > 1 else SLACK_OF_ONE
         for attempt in range(1, TRIES + 1):
-            step = min(max(step, finest), most)
+            step = min(max(step, finest), COARSEST_STEP)
             found = encode(step, np.exp(evened))
             measured = self._measure(list(found.decoded_frames()))
             excess, relief = measured.excess, 0.0
-            if excess <= 0.0 and (kept is None or found.size <= kept.size):
-                kept = found
-                self.worst_look = self._promise.look * max(
-                    (measured.drawn[i] for i in measured.drawn if self._twins[i] == i), default=0.0
-                )
-            enough = attempt >= ENOUGH or (excess > -slack and (attempt > 1 or not uneven))
-            if step == (most if excess <= 0.0 else finest) or (excess <= 0.0 and enough):
+            missed, high = (missed + 1, step) if excess > 0.0 else (0, high)
+            if excess <= 0.0 and (kept is None or found.size <= kept[0].size):
+                kept = found, excess, step, evened
+                shares = (share for frame, share in measured.drawn.items() if self._twins[frame] == frame)
+                self.worst_look = self._promise.look * max(shares, default=0.0)
+            if step == (COARSEST_STEP if excess <= 0.0 else finest):
                 break
-            missed = missed + 1 if excess > 0.0 else 0
+            near = -slack < excess <= 0.0 and (attempt > 1 or not uneven)
+            if kept is not None and (near or attempt >= ENOUGH):
+                if kept[1] > -2.0 * slack or attempt >= ENOUGH + 2:
+                    break  # else it may be far below its bound
+                _, excess, step, evened = kept
+                step, uneven = min(math.sqrt(step * high), step * math.exp(-excess - slack / 2.0)), False
+                continue
             if uneven:
                 change = EVENING * _evening(measured.looks()) / attempt
                 relief = RELIEF * float(change.max())
@@ -90,7 +95,7 @@ class StepSearch:
             step *= math.exp(relief - excess - slack / 2.0 * (1 + missed))
         if kept is None:
             raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {step:.2g}")
-        return kept
+        return kept[0]
 
     def _measure(self, decoded: Sequence[Matrix]) -> Measured:
         """Measure all frames, and draw those that may exceed the bound until one does."""
@@ -114,7 +119,7 @@ class StepSearch:
         twin = int(self._twins[index])
         if twin != index and np.array_equal(decoded[twin], decoded[index]):
             return TWIN * self._look(twin, decoded)
-        metric = self._metrics[index] if index in self._metrics else self._metric(index)
+        metric = self._metrics.get(index) or metric_of(self._frames[index], self._faces, self._threads)
         if metric is None:
             return 0.0
         held = int(_PIXEL * metric.pixels**2)
@@ -122,13 +127,6 @@ class StepSearch:
             self._room -= held
             self._metrics[index] = metric
         return metric.look(decoded[index]).moving / self._promise.look
-
-    def _metric(self, index: int) -> LookMetric | None:
-        """Return the metric of an original frame, or None if nothing of it is seen."""
-        try:
-            return LookMetric(TriangleMesh(self._frames[index], self._faces), threads=self._threads)
-        except MeshError:
-            return None
 
 
 @dataclass(eq=False)
@@ -176,10 +174,10 @@ def _evening(looks: Matrix) -> Matrix:
     return np.asarray(smooth - smooth.mean())
 
 
-def look_of_frame(original: Positions, decoded: Positions, faces: Faces) -> float | None:
-    """How a frame of a moving mesh looks; None if nothing of it can be seen."""
+def metric_of(frame: Positions, faces: Faces, threads: int | None = None) -> LookMetric | None:
+    """Return the metric of an original frame, or None if nothing of it is seen."""
     try:
-        return LookMetric(TriangleMesh(original, faces)).look(decoded).moving
+        return LookMetric(TriangleMesh(frame, faces), threads=threads)
     except MeshError:
         return None
 

@@ -16,7 +16,7 @@ from bsm.codec.events import ConnectivityEvent, EndEvent, FrameEvent, Signal
 from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.sequence.attributes import Expected
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.step_search import look_of_frame, shading_error
+from bsm.codec.sequence.step_search import metric_of, shading_error
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.verification import Original, require, require_attributes, require_positions
 
@@ -56,7 +56,8 @@ class SequenceVerifier:
     @property
     def worst_look(self) -> float | None:
         """The look of the frame whose normals are farthest off; None if nothing of it can be seen."""
-        return look_of_frame(*self._worst[1:]) if self._worst else None
+        metric = metric_of(self._worst[1], self._worst[3]) if self._worst else None
+        return metric.look(self._worst[2]).moving if self._worst and metric else None
 
     def expect_mesh(self, original: Original, carried: Sequence[PreparedAttribute]) -> None:
         """Announce a run, with the attributes that do not move."""

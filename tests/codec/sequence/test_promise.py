@@ -1,6 +1,8 @@
 """Promises that hold in every frame, on what is decoded."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -8,8 +10,9 @@ import pytest
 
 import bsm
 from bsm import Contract
+from bsm.codec.arrays import Matrix
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.step_search import StepSearch, _evening, shading_error
+from bsm.codec.sequence.step_search import Measured, StepSearch, _evening, shading_error
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending
 
@@ -105,14 +108,14 @@ def test_the_encoder_reports_errors_of_decoded_frames(changes: dict[str, Any]) -
 
 
 def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    drawn: list[int] = []
-    make = StepSearch._metric
+    drawn: set[int] = set()
+    look = StepSearch._look
 
-    def noted(search: StepSearch, index: int) -> LookMetric | None:
-        drawn.append(index)
-        return make(search, index)
+    def noted(search: StepSearch, index: int, decoded: Sequence[Matrix]) -> float:
+        drawn.add(index)
+        return look(search, index, decoded)
 
-    monkeypatch.setattr(StepSearch, "_metric", noted)
+    monkeypatch.setattr(StepSearch, "_look", noted)
     positions, faces = bending(40)
     positions[23] += 0.01 * np.random.default_rng(0).standard_normal(positions[23].shape)
     _, original, decoded, found = kept(positions, faces, Contract(0.02, look=1.0))
@@ -120,6 +123,34 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     seen = dict(zip(some, looks(original[some], decoded[some], found), strict=True))
     assert max(seen.values()) <= 1.0 and len(drawn) < 30
     assert max(seen[index] for index in drawn) > 0.9 * max(seen.values())
+
+
+@dataclass
+class Tried:
+    """Frames whose look falls to an eighth where a fold closes, at a step below 0.00014."""
+
+    step: float
+
+    @property
+    def size(self) -> int:
+        return round(1.0 / self.step)
+
+    @property
+    def share(self) -> float:
+        return math.exp(0.35 * math.log(self.step / 0.00014) + 0.3) if self.step > 0.00014 else 0.13
+
+    def decoded_frames(self) -> Iterator[Matrix]:
+        yield np.full((1, 3), self.share)
+
+
+def test_a_search_does_not_end_far_below_its_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    def measured(search: StepSearch, decoded: Sequence[Matrix]) -> Measured:
+        return Measured(float(decoded[0][0, 0]), np.zeros(0), {})
+
+    monkeypatch.setattr(StepSearch, "_measure", measured)
+    search = StepSearch(*bending(4), Contract(0.02, look=1.0), 1.0, 1)
+    found = search.run(lambda step, _: Tried(step), 0.0033, 1e-6, weighed=False)
+    assert 0.9 * 0.00014 < found.step <= 0.00014
 
 
 def test_frames_that_look_worse_weigh_more() -> None:
