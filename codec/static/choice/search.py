@@ -198,6 +198,9 @@ class Search:
         with suppress(LimitError):  # blocks that decoders would refuse
             size, usual = grid.at(grid.first).size, refined.at(max(refined.first, refined.least)).size
             if size < usual or share * size < usual - refined.base.coded:  # as if larger blocks took nothing
+                if share >= SHAPED and bounds.contract.look < math.inf:  # first what is smaller at the bound, about
+                    most = 3.0 * prepared.graph.size / 8.0 / math.log(2.0)  # bytes that a finer step takes
+                    grids.sort(key=lambda way: way.at(way.first).size + most * bounds.excess(way.at(way.first)))
                 return grids + blocks
         return blocks + grids
 
@@ -230,11 +233,11 @@ def widest(
 
     with suppress(LimitError):  # blocks that decoders would refuse
         layered = isinstance(way, Refined) and bounds.contract.look < math.inf
-        if tries < TRIES:  # a first step that will do in most cases
-            secant(at, way.first * math.exp(-4.0 * SLACK), way.least, way.most, tries, slack=8.0 * SLACK)
-        else:
-            slack = SLACK / 4.0 if tries > TRIES else 2.0 * SLACK if layered else SLACK
-            secant(at, way.first, way.least, way.most, tries, slack=slack)
+        quick = tries < TRIES  # a first step that will do in most cases
+        slack = SLACK * (8.0 if quick else 0.25 if tries > TRIES else 2.0 if layered else 1.0)
+        secant(at, way.first * math.exp(-4.0 * SLACK * quick), way.least, way.most, tries, slack=slack)
+    if isinstance(way, Gridded):  # finer ones hardly ever take fewer bytes
+        kept = sorted(kept, key=lambda tried: (not tried[0], tried[1].step))[-2:]
     sizes = each(size, [found for _, found in kept])
     sized = [(folded, taken, found) for (folded, found), taken in zip(kept, sizes, strict=True)]
     _, least, smallest = min(sized, key=itemgetter(0, 1), default=(False, math.inf, None))
