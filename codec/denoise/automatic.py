@@ -173,7 +173,7 @@ def choose(
     rehearsal.rehearse(rehearsal.perform(winner.steps, share), SEED + 1)
     winner = rehearsal.compete(candidates, REHEARSED)
     steps, expected, untreated, reason = winner.steps, winner.error, rehearsal.untreated, finding.reason
-    forecast = rehearsal.forecast(winner) if goal == "shading" else None
+    forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
     doubts = {
         "any filter would cost more than it gains": WORTH * untreated,
         # Noise reads 0.15 to 0.95 of it, clean meshes that were taken for noisy 1.1 and 2.1.

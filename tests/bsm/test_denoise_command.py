@@ -21,6 +21,7 @@ from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from tests.bsm import program
 from tests.shapes import torus
 from tools.noise import gaussian_along_normals
+from tools.sampled import ball, voxelized
 
 CLEAN = torus(36, 28, bumps=0.02)
 NOISY = gaussian_along_normals(CLEAN.positions, CLEAN.faces, 0.25, seed=3)
@@ -58,6 +59,15 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
     assert choice.reason in ran.stderr
     before, after = (theta(CLEAN.positions, positions, CLEAN.faces) for positions in (NOISY, denoised.positions))
     assert after < 0.5 * before
+
+
+@pytest.mark.parametrize("goal", ["shading", "shape"])
+def test_no_error_is_promised_where_none_is_known(tmp_path, goal):
+    stairs = voxelized(ball, 30)
+    write_mesh(tmp_path / "stairs.ply", TriangleMesh(stairs.positions, stairs.faces))
+    said = bsm("denoise", tmp_path / "stairs.ply", "-o", tmp_path / "out.ply", "--for", goal).stderr
+    assert "stairs along x, y and z" in said and "the error cannot be estimated here" in said
+    assert " -> 0.00" not in said and "rays" not in said
 
 
 def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):

@@ -180,7 +180,7 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
     if not np.quantile(evidence.broad[everywhere] / levels, 0.25) <= NARROWER:
         return None
     amount = np.full(len(positions), level * evidence.edge)
-    reason = "noise of views fused on a lattice"
+    reason = "noise of a volume, or of views fused on a lattice"
     return Finding("fused", level * evidence.edge, amount, evidence.edge, reason, uneven=uneven, clear=False)
 
 

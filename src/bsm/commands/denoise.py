@@ -228,10 +228,10 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     noise = choice.noise
     yield f"found      {choice.reason}"
     line = f"noise      {noise.normal:.2f} edges ({length(noise.normal * edge, unit)})"
-    if goal == "shape":
+    if not choice.reliable:
+        line += "; the error cannot be estimated here"
+    elif goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
-    elif not choice.reliable:
-        line += "; the normal error cannot be estimated here"
     elif choice.kind != "unsteady":
         least, most = round(choice.expected), round(choice.at_most)
         then = "below 2" if most < 2 else f"{least} to {most}" if least < most else f"{least}"
@@ -243,8 +243,8 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         if share > 0.0:
             recipe = step.recipe
             coarse = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
-            along = "no hand-over" if recipe.hand_over == "none" else f"flattened along rays by {recipe.keep:g}"
-            begun = coarse if recipe.needs_coarse else along
+            other = {"none": "no hand-over", "rays": f"flattened along rays by {recipe.keep:g}"}
+            begun = coarse if recipe.needs_coarse else other.get(recipe.hand_over, "fewest bends")
             way = f"{step.iterations} iterations of the {_GUIDES[recipe.guide]} normal filter"
             yield f"chosen     {100.0 * share:.0f} % {begun}; {way}, sigma_r {recipe.sigma_r:g}"
     if choice.learnt > 0.0:
