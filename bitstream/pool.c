@@ -9,7 +9,7 @@
 #ifdef BSMDEC_POOL
 #include <sys/mman.h>
 
-enum { PAGE = 1 << 21, UNIT = 1 << 15, UNITS = 1 << 11, ENOUGH = 1 << 19 };
+enum { PAGE = 1 << 21, UNIT = 1 << 15, UNITS = 1 << 11, ENOUGH = 1 << 22 };
 
 /* Much more than most decoders take: pages of it that are never written take no memory. */
 struct Region {
