@@ -102,7 +102,7 @@ class Candidate:
     @cached_property
     def size(self) -> float:
         """About how many bytes the stream takes."""
-        return self.draft.size if self.guess is None or "draft" in vars(self) else self.guess()
+        return self.draft.size if self.guess is None else self.guess()
 
 
 def turned(candidate: Candidate) -> Candidate | None:
