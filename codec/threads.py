@@ -65,9 +65,14 @@ class Crew:
             for at in rest:
                 results[at] = work(given[at])
 
-        helping = [self._pool.submit(help_out) for _ in range(min(self._helpers, len(given) - 1))]
+        helping: list[Future[None]] = []
         try:
+            helping.extend(self._pool.submit(help_out) for _ in range(min(self._helpers, len(given) - 1)))
             help_out()
+        except KeyboardInterrupt:  # a thread whose start it interrupts would wait for work when the program ends
+            if pool := self.__dict__.pop("_pool", None):
+                pool.shutdown(wait=False)
+            raise
         finally:
             deque(rest, 0)  # after an error, nothing else begins
             for helper in helping:

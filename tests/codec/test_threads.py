@@ -32,6 +32,27 @@ def test_a_map_stays_close_to_its_consumer():
     results.close()
 
 
+def test_a_thread_whose_start_is_interrupted_ends(monkeypatch):
+    """The interpreter does not know it yet, and waits for it when the program ends."""
+    started, start = [], threading.Thread.start
+
+    def interrupted(thread):
+        start(thread)
+        started.append(thread)
+        raise KeyboardInterrupt
+
+    crew = Crew(3)
+    monkeypatch.setattr(threading.Thread, "start", interrupted)
+    for run in (crew.map, lambda work, items: list(ordered_map(work, items, 3))):
+        with pytest.raises(KeyboardInterrupt):
+            run(abs, range(-9, 0))
+    monkeypatch.undo()
+    for thread in started:
+        thread.join(60)
+        assert not thread.is_alive()
+    assert len(started) == 2 and crew.map(abs, range(-9, 0)) == [*range(9, 0, -1)]
+
+
 @pytest.mark.parametrize("threads", [1, 3])
 def test_errors_come_where_their_result_would(threads):
     def work(number):
