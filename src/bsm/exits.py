@@ -92,5 +92,5 @@ def worded(error: BaseException) -> str:
         if reason == os.strerror(errno.ENOENT) and not is_url(name):
             folder = os.path.dirname(name)
             reason = f"the folder {folder} does not exist" if folder and not os.path.isdir(folder) else reason
-        return f"{error.filename}: {reason}" if error.filename else reason
+        return f"{error.filename or repr('')}: {reason}" if error.filename is not None else reason
     return f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)

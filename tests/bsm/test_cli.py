@@ -279,3 +279,12 @@ def test_the_flags_are_fields_and_show_their_defaults():
             assert not default or "yes" in shown
         elif default is not None:
             assert f"{default}" in shown, flag.field
+
+
+def test_info_counts_one_face_and_an_empty_name_is_shown(tmp_path, capsys):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert main(["encode", "-q", str(tmp_path / "a.obj"), "-o", str(tmp_path / "a.bsm")]) == 0
+    assert main(["info", str(tmp_path / "a.bsm")]) == 0
+    assert "3 vertices, 1 face\n" in capsys.readouterr().out
+    assert main(["info", ""]) == 9
+    assert capsys.readouterr().err == "bsm: '': No such file or directory\n"

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from bsm.bitstream.errors import counted
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.inspection import StreamInfo, inspect_stream
@@ -112,7 +113,7 @@ def _worded(summary: Facts) -> str:
         positions += f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     lines = [
         f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "
-        f"{summary['vertices']} vertices, {summary['faces']} faces",
+        f"{counted(vertices=summary['vertices'], faces=summary['faces'])}",
         positions,
         *_paper_lines(summary),
         *_sequence_lines(summary),
@@ -180,8 +181,9 @@ def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
     return [
         describe_runs([run["first"] for run in runs[1:]]),
         *(
-            f"run {number}: {run['frames']} frames from {run['first']} on, {run['vertices']} vertices, "
-            f"{run['faces']} faces" + shared.get(number, "")
+            f"run {number}: {run['frames']} frames from {run['first']} on, "
+            + counted(vertices=run["vertices"], faces=run["faces"])
+            + shared.get(number, "")
             for number, run in enumerate(runs[:MOST_LISTED])
         ),
     ]
