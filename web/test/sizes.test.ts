@@ -11,7 +11,7 @@ const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [18900, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [85200, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
     "sequences": [77800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [122000, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "everything": [122200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "encoding": [80000, ["encode-worker.js", "encode.js", "encode.wasm"]],
     "the page": [8800, ["three.js", "pool.js"]],
 };
