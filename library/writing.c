@@ -110,10 +110,8 @@ void end_field(CodedField *field) {
     release_all(&field->scratch);
 }
 
-/* The surface of faces that do not repeat a corner, closed by dummies (C 4), and room for its conquest. `sheets` is
- * whether sheets are joined where they may be; then whether any were. */
-static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Surface *surface,
-    bool *sheets) {
+/* The surface of faces that do not repeat a corner, closed by dummies (C 4), and room for its conquest. */
+static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Surface *surface) {
     ConstInts origin = {faces.data, 3 * faces.rows};
     int64_t size = origin.size, closed = size, all;
     Guide *guide = &surface->guide;
@@ -124,7 +122,7 @@ static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, 
         || !take_ints(arena, size, &vertex))
         return false;
     match_halfedges(origin, starts, by_high, order, twin);
-    *sheets = *sheets && join_sheets(origin, const_ints(order), twin);
+    join_sheets(origin, const_ints(order), twin);
     guide->real = find_fans(origin, const_ints(twin), corner, vertex);
     for (int64_t h = 0; h < size; h++) closed += 3 * (twin.data[h] < 0);
     if (closed > INT32_MAX) return FAIL(context, LIMIT, "# faces are too many", faces.rows);
@@ -147,7 +145,7 @@ static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, 
 }
 
 static bool write_connectivity(Context *context, Written given, int64_t vertices, Arena *arena, Arena *scratch,
-    int32_t *order, int32_t *face_order, int32_t *faces, bool *sheets) {
+    int32_t *order, int32_t *face_order, int32_t *faces) {
     int64_t m = given.faces_count, proper = 0, next = 0;
     Surface surface = {.order = {order, vertices}};
     Ints2 own, coded;
@@ -164,8 +162,7 @@ static bool write_connectivity(Context *context, Written given, int64_t vertices
             places.data[next++] = (int32_t)f;
         }
     }
-    if (!close_surface(context, (ConstInts2){own.data, proper, 3}, given.rows, arena, &surface, sheets))
-        return false;
+    if (!close_surface(context, (ConstInts2){own.data, proper, 3}, given.rows, arena, &surface)) return false;
     int64_t fans = surface.guide.real, corners = 3 * (m - proper);
     if (!take_ints(arena, fans + corners, &surface.used)) return false;
     memcpy(surface.used.data + fans, own.data + 3 * proper, (size_t)corners * sizeof *own.data);
@@ -182,26 +179,14 @@ static bool write_connectivity(Context *context, Written given, int64_t vertices
     return true;
 }
 
-/* Sheets are joined only where that saves a quarter: which ones join depends on the order of faces, and so may change
- * when a decoded mesh is coded again. */
 bool write_faces(Writer *writer, Written given, int64_t vertices, Writing *writing, int32_t *order,
     int32_t *face_order, int32_t *faces) {
-    Context *context = &writer->context;
-    Writing before = *writing;
-    int64_t cut = 0, joined = 0;
-    bool done = true, sheets = true, again = true;
-    context->writing = writing;
-    for (int turn = 0; done && again; turn++, sheets = turn != 1) {
-        Arena arena = arena_of(context);
-        writing->size = before.size;
-        writing->count = before.count;
-        done = write_connectivity(context, given, vertices, &arena, &writer->scratch, order, face_order, faces,
-            &sheets);
-        *(sheets ? &joined : &cut) = writing->size - before.size;
-        again = turn == 0 ? sheets : turn == 1 && 4 * joined <= 3 * cut;
-        release_all(&arena);
-    }
-    context->writing = NULL;
+    Arena arena = arena_of(&writer->context);
+    writer->context.writing = writing;
+    bool done = write_connectivity(&writer->context, given, vertices, &arena, &writer->scratch, order, face_order,
+        faces);
+    writer->context.writing = NULL;
+    release_all(&arena);
     return done;
 }
 

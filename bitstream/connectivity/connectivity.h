@@ -239,7 +239,7 @@ INLINE int32_t next_halfedge(int32_t h) { return h % 3 != 2 ? h + 1 : h - 2; }
 INLINE int32_t previous_halfedge(int32_t h) { return h % 3 != 0 ? h - 1 : h + 2; }
 
 void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin);
-bool join_sheets(ConstInts origin, ConstInts order, Ints twin);
+void join_sheets(ConstInts origin, ConstInts order, Ints twin);
 int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex);
 int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner);
 

@@ -52,25 +52,32 @@ void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, I
     }
 }
 
-/* Join what `match_halfedges` left at edges of more than two half-edges: each with the first of the next eight in the
- * opposite direction that is not of the same three corners. So sheets that lie on each other stay whole. Returns
- * whether any were joined. */
-bool join_sheets(ConstInts origin, ConstInts order, Ints twin) {
-    enum { SHEETS = 8 };
-    bool joined = false;
-    for (int64_t i = 0; i < order.size; i++) {
-        int32_t h = order.data[i], start = origin.data[h], end = origin.data[next_halfedge(h)];
-        for (int64_t j = i + 1; j < least(order.size, i + 1 + SHEETS) && twin.data[h] < 0; j++) {
-            int32_t other = order.data[j];
-            bool opposite = origin.data[other] == end && origin.data[next_halfedge(other)] == start;
-            bool same = origin.data[previous_halfedge(other)] == origin.data[previous_halfedge(h)];
-            if (!opposite || same || twin.data[other] >= 0) continue;
-            twin.data[h] = other;
-            twin.data[other] = h;
-            joined = true;
+/* Join what `match_halfedges` left at edges of two triangles that are there more than once, or on both sides: the i-th
+ * half-edge of one with the i-th of the other in the opposite direction. So sheets that lie on each other stay whole,
+ * the same ones in any order of faces. */
+void join_sheets(ConstInts origin, ConstInts order, Ints twin) {
+    for (int64_t begin = 0, end; begin < order.size; begin = end) {
+        int32_t low = low_end(origin.data, order.data[begin]), high = high_end(origin.data, order.data[begin]);
+        int32_t apex = origin.data[previous_halfedge(order.data[begin])], other = apex, apexes = 1;
+        for (end = begin; end < order.size && low_end(origin.data, order.data[end]) == low
+             && high_end(origin.data, order.data[end]) == high; end++) {
+            int32_t third = origin.data[previous_halfedge(order.data[end])];
+            if (third == apex || third == other) continue;
+            other = third;
+            apexes++;
+        }
+        int64_t next[] = {begin, begin};
+        for (int64_t i = begin; i < end && end - begin > 2 && apexes == 2; i++) {
+            int32_t h = order.data[i], wanted = origin.data[previous_halfedge(h)] == apex ? other : apex;
+            if (origin.data[h] != low) continue;
+            for (int64_t *at = next + (wanted == apex); *at < end && twin.data[h] < 0; ++*at) {
+                int32_t g = order.data[*at];
+                if (origin.data[g] != high || origin.data[previous_halfedge(g)] != wanted) continue;
+                twin.data[h] = g;
+                twin.data[g] = h;
+            }
         }
     }
-    return joined;
 }
 
 /* Number the fans by first corner: the fan of each corner, and the vertex of each fan. Returns how many there are. */
