@@ -63,6 +63,7 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
 
 @pytest.mark.parametrize("goal", ["shading", "shape"])
 def test_no_error_is_promised_where_none_is_known(tmp_path, goal):
+    pytest.importorskip("vtkmodules")
     stairs = voxelized(ball, 30)
     write_mesh(tmp_path / "stairs.ply", TriangleMesh(stairs.positions, stairs.faces))
     said = bsm("denoise", tmp_path / "stairs.ply", "-o", tmp_path / "out.ply", "--for", goal).stderr
