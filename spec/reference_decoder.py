@@ -135,8 +135,9 @@ def frames_of(stream):  # F 2 and F 3: yields (type, payload, offset of the tag)
         crc = binascii.crc_hqx(body, 0) if size == 2 else zlib.crc32(body)
         require(crc == int.from_bytes(stream[end : end + size], "little"), "checksum of a frame is wrong")  # F 3.3
         yield kind, stream[start:end], offset
-        if kind == HEADER and stream[start:end].startswith(BRIEF):
-            kind = END  # F 11.1
+        if kind == HEADER and (entries := brief_entries(stream[start:end])):  # F 11.1
+            yield from ((METADATA, notes, offset) for _, notes in entries[1:])
+            kind = END
         offset = end + size
     require(offset == len(stream), "data after END")  # F 2.3
 
@@ -164,12 +165,18 @@ FIELDS = {
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
 EXTENSIONS |= {19: "extension paper", 21: "extension paper"}
 EXTENSIONS[22] = "extension congruence"
-BRIEF = b"\x81\x17", b"\x81\x19"  # how the payload of a brief stream begins: a map of one entry, with key 23 or 25
 
 
-def brief_fields(payload):  # F 11.2: fields of the header, the payload of CONNECTIVITY, and positions
-    ((key, value),) = canonical_map(payload)
-    require(type(value) is bytes, "brief has a wrong type")
+def brief_entries(payload):  # F 11.1: the map of a brief header, nothing of another one
+    if payload[1:2] not in (b"\x17", b"\x19"):
+        return ()
+    entries = canonical_map(payload)
+    return entries if [key for key, _ in entries[1:]] in ([], [26]) else ()
+
+
+def brief_fields(entries):  # F 11.2: fields of the header, the payload of CONNECTIVITY, and positions
+    key, value = entries[0]
+    require(type(value) is bytes and type(entries[-1][1]) is bytes, "brief has a wrong type")
     n, m, *grid, congruence, rest = varints(value, 6)
     length = 16 if key == 23 else 28
     require(len(rest) >= length, "numbers are missing")
@@ -188,8 +195,8 @@ def brief_fields(payload):  # F 11.2: fields of the header, the payload of CONNE
 
 def parse_header(payload):
     require(len(payload) <= 65536, "a header of too many bytes")  # F 4.9
-    if payload.startswith(BRIEF):
-        h = {name: field[4] for name, field in FIELDS.items()} | brief_fields(payload)[0]
+    if entries := brief_entries(payload):
+        h = {name: field[4] for name, field in FIELDS.items()} | brief_fields(entries)[0]
         return agreeing(h, set())
     h, entries, names = {}, canonical_map(payload), {field[0]: name for name, field in FIELDS.items()}
     require(all(type(key) is int for key, _ in entries), "a key is not an integer")  # F 4.1
@@ -281,8 +288,8 @@ def read_frames(stream, packets):
             require(count == number, "END counts other frames")
             require(int.from_bytes(crc[:4], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         last, header = rank, header or parsed
-        if kind == HEADER and payload.startswith(BRIEF):  # F 11.1
-            _, faces, values = brief_fields(payload)
+        if kind == HEADER and (entries := brief_entries(payload)):  # F 11.1
+            _, faces, values = brief_fields(entries)
             packets |= {CONNECTIVITY: [faces], GRID: [(0, header["vertices"], values)], END: [b""]}
         covered += parsed[1] if kind in (GRID, REFINEMENT) else 0
         packets.setdefault(kind, []).append(parsed)

@@ -83,7 +83,7 @@ def spans_of(stream: bytes) -> Iterator[Span]:
         size = checksum_size(kind, length)
         if cursor.take(size) != checksum(size, body):
             raise CorruptError(f"checksum of the frame at byte {start} is wrong")
-        if kind == FrameType.HEADER and payload.startswith(BRIEF_START):
+        if kind == FrameType.HEADER and _begins_brief(payload):
             yield from spans_of(stream_of(brief_frames(payload), stream[PREAMBLE_BYTES - 1]))
         else:
             yield Span(kind, payload, start, cursor.at - start)
@@ -91,7 +91,7 @@ def spans_of(stream: bytes) -> Iterator[Span]:
 
 def brief_frames(payload: bytes) -> Frames:
     """The frames for which that of a brief stream stands, without END."""
-    ((key, value),) = header_entries(payload).items()
+    (key, value), *notes = header_entries(payload).items()
     if not isinstance(value, bytes):
         raise CorruptError("a brief stream without bytes")
     cursor = Cursor(value)
@@ -101,7 +101,8 @@ def brief_frames(payload: bytes) -> Frames:
     header = header_frame(vertices=n, faces=m, grid=grid, congruence=congruence, scale=scale, center=center, **more)
     connectivity = cursor.take(cursor.varint())
     values = write_varint(0) + write_varint(n) + cursor.rest()
-    return [header, (int(FrameType.CONNECTIVITY), connectivity), (int(FrameType.GRID), values)]
+    named = [(int(FrameType.METADATA), packed) for _, packed in notes if isinstance(packed, bytes)]
+    return [header, *named, (int(FrameType.CONNECTIVITY), connectivity), (int(FrameType.GRID), values)]
 
 
 def first_payload(stream: bytes) -> bytes:
@@ -112,7 +113,11 @@ def first_payload(stream: bytes) -> bytes:
 
 def is_brief(stream: bytes) -> bool:
     """Whether one frame is the whole stream."""
-    return first_payload(stream).startswith(BRIEF_START)
+    return _begins_brief(first_payload(stream))
+
+
+def _begins_brief(payload: bytes) -> bool:
+    return payload[1:2] in (bytes([BRIEF]), bytes([BRIEF_TURNED]))
 
 
 def frames_of(stream: bytes) -> Frames:
@@ -176,7 +181,6 @@ def _is_later(frame: tuple[int, bytes]) -> bool:
         return False
 
 
-BRIEF_START = bytes([0x81, BRIEF]), bytes([0x81, BRIEF_TURNED])
 LATER = {HEADER_FIELDS[name].key for name in ("onorm", "congruence", "turn")}
 PARTS = {"paper": tuple(fields_of(Paper)), "sequence": ("frames", "gop_frames")}
 """Fields of the header that are lists of numbers with names of their own."""

@@ -4,7 +4,7 @@
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
-    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED,
+    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED, BRIEF_METADATA,
 };
 
 static const Field FIELDS[] = {
@@ -47,6 +47,8 @@ static void set_header(const Record *record, Header *header) {
     const double(*number)[MOST_LIST] = record->number;
     const int *count = record->count;
     *header = (Header){
+        .brief = header->brief, .connectivity = header->connectivity, .values = header->values,
+        .metadata = header->metadata,
         .vertices = (int64_t)number[VERTICES][0], .faces = (int64_t)number[FACES][0],
         .blocks = (int64_t)number[BLOCKS][0],
         .block_size = (int64_t)number[BLOCK_SIZE][0], .coefficients = (int64_t)number[COEFFICIENTS][0],
@@ -149,39 +151,40 @@ static bool check_header(Context *context, const Record *record, const Header *h
 }
 
 /* The header of a brief stream, all of whose fields are one of bytes, and what follows it there (F 11). */
-static bool parse_brief(Context *context, Span payload, Record *record, Span *faces, Span *values) {
+static bool parse_brief(Context *context, const Map *map, Record *record, Header *header) {
     static const uint8_t KEYS[] = {VERTICES, FACES, GRID, GRID, GRID, CONGRUENCE, SCALE, CENTER, CENTER, CENTER, TURN,
         TURN, TURN};
-    Cursor cursor = {context, {payload.data + 3, payload.size - 3}};
-    Value value = take_single(&cursor, payload.data[2]);
-    if (!agrees(context, value.kind == BINARY && cursor.left.size == 0,
-            "a brief header that is not one value of bytes"))
+    Cursor cursor = {context, map->value[0].bytes};
+    const Value *last = &map->value[map->count - 1];
+    if (!agrees(context, map->value[0].kind == BINARY && last->kind == BINARY && last->bytes.size > 0,
+            "a brief header with other values than bytes"))
         return false;
-    cursor.left = value.bytes;
     *record = (Record){0};
-    for (int i = 0; i < (payload.data[1] == BRIEF ? 10 : 13); i++) {
+    for (int i = 0; i < (map->key[0].whole == BRIEF ? 10 : 13); i++) {
         double number = i < 6 ? (double)take_varint(&cursor) : take_single(&cursor, 0xca).number;
         record->stored |= BIT(KEYS[i]);
         record->number[KEYS[i]][record->count[KEYS[i]]++] = number;
     }
-    *faces = take_span(&cursor, take_varint(&cursor));
-    *values = take_rest(&cursor);
+    header->connectivity = take_span(&cursor, take_varint(&cursor));
+    header->values = take_rest(&cursor);
+    if (map->count > 1) header->metadata = last->bytes;
     return !failed(context) && complete_record(context, FIELDS, sizeof FIELDS / sizeof *FIELDS, record);
 }
 
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header) {
     Record record;
-    Span faces = {0}, values = {0};
+    Mark mark = mark_of(scratch);
+    Map *map = NULL;
+    bool brief = payload.size > 1 && (payload.data[1] == BRIEF || payload.data[1] == BRIEF_TURNED);
     if (payload.size > MOST_HEADER) return FAIL(context, CORRUPT, "a header of # bytes is too long", payload.size);
-    bool brief = payload.size > 2 && payload.data[0] == 0x81
-        && (payload.data[1] == BRIEF || payload.data[1] == BRIEF_TURNED);
-    if (brief && !parse_brief(context, payload, &record, &faces, &values)) return false;
-    if (!brief && !parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record))
+    if (brief && (!TAKE(scratch, 1, map) || !parse_map(context, payload, map))) return false;
+    brief = brief && (map->count == 1 || (map->count == 2 && map->key[1].whole == BRIEF_METADATA));
+    *header = (Header){.brief = brief};
+    if (!(brief ? parse_brief(context, map, &record, header)
+                : parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record)))
         return false;
+    release_to(scratch, mark);
     set_header(&record, header);
-    header->brief = brief;
-    header->connectivity = faces;
-    header->values = values;
 #ifdef BSMDEC_LACKS /* by a smaller build for pages */
     if (BSMDEC_LACKS) return FAIL(context, UNSUPPORTED, "");
 #endif

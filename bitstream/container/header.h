@@ -27,7 +27,7 @@ typedef struct {
     int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;
     bool brief; /* the frame of the header is the whole stream, and ends with this (F 11) */
-    Span connectivity, values;
+    Span connectivity, values, metadata;
 } Header;
 
 /* How positions on a grid are coded. */

@@ -134,20 +134,23 @@ def write_header(header: Header) -> bytes:
     return write_map(entries_of(header))
 
 
-BRIEF, BRIEF_TURNED, MOST_BRIEF = 23, 25, 60_000
-"""Keys of the only field in the header of a brief stream, and bytes of faces and positions that fit into one."""
+BRIEF, BRIEF_TURNED, BRIEF_METADATA, MOST_BRIEF = 23, 25, 26, 60_000
+"""Keys in the header of a brief stream, and bytes of all of it that fit into one frame."""
 
 
 def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
     """Return the payload of the only frame of a brief stream (F 11); None: these packets cannot be in one."""
     turn = header.turn if any(header.turn) else ()
     floats = b"".join(wire.pack(value)[1:] for value in (header.scale, *header.center, *turn))
-    match body:
+    entries = {name: value for packet in body if isinstance(packet, Metadata) for name, value in packet.entries.items()}
+    match [packet for packet in body if not isinstance(packet, Metadata)]:
         case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16 + 4 * len(turn):
             whole = (header.vertices, header.faces, *header.grid, header.congruence, len(faces))
             *fields, length = map(write_varint, whole)
             data = b"".join(fields) + floats + length + faces + values
-            return write_map([(BRIEF_TURNED if turn else BRIEF, data)]) if len(data) < MOST_BRIEF else None
+            notes = [(BRIEF_METADATA, write_metadata(Metadata(entries)))] * bool(entries)
+            payload = write_map([(BRIEF_TURNED if turn else BRIEF, data), *notes])
+            return payload if len(payload) < MOST_BRIEF and len(entries) <= MAX_ENTRIES else None
     return None
 
 

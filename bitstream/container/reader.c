@@ -247,26 +247,32 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
 
 /* Keep what follows the header of a brief stream in its frame (F 11). */
 static bool keep_brief(Reader *reader, Header *header) {
-    uint8_t *copy;
-    int64_t size = header->connectivity.size + header->values.size;
-    if (!header->brief) return true;
-    if (!TAKE(&reader->meshes, size + 1, copy)) return false;
-    if (size > 0) memcpy(copy, header->connectivity.data, (size_t)size);
-    header->connectivity.data = copy;
-    header->values.data = copy + header->connectivity.size;
+    Span *parts[] = {&header->connectivity, &header->values, &header->metadata};
+    for (int i = 0; header->brief && i < 3; i++) {
+        uint8_t *copy;
+        if (!TAKE(&reader->meshes, parts[i]->size + 1, copy)) return false;
+        if (parts[i]->size > 0) memcpy(copy, parts[i]->data, (size_t)parts[i]->size);
+        parts[i]->data = copy;
+    }
     return true;
 }
 
 /* The packets for which a brief stream has no frames. */
-static void next_of_brief(Reader *reader, Packet *packet) {
-    const Header *header = reader->grammar.header;
+static bool next_of_brief(Reader *reader, Packet *packet) {
+    Header *header = &reader->headers[reader->header];
     bool has_faces = reader->grammar.last == HEADER_FRAME, has_values = reader->grammar.last == CONNECTIVITY_FRAME;
+    if (header->metadata.size > 0) {
+        *packet = (Packet){.type = METADATA_FRAME, .data = header->metadata, .size = header->metadata.size};
+        header->metadata.size = 0;
+        return read_metadata(reader, packet->data, true);
+    }
     *packet = (Packet){.type = has_faces ? CONNECTIVITY_FRAME : has_values ? GRID_FRAME : END_FRAME,
         .data = has_faces ? header->connectivity : has_values ? header->values : (Span){0},
         .count = has_values ? header->vertices : 0};
     packet->size = packet->data.size;
     reader->last_offset = reader->offset;
     advance_grammar(&reader->grammar, packet, NULL);
+    return true;
 }
 
 /* Skip a frame. */
@@ -305,8 +311,7 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
     while (reader->grammar.last != END_FRAME) {
         Frame frame = {0};
         if (reader->grammar.header != NULL && reader->grammar.header->brief) {
-            next_of_brief(reader, packet);
-            return A_PACKET;
+            return next_of_brief(reader, packet) ? A_PACKET : NOTHING_BUT_AN_ERROR;
         }
         if (!read_frame(reader, waiting(reader), &frame)) return NOTHING_BUT_AN_ERROR;
         if (frame.size == 0) return incomplete(reader);

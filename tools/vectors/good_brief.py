@@ -8,7 +8,7 @@ import numpy as np
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import MOST_GRID
-from bsm.bitstream.container.packets import BRIEF, Header, write_brief
+from bsm.bitstream.container.packets import BRIEF, BRIEF_METADATA, Header, Metadata, MetadataValue, Packet, write_brief
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble
 from bsm.codec.geometry.mesh import TriangleMesh
 from tools.gridded import gridded
@@ -19,11 +19,11 @@ from tools.vectors.good_congruence import mirrors, placed
 from tools.vectors.meshes import patch, tetrahedron, together, torus, triangle
 
 
-def brief(stream: bytes) -> bytes:
-    """A stream of one grid as a brief one."""
+def brief(stream: bytes, *more: Packet) -> bytes:
+    """A stream of one grid as a brief one, with more packets."""
     header, *body = (packet for packet, span in scan(stream) if span.type != FrameType.END)
     assert isinstance(header, Header)
-    payload = write_brief(header, body)
+    payload = write_brief(header, [*body, *more])
     assert payload is not None
     return write_preamble(1) + write_frame(FrameType.HEADER, payload)
 
@@ -35,9 +35,9 @@ def on_grid(mesh: TriangleMesh, cells: int, **fields: Any) -> bytes:
     return brief(stream_of(gridded(coded, values.astype(np.int32), [len(values)], grid=[2 * cells] * 3, **fields)))
 
 
-def _with(value: object, before: dict[int, object] | None = None, behind: bytes = b"") -> bytes:
+def _with(value: object, beside: dict[int, object] | None = None, behind: bytes = b"") -> bytes:
     """A stream whose header has this for `brief`."""
-    entries = (before or {}) | {BRIEF: value}
+    entries = dict(sorted(((beside or {}) | {BRIEF: value}).items()))
     return write_preamble(1) + write_frame(FrameType.HEADER, write_map(entries.items())) + behind
 
 
@@ -54,6 +54,11 @@ def _put(at: int, data: bytes, over: int | None = None) -> bytes:
     return _with(value[:at] + data + value[at + (len(data) if over is None else over) :])
 
 
+def _named(**metadata: MetadataValue) -> bytes:
+    """A brief stream with metadata."""
+    return brief(on_grid(torus(7, 6), 90), Metadata(metadata))
+
+
 BRIEFS: dict[str, Good] = {
     f"good-brief-{name}": Good(f"one frame: {probes}", make)
     for name, probes, make in (
@@ -67,6 +72,8 @@ BRIEFS: dict[str, Good] = {
         ("mirrors", "congruent parts, mirrors", lambda: brief(placed(torus(16, 12), 500, mirrors()))),
         ("learnt", "a learnt start", lambda: brief(placed(torus(16, 12), 500, mirrors(), learnt=True))),
         ("short", "a payload with a CRC-16", lambda: on_grid(triangle(), 3)),
+        ("metadata", "metadata", lambda: _named(author="A. Bee", part=7, unit="mm", weight=0.3)),
+        ("metadata-bytes", "metadata that are bytes", lambda: _named(icon=bytes(range(256)), name="")),
     )
 }
 BRIEFS_BAD: dict[str, Bad] = {
@@ -92,4 +99,25 @@ BRIEFS_BAD: dict[str, Bad] = {
     "bad-brief-frame": Bad("a wrong checksum", "corrupt", lambda: _with(_value())[:-1] + b"\0"),
     "bad-brief-end": Bad("data that end too early", "truncated", lambda: _with(_value())[:-1]),
     "unsupported-brief-beside": Bad("other fields, too", "unsupported", lambda: _with(_value(), {1: 4, 2: 4})),
+    "unsupported-brief-unknown": Bad("a later field, too", "unsupported", lambda: _with(_value(), {27: b"\x80"})),
+    "unsupported-brief-metadata-beside": Bad(
+        "metadata and a later field", "unsupported", lambda: _with(_value(), {BRIEF_METADATA: b"\x80", 27: 1})
+    ),
+    "bad-brief-metadata-none": Bad("metadata of no bytes", "corrupt", lambda: _with(_value(), {BRIEF_METADATA: b""})),
+    "bad-brief-metadata-text": Bad("metadata as a text", "corrupt", lambda: _with(_value(), {BRIEF_METADATA: "a"})),
+    "bad-brief-metadata-map": Bad("a map, not its bytes", "corrupt", lambda: _with(_value(), {BRIEF_METADATA: {}})),
+    "bad-brief-metadata-list": Bad(
+        "metadata with an array", "corrupt", lambda: _with(_value(), {BRIEF_METADATA: b"\x81\xa1a\x91\x07"})
+    ),
+    "bad-brief-metadata-keys": Bad(
+        "metadata whose names are integers", "corrupt", lambda: _with(_value(), {BRIEF_METADATA: b"\x81\x01\x07"})
+    ),
+    "bad-brief-metadata-order": Bad(
+        "metadata whose names do not ascend",
+        "corrupt",
+        lambda: _with(_value(), {BRIEF_METADATA: b"\x82\xa1b\x07\xa1a\x07"}),
+    ),
+    "bad-brief-metadata-behind": Bad(
+        "bytes behind metadata", "corrupt", lambda: _with(_value(), {BRIEF_METADATA: b"\x81\xa1a\x07\x07"})
+    ),
 }

@@ -33,16 +33,30 @@ def test_a_small_mesh_takes_one_frame():
     ("mesh", "options"),
     [
         (with_attributes(MESH, charts), EncodeOptions()),
-        (replace(MESH, metadata={"unit": "mm"}), EncodeOptions()),
+        (replace(MESH, metadata={"photograph": bytes(70_000)}), EncodeOptions()),
+        (replace(MESH, metadata={f"tag {k}": k for k in range(257)}), EncodeOptions()),
         (MESH, EncodeOptions(keep_order=True)),
         (MESH, EncodeOptions(exact=True)),
         (MESH, EncodeOptions(grid=10)),
         (MESH, EncodeOptions(effort="quick")),
     ],
-    ids=["attributes", "metadata", "order", "exact", "grid", "quick"],
+    ids=["attributes", "image", "tags", "order", "exact", "grid", "quick"],
 )
 def test_other_streams_keep_their_frames(mesh, options):
     assert not is_brief(encode(mesh, options))
+
+
+def test_its_metadata_are_in_the_frame():
+    metadata = {"author": "A. Bee", "icon": bytes(range(256)), "part": 7, "weight": 0.3}
+    plain, named = encode(MESH), encode(replace(MESH, metadata=metadata))
+    assert is_brief(named) and decode(named).metadata == metadata
+    assert [kind for kind, _ in frames_of(named)] == [1, 2, 3, 12], "as long streams have them"
+    data = sum(len(name) + 1 for name in metadata) + 7 + (256 + 3) + 1 + 9
+    assert len(named) - len(plain) <= data + 8
+    with Decoder() as decoder:
+        for k in range(len(named)):
+            decoder.receive_data(named[k : k + 1])
+        assert decoder.decode_rest().metadata == metadata
 
 
 def test_it_decodes_to_the_same_as_the_frames_for_which_it_stands():
