@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bsm import Attribute, TriangleMesh
+from bsm.codec.geometry.metrics import Reference
 
 Faces = NDArray[np.int32]
 
@@ -105,3 +106,11 @@ def turned(random: np.random.Generator) -> TriangleMesh:
         faces = np.vstack([faces, faces[random.integers(0, len(faces), 5)]])
     own = Attribute("normal", random.normal(size=(len(positions), 3)), "vertex", "normal")
     return TriangleMesh(positions, faces, (own,) if not random.integers(4) else ())
+
+
+def theta(original: NDArray[Any], decoded: NDArray[Any], faces: Faces) -> float:
+    return Reference(original, faces).theta(decoded)
+
+
+def mnd(original: NDArray[Any], decoded: NDArray[Any], faces: Faces) -> float:
+    return Reference(original, faces).mnd(decoded)

@@ -36,7 +36,7 @@ class Comparison:
     nmsve_paper_db : float
         The same as the paper prints it, not divided: ``10 * log10(nmsve * diagonal)``. It depends on the unit.
     theta_deg : float
-        Mean angle between corresponding face normals, degrees, see `theta`.
+        Mean angle between corresponding face normals, degrees, every face counted alike.
     angle_deg : float
         The same with faces weighted by area, as contracts use it.
     rms, max_error : float
@@ -88,7 +88,7 @@ class Reference:
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
 
     def theta(self, decoded: Positions) -> float:
-        """The function `theta` of `decoded`, shape (n, 3), against this original."""
+        """Mean angle between corresponding face normals, in degrees, every face counted alike."""
         return self._mean_angle(self._shares, decoded)
 
     def angle(self, decoded: Positions) -> float:
@@ -100,7 +100,7 @@ class Reference:
         return math.degrees(_kernels.weighted_angle(self._normals, weights, decoded, self.faces, _LOST))
 
     def mnd(self, decoded: Positions) -> float:
-        """The function `mnd` of `decoded`, shape (n, 3), against this original."""
+        """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2."""
         normals, counted = face_normals(self._checked(decoded), self.faces), self._normals.any(axis=1)
         lengths = np.sqrt(np.square(self._normals - normals).sum(axis=1))
         lengths[~normals.any(axis=1)] = math.sqrt(2.0)
@@ -132,16 +132,6 @@ class Reference:
 
 def compare(original: Positions, decoded: Positions, faces: Faces) -> Comparison:
     return Reference(original, faces).compare(decoded)
-
-
-def theta(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Mean angle between corresponding face normals, in degrees, every face counted alike."""
-    return Reference(original, faces).theta(decoded)
-
-
-def mnd(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2."""
-    return Reference(original, faces).mnd(decoded)
 
 
 def rms_over_edge(original: Positions, decoded: Positions, faces: Faces) -> float:

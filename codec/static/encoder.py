@@ -239,19 +239,24 @@ class Encoder:
         promise, anything = self.options.promise, Contract(WIDEST)
         most = target.value * (1.0 if target.kind == "size" else self._input.prepared.graph.size / 8.0)
         given = self._input = self._input.measuring(near)
-        search = given.search
-        found = search.best(promise or anything, most)
-        dressed = None if found is None else given.dressed(found)
-        if dressed is not None and not (promise and given.measured(dressed, promise)[0]):
-            return self._judged(dressed)
-        asked = f"{target.worded(target.value)} at most cannot be"
-        least = self._judged(given.dressed(search.smallest(promise or anything)))
+
+        def best(sent: Input) -> Draft | None:
+            found = sent.search.best(promise or anything, most)
+            dressed = None if found is None else sent.dressed(found)
+            return None if dressed and promise and sent.measured(dressed, promise)[0] else dressed
+
+        if (found := best(given)) is not None:
+            return self._judged(found)
+        self._input, smaller = smallest(given, promise or anything, near)  # with attributes as the look needs them
+        if smaller.size <= most:
+            return self._judged(best(self._input) or smaller)
+        asked, least = f"{target.worded(target.value)} at most cannot be", self._judged(smaller)
         had = target.worded(target.reached(least))
         if promise is None:
             error = TargetError(f"{asked} reached; the least possible is {had}")
         else:
-            other = search.best(anything, most)
-            advice = "does not reach it either" if other is None else f"reaches it with {search.seen(other)}"
+            other = given.search.best(anything, most)
+            advice = "does not reach it either" if other is None else f"reaches it with {given.search.seen(other)}"
             error = TargetError(f"{asked} reached with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
         raise error
@@ -274,10 +279,10 @@ class Encoder:
         return Attempt(draft, partial(self._compared, draft))
 
     def _compared(self, draft: Draft) -> Comparison:
-        units = self._input.prepared.units
-        found = self._reference.compare(units.into(draft.decoded))
-        lengths = {"rms": found.rms * units.scale, "max_error": found.max_error * units.scale}
-        return replace(found, **lengths, nmsve_paper_db=decibel(found.nmsve * self._reference.scale * units.scale))
+        reference, unit = self._reference
+        found = reference.compare(draft.decoded / unit)
+        lengths = {"rms": found.rms * unit, "max_error": found.max_error * unit}
+        return replace(found, **lengths, nmsve_paper_db=decibel(found.nmsve * reference.scale * unit))
 
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
@@ -299,9 +304,11 @@ class Encoder:
         return Spectral(self._input.prepared, self._input.coded)
 
     @cached_property
-    def _reference(self) -> Reference:
+    def _reference(self) -> tuple[Reference, float]:
+        """The mesh over a power of two, by which no face gets or loses an area; and the power."""
         given, place = self._input.given, self._input.joined.first[self._input.prepared.coding_order]
-        return Reference(self._input.prepared.units.into(given.positions[place]), self.mesh.faces)
+        unit = math.ldexp(0.5, math.frexp(self._input.prepared.units.scale)[1])
+        return Reference(given.positions[place] / unit, self.mesh.faces), unit
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

@@ -15,11 +15,10 @@ from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
 from bsm.codec.denoise import normals, recipe, rehearsal
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
-from bsm.codec.geometry.metrics import mnd, theta
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from tests.bsm import program
-from tests.shapes import torus
+from tests.shapes import mnd, theta, torus
 from tools.noise import gaussian_along_normals
 from tools.sampled import ball, voxelized
 

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import FrameDenoiser, denoise_automatically
 from bsm.codec.denoise.recipe import Patient, Recipe, Treatments
-from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
+from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.files.mesh import read_mesh
 from tools.noise import (
     correlated_along_normals,
@@ -85,7 +85,7 @@ def denoise_mesh(source: Source) -> Row:
     clean, faces = mesh.positions, mesh.faces
     reference = Reference(clean, faces)
     same = denoise_automatically(clean, faces)[0]
-    found: Row = {"turned": theta(clean, same, faces), "untouched": bool((same == clean).all())}
+    found: Row = {"turned": Reference(clean, faces).theta(same), "untouched": bool((same == clean).all())}
     found["kinds"] = {}
     for kind, make in KINDS.items():
         noisy = make(clean, faces)
@@ -134,7 +134,9 @@ def in_motion(clean: npt.NDArray[np.float64], faces: Faces) -> dict[str, float]:
     alone = np.stack([denoise_automatically(frame, faces)[0] for frame in noisy])
     together = np.stack(list(FrameDenoiser(noisy[0], faces)(noisy)))
     measures: dict[str, Callable[[Positions], float]] = {
-        "angle": lambda frames: float(np.mean([theta(a, b, faces) for a, b in zip(clean, frames, strict=True)])),
+        "angle": lambda frames: float(
+            np.mean([Reference(a, faces).theta(b) for a, b in zip(clean, frames, strict=True)])
+        ),
         "position": lambda frames: float(np.sqrt(np.square(clean - frames).sum(axis=2).mean())),
         "flicker": lambda frames: flicker(clean, frames, faces),
     }

@@ -16,7 +16,7 @@ from bsm.bitstream.errors import BsmError, MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
-from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
+from bsm.codec.geometry.metrics import Reference, folded_edges, rms_over_edge, surface_distance
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, adder, limits_of
@@ -221,7 +221,7 @@ def _compared(
     before, after, faces = paired.original.positions, paired.positions, paired.original.faces
     result |= {"folded_before": folded_edges(before, faces), "folded_after": folded_edges(after, faces)}
     if args.surface:  # what the literature on denoising measures
-        result |= {"mnd": mnd(before, after, faces), "rms_over_edge": rms_over_edge(before, after, faces)}
+        result |= {"mnd": Reference(before, faces).mnd(after), "rms_over_edge": rms_over_edge(before, after, faces)}
         result |= _apart(paired.original, TriangleMesh(after, faces))
     return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
 

@@ -244,7 +244,7 @@ def run_curve(
     if note:
         seconds = timed_on["encode_seconds"] + timed_on["decode_seconds"]
         expected = seconds * repeats * len(curve.codecs) * max(1.0, len(mesh.positions) / SAMPLE)
-        note(f"{name}, {curve.label}: about {max(expected, 1.0):.2g} s")
+        note(f"{name}, {curve.label}: about {max(expected, 1.0):.0f} s")
     points = []
     for codec in curve.codecs:
         points.append(measure(codec, mesh, reference, repeats))

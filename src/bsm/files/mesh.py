@@ -190,10 +190,8 @@ def size_with_parts(path: str, metadata: Metadata) -> int | None:
     if Path(path).suffix.lower() == ".gltf":
         with suppress(BsmError):
             names = {*by_name("bsm.gltf.document", "read_document")(path).files}
-    for name in filter(None, names):
-        with suppress(FormatError, OSError, ValueError):
-            size += os.path.getsize(file_beside(Path(path).resolve().parent, name))
-    return size
+    found = set(map(Beside(Path(path).resolve().parent, Limits()).find, filter(None, names)))
+    return size + sum(part.stat().st_size for part in found if isinstance(part, Path))
 
 
 def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:

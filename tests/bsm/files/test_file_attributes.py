@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import bsm
 from bsm import Attribute, BsmError, Limits, TriangleMesh
-from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, read_mesh, write_mesh, written_mesh
+from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, read_mesh, size_with_parts, write_mesh, written_mesh
 from tests.shapes import at_corners, patch, tetrahedron, torus
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -425,6 +425,17 @@ def test_a_jpeg_is_not_compressed_again(tmp_path):
         mesh.positions, mesh.faces, mesh.attributes, {**mesh.metadata, "image.0.data": buffer.getvalue()}
     )
     assert buffer.getvalue() in written_mesh(painted, "glb").data
+
+
+@pytest.mark.parametrize("name", ["red.png", r".\red.png", r"C:\work\red.png"])
+def test_images_that_are_found_count_as_input_by_whatever_name(tmp_path, name):
+    (tmp_path / "a.obj").write_text(f"mtllib a.mtl\nusemtl m\n{TRIANGLE}f 1 2 3\n")
+    (tmp_path / "a.mtl").write_text(f"newmtl m\nmap_Kd {name}\n")
+    (tmp_path / "red.png").write_bytes(png())
+    metadata = read_mesh(tmp_path / "a.obj").mesh.metadata
+    assert metadata["image.0.data"] == png()
+    taken = size_with_parts(str(tmp_path / "a.obj"), metadata)
+    assert taken == sum((tmp_path / part).stat().st_size for part in ("a.obj", "a.mtl", "red.png"))
 
 
 def test_what_lies_beside_is_called_like_the_file(tmp_path):

@@ -10,8 +10,9 @@ from bsm.codec.denoise.automatic import CANDIDATES
 from bsm.codec.denoise.noise.synthesis import estimate_noise
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.denoise.surface import face_geometry
-from bsm.codec.geometry.metrics import mean_edge_length, rms_over_edge, theta
+from bsm.codec.geometry.metrics import mean_edge_length, rms_over_edge
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
+from tests.shapes import theta
 from tools.noise import correlated_along_normals, gaussian_along_normals, gaussian_isotropic
 
 

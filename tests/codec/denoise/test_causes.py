@@ -7,8 +7,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.volumes import find_cells
 from bsm.codec.denoise.surface import Floats, Topology
-from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
+from tests.shapes import theta
 from tools.noise import gaussian_along_axis
 from tools.sampled import THICK, ball, box, in_steps, torus, voxelized
 from tools.scans import turning

@@ -11,8 +11,9 @@ from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.safety import judge, keep_good
-from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
+from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from tests.codec.denoise.denoise_shapes import Partners, cube, find, grid, probe_of, sphere
+from tests.shapes import theta
 from tools.noise import (
     correlated_along_normals,
     gaussian_along_axis,

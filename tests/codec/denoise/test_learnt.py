@@ -8,8 +8,9 @@ import pytest
 from bsm.codec.denoise.learnt.cascade import WEIGHTS, Network, joined, learnt, read_networks, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, descriptions, mirrored
 from bsm.codec.denoise.surface import Topology, surroundings
-from bsm.codec.geometry.metrics import rms_over_edge, theta
+from bsm.codec.geometry.metrics import rms_over_edge
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
+from tests.shapes import theta
 from tools.noise import gaussian_along_normals
 from tools.train_denoiser import write_networks
 

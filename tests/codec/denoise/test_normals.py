@@ -5,8 +5,8 @@ import pytest
 
 from bsm.codec.denoise.normals import FINE_STEPS, FineStep, bilateral_normal_filtering, filter_normals, patch_guidance
 from bsm.codec.denoise.surface import CROWDED, Topology, face_geometry, follow_normals, surroundings, without_first
-from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, members, sphere
+from tests.shapes import theta
 from tools.noise import gaussian_along_normals
 
 every_step = pytest.mark.parametrize("step", FINE_STEPS.values(), ids=FINE_STEPS.keys())

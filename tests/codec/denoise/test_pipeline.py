@@ -9,8 +9,8 @@ from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.normals import GuidedFilter, guided_normal_filtering
 from bsm.codec.denoise.recipe import HAND_OVERS
 from bsm.codec.denoise.surface import Topology, surface_normals
-from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, sphere
+from tests.shapes import theta
 from tools.noise import gaussian_along_normals
 
 CLEAN, FACES = sphere(14)

@@ -6,8 +6,9 @@ import pytest
 from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
 from bsm.codec.denoise.temporal import TemporalFilter, noise_deviation, shrunk
-from bsm.codec.geometry.metrics import mean_edge_length, theta
+from bsm.codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import sphere
+from tests.shapes import theta
 from tools.noise import gaussian_along_normals
 
 CLEAN, FACES = sphere(14)

@@ -10,9 +10,9 @@ from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.finding import lattice_step
 from bsm.codec.denoise.noise.view import View, find_view
 from bsm.codec.denoise.surface import Floats, Topology
-from bsm.codec.geometry.metrics import theta
 from bsm.files.mesh import read_mesh
 from tests.codec.denoise.denoise_shapes import cube, find, grid, probe_of, sphere
+from tests.shapes import theta
 from tools.scans import CAMERAS, Scan, fused, isosurface, turning, view
 
 AWAY = turning(5)

@@ -16,11 +16,10 @@ from bsm.codec.geometry.metrics import (
     distances_to_surface,
     folded_edges,
     geometric_laplacian,
-    mnd,
     surface_distance,
-    theta,
 )
 from bsm.codec.sequence.targets import compare_sequences
+from tests.shapes import mnd, theta
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 TWO = np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)

@@ -8,7 +8,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm import PRESETS, Comparison, EncodeOptions, Encoder, OptionError, Target, TargetError, decode, encode
+import bsm
+from bsm import (
+    PRESETS,
+    Attribute,
+    Comparison,
+    EncodeOptions,
+    Encoder,
+    OptionError,
+    Target,
+    TargetError,
+    TriangleMesh,
+    decode,
+    encode,
+)
 from bsm.codec.geometry.metrics import compare
 from bsm.codec.static.targets import SLACK, search_step
 from bsm.files.mesh import read_mesh
@@ -82,6 +95,28 @@ def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
     assert attempt.header.grid and attempt.header.light
     assert getattr(attempt, kind, None) or getattr(attempt.comparison, kind) <= value
     assert attempt.size <= (value if kind == "size" else math.inf)
+
+
+def test_a_size_makes_attributes_as_coarse_as_the_promised_look_allows() -> None:
+    mesh = torus(24, 16)
+    values = np.sin(mesh.positions * (3.0, 7.0, 5.0)) + np.cos(7.0 * mesh.positions[:, ::-1])
+    mesh = replace(mesh, attributes=(Attribute("texcoord", values[:, :2].astype(np.float32), "vertex", "texcoord"),))
+    usual, options = encode(mesh), EncodeOptions(target=Target("size", 1.0))
+    with pytest.raises(TargetError, match=f"that takes {len(usual)} bytes; preset none does not") as smaller:
+        encode(mesh, options)
+    assert smaller.value.best == len(usual)
+    assert len(encode(mesh, replace(options, target=Target("size", len(usual))))) <= len(usual)
+
+
+def test_no_face_gets_an_area_where_errors_are_stated() -> None:
+    ring = torus(16, 10)
+    line = np.array((0.5, 1.0, 1.5)) + np.outer(np.arange(1.0, 20.0), (0.375, 0.625, 0.875))
+    faces = np.arange(len(ring.positions), len(ring.positions) + 18).reshape(-1, 3)
+    mesh = TriangleMesh(np.concatenate([ring.positions, line]), np.concatenate([ring.faces, faces]).astype(np.int32))
+    result = Encoder(mesh, EncodeOptions(target=Target("size", 1200))).result()
+    stated, found = result.comparison, bsm.compare(mesh, b"".join(result.frames))
+    for name in ("theta_deg", "angle_deg", "nmsve", "nmsve_paper_db", "rms", "max_error", "max_error_relative"):
+        assert getattr(stated, name) == pytest.approx(getattr(found, name), rel=1e-9), name
 
 
 def test_wrong_targets_are_refused():

@@ -345,30 +345,33 @@ class Beside:
 
     def __init__(self, folder: Path | None, limits: Limits) -> None:
         self._folder, self._most, self._left = folder, limits.frame_bytes, _READ * limits.frame_bytes
-        self._read: dict[Path, bytes | str] = {}
+        self._read: dict[Path, bytes] = {}
 
-    def read(self, name: str) -> bytes | str:
-        """Return the bytes of a file, or why there are none."""
+    def find(self, name: str) -> Path | str:
+        """Return where a file is, by its path or its name alone, or why it is not there."""
         if self._folder is None:
             return "the mesh did not come from a file"
         relative, reason = name.replace("\\", "/"), ""
         for candidate in (relative, relative.rpartition("/")[2]):
             try:
-                path = file_beside(self._folder, candidate)
+                return file_beside(self._folder, candidate)
             except FormatError as error:
                 reason = str(error)
-                continue
-            if path not in self._read:
-                size = path.stat().st_size
-                if size > min(self._most, self._left):
-                    raise LimitError(
-                        f"{name} has {size:,} bytes, over the limit of {min(self._most, self._left):,} for a section "
-                        "of a stream (Limits.frame_bytes); make it smaller, or take it away from the mesh"
-                    )
-                self._left -= size
-                self._read[path] = path.read_bytes()
-            return self._read[path]
         return reason
+
+    def read(self, name: str) -> bytes | str:
+        """Return the bytes of a file, or why there are none."""
+        path = self.find(name)
+        if isinstance(path, Path) and path not in self._read:
+            size = path.stat().st_size
+            if size > min(self._most, self._left):
+                raise LimitError(
+                    f"{name} has {size:,} bytes, over the limit of {min(self._most, self._left):,} for a section "
+                    "of a stream (Limits.frame_bytes); make it smaller, or take it away from the mesh"
+                )
+            self._left -= size
+            self._read[path] = path.read_bytes()
+        return path if isinstance(path, str) else self._read[path]
 
 
 _MOST_BYTES = 1 << 15  # of the remarks of one file
