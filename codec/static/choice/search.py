@@ -93,12 +93,12 @@ class Search:
         found = min(kept, key=lambda candidate: candidate.congruent.size)
         best, rung = found.congruent, math.floor(RUNGS * math.log2(grid.first))
         more = LEAST_SAVED * best.size * min(FIRST / self._prepared.graph.size, 1.0)
-        least, like = best.size, (best.header.transforms, best.begun + more)
+        transforms = grid.transforms if best.places is None else best.header.transforms
+        least, like = best.size, (transforms, best.begun + more)
         seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
         steps = [2.0 ** ((rung + 1 - finer) / RUNGS) for finer in range(RUNGS + 2 if seen else 2 * RUNGS)]
         made = (list(map(grid.at, steps[at : at + self._ahead])) for at in range(0, len(steps), self._ahead))
-        plain = best.header.transforms < 0  # else pictures cost less than a coding
-        hoped = ([c for c in some if plain or c.step < found.step or bounds.keeps(c)] for some in made)
+        hoped = ([c for c in some if transforms < 0 or c.step < found.step or bounds.keeps(c)] for some in made)
         sized = (zip(some, self._crew.map(lambda made: made.like(*like), some), strict=True) for some in hoped)
         for candidate, size in chain.from_iterable(sized):
             hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
