@@ -42,7 +42,7 @@ void bind_codec(nb::module_ &m) {
     m.def("lags", [] { return tuple_of(LAG); }, nb::sig("def lags() -> tuple[int, ...]"));
     m.def("quarters", [] { return tuple_of(QUARTERS); }, nb::sig("def quarters() -> tuple[float, ...]"));
     KERNEL(bend_columns) KERNEL(learn_around) KERNEL(search_rows) CHECKED(label_components) KERNEL(weighted_angle)
-    KERNEL(farthest_apart) CHECKED(local_frames) CHECKED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
+    CHECKED(local_frames) CHECKED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
     CHECKED(collect_flaps) CHECKED(group_flaps) CHECKED(shape_levels) CHECKED(collect_creases) CHECKED(hang_creases)
     CHECKED(find_motions) CHECKED(settle_levels) CHECKED(count_folds) CHECKED(unfold_levels) CHECKED(shape_grid)
 }

@@ -32,11 +32,10 @@ double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 f
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);
 double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                       double lost);
-double farthest_apart(ConstDoubles2 original, ConstDoubles2 decoded);
 int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Doubles2 low,
                    Doubles2 high, Longs first, Longs count);
 double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                         ConstLongs first, ConstLongs count, Doubles distances);
+                         ConstLongs first, ConstLongs count, ConstLongs order, Doubles distances, Longs which);
 
 /* Sort values that nearly always come nearly sorted: by insertion, and by a heap once that has moved too many of them,
  * so that none, however many and in whatever order, take more than n log n steps. */

@@ -104,17 +104,6 @@ KERNEL double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstD
     return total;
 }
 
-/* Largest distance between corresponding rows. */
-KERNEL double farthest_apart(ConstDoubles2 original, ConstDoubles2 decoded) {
-    double most = 0.0;
-    for (int64_t v = 0; v < least(original.rows, decoded.rows); v++) {
-        const double *p = original.data + 3 * v, *q = decoded.data + 3 * v;
-        double d0 = p[0] - q[0], d1 = p[1] - q[1], d2 = p[2] - q[2], square = d0 * d0 + d1 * d1 + d2 * d2;
-        if (!(square <= most)) most = square;
-    }
-    return __builtin_sqrt(most);
-}
-
 /* Exact distances from points to the nearest of many triangles, by a tree of bounding boxes. */
 enum { LEAF = 4, DEPTH = 128 };
 
@@ -135,12 +124,9 @@ static void halve_by_middle(int64_t *order, int64_t size, const double *low, con
             order[i++] = order[j];
             order[j--] = swapped;
         }
-        if (half <= j)
-            end = j;
-        else if (half >= i)
-            begin = i;
-        else
-            return;
+        if (half > j && half < i) return;
+        if (half <= j) end = j;
+        if (half >= i) begin = i;
     }
 }
 
@@ -208,29 +194,24 @@ static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 lo
         if (count.data[node] > 0) {
             for (int64_t k = first.data[node]; k < first.data[node] + count.data[node]; k++) {
                 double squared = to_triangle(p, triangles.data + 9 * k);
-                if (squared >= best) continue;
-                best = squared;
-                *found = k;
+                if (squared < best) best = squared, *found = k;
             }
             continue;
         }
-        int64_t near = node + 1, far = first.data[node];
-        if (to_box(p, low.data + 3 * near, high.data + 3 * near) >
-            to_box(p, low.data + 3 * far, high.data + 3 * far)) {
-            near = far;
-            far = node + 1;
-        }
-        stack[depth++] = far;
-        stack[depth++] = near;
+        int64_t one = node + 1, two = first.data[node];
+        bool nearer = to_box(p, low.data + 3 * one, high.data + 3 * one)
+                   <= to_box(p, low.data + 3 * two, high.data + 3 * two);
+        stack[depth++] = nearer ? two : one;
+        stack[depth++] = nearer ? one : two;
     }
     return best;
 }
 
 /* The largest distance of a point to the nearest triangle, and all of them if `distances` has room: exact where above
- * the number that it held; else smaller ones need not be exact. `triangles` has nine numbers a row, in the order of the
- * tree. */
+ * the number that it held; else smaller ones need not be exact. `triangles` has nine numbers a row, in the `order` of
+ * the tree; `which`, if it has room, which ones are nearest. */
 double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
-                         ConstLongs first, ConstLongs count, Doubles distances) {
+                         ConstLongs first, ConstLongs count, ConstLongs order, Doubles distances, Longs which) {
     int64_t found = 0;
     double most = 0.0;
     for (int64_t i = 0; i < points.rows; i++) {
@@ -238,6 +219,7 @@ double nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDou
         double squared = nearest(points.data + 3 * i, triangles, low, high, first, count, enough, &found);
         most = squared > most ? squared : most;
         if (i < distances.size) distances.data[i] = __builtin_sqrt(squared);
+        if (i < which.size) which.data[i] = order.data[found];
     }
     return __builtin_sqrt(most);
 }

@@ -110,8 +110,7 @@ class Reference:
         require_sizes(decoded, done="compared")
         visual = self.nmsve(decoded)
         squared = np.square(self.positions - decoded).sum(axis=1)
-        rms = math.sqrt(squared.mean())
-        largest = math.sqrt(squared.max())
+        rms, largest = math.sqrt(squared.mean()), math.sqrt(squared.max())
         return Comparison(
             nmsve=visual,
             nmsve_db=decibel(visual),
@@ -158,8 +157,7 @@ def face_normals(positions: Positions, faces: Faces) -> Floats:
 
 def areas_and_normals(positions: Positions, faces: Faces) -> tuple[Floats, Floats]:
     """Areas, shape (m,), and unit normals."""
-    count = len(faces)
-    centroids, areas, normals = np.empty((count, 3)), np.empty(count), np.empty((count, 3))
+    centroids, areas, normals = (np.empty(shape) for shape in (faces.shape, len(faces), faces.shape))
     _kernels.face_geometry(positions, faces, centroids, areas, normals)
     return areas, normals
 
@@ -187,10 +185,8 @@ def folded_edges(positions: Positions, faces: Faces) -> int:
 
 def geometric_laplacian(positions: Positions, neighbors: Rows) -> Floats:
     """Each vertex minus the mean of its neighbors, weighted by inverse distance; shape (n, 3)."""
-    laplacian = np.empty((len(positions), 3))
-    _kernels.geometric_laplacian(
-        np.ascontiguousarray(positions, np.float64), neighbors.starts, neighbors.members, laplacian
-    )
+    given, laplacian = np.ascontiguousarray(positions, np.float64), np.empty((len(positions), 3))
+    _kernels.geometric_laplacian(given, neighbors.starts, neighbors.members, laplacian)
     return laplacian
 
 
@@ -209,17 +205,12 @@ class Original:
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
         areas, self.normals = areas_and_normals(self.positions, self.faces)
         counts = areas if by_area else (areas > 0.0).astype(np.float64)
-        total = counts.sum()
-        self.weights: Floats = counts / total if total > 0.0 else np.zeros(len(areas))
+        self.weights: Floats = counts / (counts.sum() or 1.0)
 
     def angle(self, decoded: Positions) -> float:
         """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
         decoded = np.ascontiguousarray(decoded, np.float64)
         return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, LOST))
-
-    def farthest(self, decoded: Positions) -> float:
-        """Largest distance of a vertex of `decoded`, shape (n, 3), from its place."""
-        return _kernels.farthest_apart(self.positions, np.ascontiguousarray(decoded, np.float64))
 
 
 SAMPLES = 100_000
@@ -254,32 +245,45 @@ def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) 
     chosen = corners[random.choice(len(faces), samples, p=areas / areas.sum())]
     # The square root makes the triangle's share of each height right.
     height, along = np.sqrt(random.random((samples, 1))), random.random((samples, 1))
-    points: Floats = (
-        (1.0 - height) * chosen[:, 0] + height * (1.0 - along) * chosen[:, 1] + height * along * chosen[:, 2]
-    )
-    return points
+    a, b, c = chosen.swapaxes(0, 1)
+    return np.asarray((1.0 - height) * a + height * (1.0 - along) * b + height * along * c)
 
 
 def distances_to_surface(points: Floats, positions: Positions, faces: Faces, enough: Floats | float = 0.0) -> Floats:
     """Distance of each point to the nearest triangle, shape (k,): exact where it is above `enough`."""
     distances = np.zeros(len(points)) + enough
-    _kernels.nearest_distances(np.ascontiguousarray(points), *_tree(positions, faces), distances)
+    _nearest(points, positions, faces, distances)
     return distances
+
+
+def nearest_points(points: Floats, positions: Positions, faces: Faces) -> tuple[Indices, Floats]:
+    """Corners of the triangles nearest to points, and the weights that make the nearest point of them, (k, 3) each."""
+    _, which = _nearest(points, positions, faces, np.zeros(len(points)))
+    corners = positions[faces[which]]
+    sides, away = np.roll(corners, -1, axis=1) - corners, points[:, None] - corners
+    along = (away * sides).sum(axis=2) / np.maximum(np.square(sides).sum(axis=2), 1e-300)
+    inside = np.roll((np.cross(sides, away) * np.cross(sides[:, :1], sides[:, 1:2])).sum(axis=2), -1, axis=1)
+    inside /= np.maximum(inside.sum(axis=1, keepdims=True), 1e-300)
+    to, axes = along.clip(0.0, 1.0)[:, :, None], np.eye(3)
+    weights = np.append((1.0 - to) * axes + to * axes[[1, 2, 0]], inside[:, None], axis=1)
+    far = np.square(weights @ corners - points[:, None]).sum(axis=2)
+    far[(inside.min(axis=1) < 0.0) | ~inside.any(axis=1), 3] = np.inf
+    return faces[which], weights[np.arange(len(points)), far.argmin(axis=1)]
 
 
 def farthest_from_surface(points: Floats, positions: Positions, faces: Faces) -> float:
     """The largest of these distances, much sooner; consecutive points should be near each other."""
-    return _kernels.nearest_distances(np.ascontiguousarray(points), *_tree(positions, faces), np.empty(0))
+    return _nearest(points, positions, faces, np.empty(0))[0]
 
 
-def _tree(positions: Positions, faces: Faces) -> tuple[Floats, Floats, Floats, Order, Order]:
-    """Triangles in the order of a tree of boxes; its nodes: lowest and highest corner, first triangle, count."""
-    corners = np.ascontiguousarray(positions[faces], dtype=np.float64)
-    m = len(corners)
+def _nearest(points: Floats, positions: Positions, faces: Faces, distances: Floats) -> tuple[float, Order]:
+    """The largest distance, all of them if there is room, and the nearest triangles, by a tree of boxes."""
+    corners, m = np.ascontiguousarray(positions[faces], dtype=np.float64), len(faces)
     order, first, count = (np.empty(size, np.int64) for size in (m, 2 * m + 1, 2 * m + 1))
     low, high = np.empty((2 * m + 1, 3)), np.empty((2 * m + 1, 3))
     _kernels.build_tree(corners.min(axis=1), corners.max(axis=1), order, low, high, first, count)
-    return corners[order].reshape(m, 9), low, high, first, count
+    tree, which = (corners[order].reshape(m, 9), low, high, first, count, order), np.empty(len(points), np.int64)
+    return _kernels.nearest_distances(np.ascontiguousarray(points), *tree, distances, which), which
 
 
 def _one_sided(

@@ -12,7 +12,7 @@ import numpy as np
 from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, TargetError
 from bsm.codec.arrays import Faces, Matrix, Positions
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, squares_of
 from bsm.codec.look.measure import POWER, LookMetric
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.static.targets import COARSEST_STEP, Contract
@@ -100,7 +100,7 @@ class StepSearch:
     def _measure(self, decoded: Sequence[Matrix]) -> Measured:
         """Measure all frames, and draw those that may exceed the bound until one does."""
         pairs = list(zip(self._frames, decoded, strict=True))
-        farthest = max(_kernels.farthest_apart(*map(np.ascontiguousarray, pair)) for pair in pairs) / self._reach
+        farthest = math.sqrt(max(squares_of(one - other).max() for one, other in pairs)) / self._reach
         if not self._knots:
             return Measured(farthest, np.zeros(0), {})
         wrong = ordered_map(lambda pair: shading_error(*pair, self._faces), pairs, self._threads)

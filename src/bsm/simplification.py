@@ -22,7 +22,7 @@ from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
 from bsm.codec.geometry.welding import degenerate
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.static.choice.attributes import Input
-from bsm.codec.static.choice.bounds import reaches
+from bsm.codec.static.choice.bounds import gaps, reaches
 from bsm.codec.static.encoder import Attempt, Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import ANY_ANGLE
@@ -123,7 +123,7 @@ class Source:
     def _reach(self) -> Matrix:
         """How far each vertex may be from the decoded surface, in the unit of the mesh, shape (n,)."""
         prepared = self._input.prepared
-        return np.asarray(reaches(prepared, self.promise) * prepared.units.scale)
+        return gaps(prepared, self.promise).kept(reaches(prepared, self.promise)) * prepared.units.scale
 
     @cached_property
     def _metric(self) -> LookMetric | None:

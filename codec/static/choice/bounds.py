@@ -4,15 +4,16 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
+from typing import NamedTuple
 
 import numpy as np
 
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Matrix, Positions
+from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh, squares_of
-from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
+from bsm.codec.geometry.metrics import Original, Reference, nearest_points
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
@@ -28,7 +29,7 @@ MARGIN = 1e-9  # of a bound, for what rounding of measures may add
 SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther ones stand out as spikes
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
-pixel in a picture of 512."""
+pixel in a picture of 512. Of a gap between parts, as much is left."""
 LEAST_GAP, MOST_PARTS = 2e-4, 64
 """Parts nearer to each other than this, in BSM units, touch, so that none is before the other; and of more parts than
 these, none is asked how near it is to others."""
@@ -52,6 +53,7 @@ class Measures:
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
         self.reaches = lru_cache(1)(partial(reaches, prepared))
+        self.gaps = lru_cache(1)(partial(gaps, prepared))
         self._threads, self.shown = threads, shown
         self.normals = normals
         self.near = near or Nearing(None)
@@ -121,6 +123,7 @@ class Bounds:
         self.measures = measures
         self.contract = contract
         self.reaches = measures.reaches(contract) * (1.0 - MARGIN)
+        self.gaps = measures.gaps(contract)
         self._best: tuple[float, ...] | None = None
         self._last: tuple[Candidate, tuple[float, float, float, float]] | None = None
 
@@ -162,13 +165,15 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
-        if self.metric is None:
-            return self.even_step
+        step, positions, metric = COARSEST, self.measures.prepared.positions, self.metric
+        for _ in range(3 if metric is None else 0):  # of errors, or of their squares
+            step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
+        if metric is None:
+            return min(step, COARSEST)
         # From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
         # another one looks different without any step.
         aim = self.contract.look if self.measures.shown else 1.0
-        step, positions = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.positions
-        light, metric = self.measures.prepared.light, self.metric
+        step, light = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.measures.prepared.light
         for _ in range(2):
             placed = self.measures.prepared.units.back(np.rint(positions / step) * step)
             wider = aim / max(metric.glance(placed) if light else metric.with_room(placed), LEAST)
@@ -176,15 +181,6 @@ class Bounds:
             if 0.5 < wider < 2.0:
                 break
         return min(step * self.contract.look / aim, COARSEST)
-
-    @cached_property
-    def even_step(self) -> float:
-        """A step at which rounding about keeps the bounds that are not in pictures, in BSM units."""
-        step, positions = COARSEST, self.measures.prepared.positions
-        for _ in range(3):
-            # Of errors, or of their squares.
-            step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
-        return min(step, COARSEST)
 
     @property
     def had(self) -> str:
@@ -206,8 +202,9 @@ class Bounds:
     def _measured(self, positions: Matrix) -> tuple[float, float, float]:
         """Shares of the bounds that are not in pictures."""
         contract, measures = self.contract, self.measures
-        moved = np.sqrt(squares_of(positions - measures.prepared.positions))
-        farther = float(np.divide(moved, self.reaches, out=np.zeros_like(moved), where=moved > 0.0).max(initial=0.0))
+        off = positions - measures.prepared.positions
+        shares = np.sqrt(squares_of(off)) / np.maximum(self.reaches, np.finfo(np.float64).tiny)
+        farther = float(np.append(shares, self.gaps.closed(off)).max(initial=0.0))
         angle = measures.original.angle(positions) / contract.angle if contract.angle < ANY_ANGLE else 0.0
         visual = measures.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
         return farther, angle, visual
@@ -220,42 +217,52 @@ class Bounds:
 
 def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     """How far each vertex may come to lie from its place, in BSM units, shape (n,)."""
-    diagonal, unit = prepared.mesh.diagonal, prepared.units.scale
-    found = np.full(len(prepared.positions), contract.reach(diagonal, unit))
-    whole = contract.by_part * diagonal / unit
+    diagonal, unit, part = prepared.mesh.diagonal, prepared.units.scale, prepared.components
+    farthest, whole = contract.reach(diagonal, unit), contract.by_part * diagonal / unit
     if not whole < math.inf:
-        return found
-    part = prepared.components
-    count = int(part.max()) + 1
-    if count == 1:
-        return np.asarray(np.minimum(found, whole))
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, part, prepared.positions)
-    np.maximum.at(high, part, prepared.positions)
-    diagonals = np.sqrt(np.square(high - low).sum(axis=1)) * unit / diagonal
-    of_part = whole * np.maximum(diagonals, FINEST_PART)[part].clip(max=1.0)
-    found = np.asarray(np.minimum(found, of_part))
-    if count <= MOST_PARTS:
-        _keep_apart(prepared, part, low - 2.0 * whole, high + 2.0 * whole, found)
-    return found
+        return np.full(len(part), farthest)
+    ends = np.full((2, int(part.max()) + 1, 3), -np.inf)
+    np.maximum.at(ends[0], part, prepared.positions)
+    np.maximum.at(ends[1], part, -prepared.positions)
+    diagonals = np.sqrt(squares_of(ends.sum(axis=0))) * unit / (diagonal or 1.0)
+    return np.asarray(np.minimum(farthest, whole * diagonals.clip(FINEST_PART, 1.0)[part]))
 
 
-def _keep_apart(prepared: Prepared, part: Indices, low: Matrix, high: Matrix, found: Matrix) -> None:
-    """Lower `found` so that no part comes before or behind another one; `low` and `high` are boxes around parts."""
-    positions, faces = prepared.positions, prepared.mesh.faces
-    of_face = part[faces[:, 0]]
-    corners = positions[faces]
-    first, last = corners.min(axis=1), corners.max(axis=1)
-    for number in range(len(low)):
-        near = (of_face != number) & (first <= high[number]).all(axis=1) & (last >= low[number]).all(axis=1)
-        if not near.any():
-            continue
-        own, others = faces[of_face == number], faces[near]
-        mine, theirs = np.unique(own), np.unique(others)
-        gap = min(
-            distances_to_surface(positions[mine], positions, others).min(),
-            distances_to_surface(positions[theirs], positions, own).min(),
-        )
-        if gap >= LEAST_GAP:
-            for some in (mine, theirs):
-                found[some] = np.minimum(found[some], gap / 2.0)
+class Gaps(NamedTuple):
+    """Where parts are near each other: a vertex and the corners of another part's face, shape (k, 4), and for each the
+    direction in which it closes the gap, over the distance that closes it, shape (k, 4, 3)."""
+
+    ends: Order
+    closing: Matrix
+
+    def closed(self, moved: Matrix) -> Matrix:
+        """How much of each gap moves of vertices, shape (n, 3), close, over what may be, shape (k,)."""
+        return np.asarray((self.closing * moved[self.ends]).sum(axis=(1, 2)) / (1.0 - FINEST_PART))
+
+    def kept(self, reach: Matrix) -> Matrix:
+        """How far vertices may be moved in any direction, of so much, shape (n,)."""
+        np.minimum.at(reach, self.ends, 0.5 / np.sqrt(squares_of(self.closing[:, 0]))[:, None])
+        return reach
+
+
+def gaps(prepared: Prepared, contract: Contract) -> Gaps:
+    """Where parts are near each other, but do not touch."""
+    part, positions, faces = prepared.components, prepared.positions, prepared.mesh.faces
+    reach, count = 2.0 * contract.by_part * prepared.mesh.diagonal / prepared.units.scale, int(part.max(initial=0)) + 1
+    low, high = positions[faces].min(axis=1), positions[faces].max(axis=1)
+    rows, nearest = [np.empty((0, 7))], np.full(count, np.inf)
+    for number in range(count if 1 < count <= MOST_PARTS and reach < math.inf else 0):
+        own = part[faces[:, 0]] == number
+        first, last = low[own].min(axis=0) - reach, high[own].max(axis=0) + reach
+        near = ~own & (low <= last).all(axis=1) & (high >= first).all(axis=1)
+        if near.any():
+            first, last = low[near].min(axis=0) - reach, high[near].max(axis=0) + reach
+            mine = np.flatnonzero((part == number) & ((positions >= first) & (positions <= last)).all(axis=1))
+            rows.append(np.column_stack([mine, *nearest_points(positions[mine], positions, faces[near])]))
+    found = np.concatenate(rows)
+    ends, weights = found[:, :4].astype(np.int64), np.insert(found[:, 4:], 0, -1.0, axis=1)[:, :, None]
+    across = -(weights * positions[ends]).sum(axis=1)
+    squares, of = squares_of(across), part[ends[:, :2]]
+    np.minimum.at(nearest, of, np.sqrt(squares)[:, None])
+    free = (squares < reach**2) & (nearest[of].max(axis=1) >= LEAST_GAP)
+    return Gaps(ends[free], (weights * across[:, None])[free] / squares[free, None, None])

@@ -161,11 +161,20 @@ class Gridded:
         low = self._prepared.units.into(origin)
         places = np.floor((self._positions - low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
-            reach = min(float(self._bounds.reaches.min()), SPIKE * step)
-            aim = Aim(self._worth * step / self._shaper.mean_edge, reach, 3)
-            places = self._shaper.places(places, low, held / unit, aim)
-        candidate = self._placed(held, places, origin)
+            worth, reach = self._worth * step / self._shaper.mean_edge, float(self._bounds.reaches.min())
+            places = self._shaper.places(places, low, held / unit, Aim(worth, min(reach, SPIKE * step), 3))
+        candidate = self._placed(held, self._apart(places, low, held / unit), origin)
         return turned(candidate) or candidate
+
+    def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
+        """Places from `low` on; vertices that would close a gap between parts are moved away, a cell or a few."""
+        gaps, toward = self._bounds.gaps, turned_by(self._bounds.gaps.closing[:, 0], self._turn, back=True)
+        away = -np.rint(toward / np.abs(toward).max(axis=1, keepdims=True)).astype(np.int32)
+        for first in (1, 0, 0) if len(away) else ():
+            closed = gaps.closed(turned_by(places * cell + low - self._positions, self._turn)) > 1.0
+            wrong = closed & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one of two parts
+            places[gaps.ends[wrong, 0]] += away[wrong]
+        return places
 
     def _placed(self, held: float, places: Levels, start: Positions) -> Candidate:
         """Places from the origin on, some below it, perhaps."""

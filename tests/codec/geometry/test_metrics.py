@@ -16,6 +16,7 @@ from bsm.codec.geometry.metrics import (
     distances_to_surface,
     folded_edges,
     geometric_laplacian,
+    nearest_points,
     surface_distance,
 )
 from bsm.codec.sequence.targets import compare_sequences
@@ -143,6 +144,10 @@ def test_the_tree_finds_the_nearest_triangle(seed: int) -> None:
     found = distances_to_surface(points, positions, faces)
     alone = [distances_to_surface(points, positions, faces[k : k + 1]) for k in range(len(faces))]
     assert found == pytest.approx(np.min(alone, axis=0))
+    corners, weights = nearest_points(points, positions, faces)
+    assert weights.min() >= 0.0 and weights.sum(axis=1) == pytest.approx(1.0)
+    nearest = (weights[:, :, None] * positions[corners]).sum(axis=1)
+    assert np.linalg.norm(nearest - points, axis=1) == pytest.approx(found)
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -25,7 +25,8 @@ def noisy(mesh: bsm.TriangleMesh, amount: float) -> bsm.TriangleMesh:
 def kept(encoder: bsm.Encoder, data: bytes) -> tuple[float, float]:
     """Farthest vertex over the diagonal, and mean angle, of what a stream decodes to."""
     original, decoded = Original(encoder.mesh.positions, encoder.mesh.faces), bsm.decode(data).positions
-    return original.farthest(decoded) / (encoder.mesh.diagonal or 1.0), original.angle(decoded)
+    farthest = np.linalg.norm(original.positions - decoded, axis=1).max()
+    return farthest / (encoder.mesh.diagonal or 1.0), original.angle(decoded)
 
 
 def looks(encoder: bsm.Encoder, data: bytes) -> float:
@@ -201,6 +202,19 @@ def test_a_label_does_not_sink_into_its_wall(preset: str) -> None:
     decoded = bsm.decode(encoder.encode()).positions
     part = encoder.vertex_order >= len(flat)
     assert decoded[part, 2].min() > decoded[~part, 2].max()
+
+
+@pytest.mark.parametrize("gap", [0.0007, 0.002])
+def test_a_shell_stays_inside_another_one_without_a_finer_grid(gap: float) -> None:
+    outer = torus(48, 32)
+    around = np.arctan2(outer.positions[:, 1], outer.positions[:, 0])
+    outward = outer.positions - np.column_stack([np.cos(around), np.sin(around), 0.0 * around])
+    inner, n = outer.positions - gap * outer.diagonal * outward, len(outer.positions)
+    both = bsm.TriangleMesh(np.concatenate([outer.positions, inner]), np.concatenate([outer.faces, outer.faces + n]))
+    encoder = bsm.Encoder(both)
+    decoded = bsm.decode(encoder.encode()).positions[encoder.vertex_index]
+    assert ((decoded[:n] - decoded[n:]) * outward).sum(axis=1).min() > 0.0
+    assert encoder.look is not None and encoder.look > 0.8  # with whole parts within half a gap: 0.24 and 0.5
 
 
 def test_a_look_that_cannot_be_had_says_what_can() -> None:
