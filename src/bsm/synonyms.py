@@ -35,9 +35,8 @@ def advice_on_command(words: Sequence[str]) -> str:
 def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) -> None:
     """Raise an error that says what to type, if a word is an output, a unit or a value instead of an input."""
     if command == "decode" and not recursive and (folder := next(filter(os.path.isdir, inputs), None)):
-        raise OptionError(
-            f"{folder} is a folder. To decode each stream in it, run: bsm decode -r {folder} -o OUT/; tiles: bsm untile"
-        )
+        command = f"bsm decode -r {shlex.quote(folder)} -o OUT/"
+        raise OptionError(f"{folder} is a folder. To decode each stream in it, run: {command}; tiles: bsm untile")
     missing = [name for name in inputs if "://" not in name and name != "-" and not os.path.exists(name)]
     for name in missing:
         if _UNIT.fullmatch(name) and not os.path.dirname(name):

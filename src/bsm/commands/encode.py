@@ -55,7 +55,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_other_formats(args.inputs, args.output)
     if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
-        raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {args.inputs[0]} -o OUT.glb")
+        given = shlex.quote(args.inputs[0])
+        raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {given} -o OUT.glb")
     members: tuple[str, ...] = ()
     one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
     if args.piped_frames and args.format not in (None, "npy"):

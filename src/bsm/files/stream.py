@@ -1,5 +1,6 @@
 """Streams from files and pipes, decoded whole or frame by frame."""
 
+import shlex
 from collections.abc import Callable, Iterator
 from itertools import chain
 from pathlib import Path
@@ -34,7 +35,7 @@ def refuse_mesh(path: str) -> None:
         with open(path, "rb") as file:
             kind = format_of_bytes(file.read(1 << 12))
         if kind is not None or format_of_name(path) in MESH_FORMATS:
-            raise FormatError(f"this is a mesh file, and not a stream; to make one, run: bsm encode {path}")
+            raise FormatError(f"this is a mesh file, not a stream; to make one, run: bsm encode {shlex.quote(path)}")
 
 
 def decode_whole(

@@ -149,7 +149,7 @@ class _Scene:
                     self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
                 else:
                     self.absent[
-                        f"the image {name[:80]} ({image if isinstance(image, str) else 'it is not an image'})"
+                        f"the image {name[:80]} ({image if isinstance(image, str) else 'its format is not known'})"
                     ] = None
         if (opacity := _opacity(effect)) != 1:
             found["d"] = opacity

@@ -298,7 +298,7 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
         image = read(f"{folders[name]}/{name}") if name in folders else read(name)
         image = read(name) if isinstance(image, str) and name in folders else image
         if isinstance(image, bytes) and kind_of_image(image) is None:
-            image = "it is not an image"
+            image = "its format is not known"
         if isinstance(image, bytes):
             found[place] = image
         else:

@@ -181,7 +181,7 @@ class _Model:
         attachment = group.GetTexture2D().GetAttachment()
         data = _table(attachment, "attachment_writetobuffer", ctypes.c_uint8).tobytes()
         if formats.kind_of_image(data) is None:
-            self._left["a texture that is not an image"] = None
+            self._left["a texture of an unknown format"] = None
             return self._number((owner, -1), {})
         image = len(self._images) // 2
         name = str(attachment.GetPath()).rpartition("/")[2]
