@@ -306,7 +306,7 @@ typedef struct {
 int64_t code_light(Coder coder, Corners corners, Light light, int64_t first, int64_t count);
 
 /* Which float of the cell of a grid each coordinate is. See light.c. */
-/* What has been learned, as Python keeps it. */
+#define NO_FLOAT (INT64_C(1) << 40)
 typedef struct {
     Words slots;  /* 3 x 9: by the last three answers where a value comes again, and one where it is new */
     Longs latest; /* 3: bits of the last three answers on each axis where a value came again */

@@ -150,7 +150,6 @@ int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int
 /* Which float of the cell of a grid each coordinate is (specification, V 16). */
 
 enum { HISTORIES = 8, SLOTS = HISTORIES + 1 };
-static const int64_t NO_FLOAT = (int64_t)1 << 40;
 
 typedef struct {
     RangeCoder coder;

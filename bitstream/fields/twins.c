@@ -342,20 +342,21 @@ INLINE int32_t length_class(int32_t length) {
 }
 
 /* How far two flaps are from being congruent; NOT_ALIKE beyond what counts. Without branches, which are a toss-up. */
-INLINE uint32_t difference(const Echo *echo, const Frame *f, int32_t age) {
-    uint32_t sum = 0, may = (uint32_t)(f->length[0] >> 5) + 24, other = echo->degrees ^ f->degrees;
+INLINE uint32_t difference(const Echo *echo, const Frame *f, uint32_t may, uint64_t inverse, int32_t age) {
+    uint32_t sum = 0, other = echo->degrees ^ f->degrees;
     for (int i = 0; i < 3; i++) sum += (uint32_t)size_of(echo->length[i] - f->length[i]);
     other = (other + 0x0f0f0f) >> 4 & 0x010101; /* a bit for each that differs */
-    uint32_t away = 64 * sum / may + 19 * (2 * (other >> 16) + (other >> 8 & 1) + (other & 1))
+    uint32_t away = (uint32_t)(64 * sum * inverse >> 48) + 19 * (2 * (other >> 16) + (other >> 8 & 1) + (other & 1))
         + 3 * (uint32_t)bit_length((uint32_t)age);
     uint32_t beyond = 0u - (sum > MOST_ECHO / 64 * may);
     return (away & ~beyond) | (NOT_ALIKE & beyond);
 }
 
 /* The nearest echoes, in order: how far each is << 40, when it was visited << 32, its number. */
-static void find_alike(const Twins *t, Frame *f, uint64_t *near) {
+KERNEL void find_alike(const Twins *t, Frame *f, uint64_t *near) {
     int32_t oldest = (int32_t)largest(t->echoes - MOST_ECHOES, 0), number[PROBES], class[2][3];
-    uint64_t order[PROBES];
+    uint32_t may = (uint32_t)(f->length[0] >> 5) + 24;
+    uint64_t order[PROBES], inverse = (UINT64_C(1) << 48) / may + 1; /* of which quotients that count are exact */
     int open = 0;
     for (int k = 0; k < 3; k++) {
         int32_t fine = length_class(f->length[k]);
@@ -366,6 +367,7 @@ static void find_alike(const Twins *t, Frame *f, uint64_t *near) {
     for (int i = 0; i < PROBES; i++) {
         number[open] = t->echo_head[chain_of(class[i & 1][0], class[i >> 1 & 1][1], class[i >> 2][2], ECHO_BITS)];
         order[open] = (uint64_t)i * ECHO_VISITS;
+        __builtin_prefetch(t->echo + (number[open] & (MOST_ECHOES - 1)));
         open += number[open] > oldest;
     }
     for (int i = 0; i < NEAREST_ECHOES; i++) near[i] = (uint64_t)NOT_ALIKE << 40;
@@ -373,7 +375,7 @@ static void find_alike(const Twins *t, Frame *f, uint64_t *near) {
         int left = 0;
         for (int i = 0; i < open; i++) {
             const Echo *echo = t->echo + (number[i] & (MOST_ECHOES - 1));
-            uint64_t own = (uint64_t)difference(echo, f, t->echoes - number[i]) << 40 | order[i] << 32
+            uint64_t own = (uint64_t)difference(echo, f, may, inverse, t->echoes - number[i]) << 40 | order[i] << 32
                 | (uint64_t)number[i];
             for (int k = 0; k < NEAREST_ECHOES; k++) {
                 uint64_t nearer = own < near[k] ? own : near[k];

@@ -5,7 +5,6 @@
 #include "bitstream/payloads/corners.h"
 
 enum { AXES = 3, SUM_LEARNERS = 48, SIZE_LEARNERS = 12, FLOAT_SLOTS = 27 };
-static const int64_t NO_FLOAT = INT64_C(1) << 40;
 
 /* Of the largest axis. */
 static int32_t most_of(const Header *header) {

@@ -18,8 +18,13 @@ def turned_by(places: Positions, turn: Turn, back: bool = False) -> Positions:
         return places
     share = 2.0 / (1.0 + turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2])
     axis = np.array(turn) * (-1.0 if back else 1.0)
-    once = np.cross(axis, places)
-    return np.asarray(places + share * (once + np.cross(axis, once)))
+    once = cross_of(axis, places)
+    return np.asarray(places + share * (once + cross_of(axis, once)))
+
+
+def cross_of(a: Matrix, b: Matrix) -> Matrix:
+    """`np.cross` of the last axes, for few vectors many times quicker."""
+    return np.asarray(a[..., [1, 2, 0]] * b[..., [2, 0, 1]] - a[..., [2, 0, 1]] * b[..., [1, 2, 0]])
 
 
 def quaternion_of(turns: Matrix) -> Matrix:
@@ -34,7 +39,7 @@ def quaternion_of(turns: Matrix) -> Matrix:
 def turn_of(positions: Matrix, faces: Faces) -> Turn:
     """The turn, in single precision, to axes along which more of the area lies; `UNTURNED` if that is little more."""
     a, b, c = positions[faces.T]
-    normals = np.cross(b - a, c - a)
+    normals = cross_of(b - a, c - a)
     normals *= np.sign(np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1))
     directions = np.rint(normals / (SAME * np.sqrt(np.square(normals).sum(axis=1)) + 1e-300)[:, None])
     _, plane = np.unique(directions @ (1e8, 1e4, 1.0), return_inverse=True)
@@ -48,8 +53,8 @@ def turn_of(positions: Matrix, faces: Faces) -> Turn:
     best, most = np.eye(3), along(np.eye(3)) + WORTH * areas.sum()
     large = normals[[at for at in np.argsort(-areas, kind="stable")[:12] if areas[at] > 0.0]]
     first, second = large[np.array(np.nonzero(np.triu(np.abs(large @ large.T) < UPRIGHT, 1)))]
-    third = np.cross(first, second)
-    for axes in np.stack([first, np.cross(third, first), third], axis=1):
+    third = cross_of(first, second)
+    for axes in np.stack([first, cross_of(third, first), third], axis=1):
         if (found := along(axes)) > most:
             best, most = axes, found
     if (best == np.eye(3)).all():

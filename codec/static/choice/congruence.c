@@ -13,8 +13,9 @@ enum {
     MOST_PAIRS = 8,   /* of a triangle */
     MOST_ASKED = 3000, /* triangles whose pairs vote */
     TRIED = 256, FITTING = 1024, COUNTED = 16384, /* vertices */
-    CELL = 8,
-    NEAR_WORDS = 1 << 14,
+    CELL = 8, /* twice LOOSE */
+    NEAR_BITS = 18,
+    ROW = 64, /* vertices that are moved at once */
 };
 static const double LEAST_SIDE = 3.0, LEAST_AREA = 8.0, ALIKE = 1.0, LOOSE = 4.0, CLOSE = 1.25;
 
@@ -28,55 +29,59 @@ typedef struct {
     ConstDoubles2 positions;
     int32_t *head, *next; /* of vertices by cells of CELL */
     uint32_t mask;
-    uint64_t *near; /* a bit for each cell with a place that is within LOOSE of a vertex, and others */
+    uint8_t *near; /* by the lowest of eight cells around a place: which hold vertices, and others */
+    int32_t *moved; /* COUNTED: of some vertices, those to which a motion takes them */
 } Space;
 
-INLINE int64_t cell_of(double x) { /* a call of floor() takes longer than all of it */
-    int64_t whole = (int64_t)(x / CELL);
-    return whole - ((double)whole > x / CELL);
+INLINE int32_t cell_of(double x) { /* a call of floor() takes longer than all of it */
+    int32_t whole = (int32_t)(x / CELL);
+    return whole - (whole > x / CELL);
 }
 INLINE uint32_t mixed(uint32_t hash, int64_t x) { return (hash ^ (uint32_t)x) * 2654435769u ^ hash >> 15; }
-INLINE uint32_t cell_key(int64_t x, int64_t y, int64_t z, uint32_t mask) {
+INLINE uint32_t cell_key(int32_t x, int32_t y, int32_t z, uint32_t mask) {
     return mixed(mixed(mixed(1, x), y), z) >> 7 & mask;
 }
-INLINE uint32_t near_key(const double *at, double off_x, double off_y, double off_z) {
-    return cell_key(cell_of(at[0] + off_x), cell_of(at[1] + off_y), cell_of(at[2] + off_z), 64 * NEAR_WORDS - 1);
-}
+INLINE uint32_t near_key(int32_t x, int32_t y, int32_t z) { return cell_key(x, y, z, (1 << NEAR_BITS) - 1); }
 
 INLINE void move(const Motion *m, const double *from, double *to) {
     for (int i = 0; i < 3; i++)
         to[i] = m->turn[i][0] * from[0] + m->turn[i][1] * from[1] + m->turn[i][2] * from[2] + m->shift[i];
 }
 
-/* The vertex nearest to a place within `reach`, at most LOOSE; -1: none. */
-static int32_t nearest_vertex(const Space *s, const double *at, double reach) {
+/* The vertex nearest to a place within `reach`, at most LOOSE, in some of the eight cells from `first` on; -1: none. */
+static int32_t nearest_vertex(const Space *s, const double *at, const int32_t *first, uint32_t cells, double reach) {
     double least = reach * reach;
     int32_t best = -1;
-    uint32_t bit = near_key(at, 0.0, 0.0, 0.0);
-    if ((s->near[bit >> 6] >> (bit & 63) & 1) == 0) return -1;
-    int64_t last[3], first[3];
-    for (int i = 0; i < 3; i++) first[i] = cell_of(at[i] - reach), last[i] = cell_of(at[i] + reach);
-    for (int64_t a = first[0]; a <= last[0]; a++)
-        for (int64_t b = first[1]; b <= last[1]; b++)
-            for (int64_t c = first[2]; c <= last[2]; c++) {
-                int32_t u = s->head[cell_key(a, b, c, s->mask)];
-                for (int visits = 0; u >= 0 && visits < MOST_WALKED; visits++, u = s->next[u]) {
-                    const double *x = s->positions.data + 3 * (int64_t)u;
-                    double p = x[0] - at[0], q = x[1] - at[1], r = x[2] - at[2], square = p * p + q * q + r * r;
-                    if (square < least) least = square, best = u;
-                }
-            }
+    for (; cells != 0; cells &= cells - 1) {
+        int k = __builtin_ctz(cells);
+        int32_t u = s->head[cell_key(first[0] + (k >> 2), first[1] + (k >> 1 & 1), first[2] + (k & 1), s->mask)];
+        for (int visits = 0; u >= 0 && visits < MOST_WALKED; visits++, u = s->next[u]) {
+            const double *x = s->positions.data + 3 * (int64_t)u;
+            double p = x[0] - at[0], q = x[1] - at[1], r = x[2] - at[2], square = p * p + q * q + r * r;
+            if (square < least) least = square, best = u;
+        }
+    }
     return best;
 }
 
-/* How many of every `stride`th vertex a motion takes to another; fewer where they cannot be `wanted`. */
-static int64_t count_moved(const Space *s, const Motion *m, int64_t stride, double reach, int64_t wanted) {
-    int64_t found = 0, n = s->positions.rows;
-    for (int64_t v = 0; v < n && found + (n - 1 - v) / stride + 1 >= wanted; v += stride) {
-        double at[3];
-        move(m, s->positions.data + 3 * v, at);
-        int32_t u = nearest_vertex(s, at, reach);
-        found += u >= 0 && u != v;
+/* To which vertex a motion takes every `stride`th, in `moved`, -1: to none; returns how many it takes to others. */
+KERNEL int64_t count_moved(const Space *s, const Motion *m, int64_t stride, double reach) {
+    int64_t count = (s->positions.rows - 1) / stride + 1, found = 0;
+    for (int64_t start = 0; start < count; start += ROW) {
+        double at[ROW][3];
+        int32_t first[ROW][3];
+        uint32_t key[ROW];
+        int64_t row = least(count - start, ROW);
+        for (int64_t k = 0; k < row; k++) {
+            move(m, s->positions.data + 3 * (start + k) * stride, at[k]);
+            for (int i = 0; i < 3; i++) first[k][i] = cell_of(at[k][i] - LOOSE);
+            key[k] = near_key(first[k][0], first[k][1], first[k][2]);
+        }
+        for (int64_t k = 0; k < row; k++) {
+            int32_t u = s->near[key[k]] ? nearest_vertex(s, at[k], first[k], s->near[key[k]], reach) : -1;
+            found += u >= 0 && u != (start + k) * stride;
+            s->moved[start + k] = u;
+        }
     }
     return found;
 }
@@ -85,13 +90,13 @@ static int64_t count_moved(const Space *s, const Motion *m, int64_t stride, doub
 static bool fit(const Space *s, Motion *m, int64_t stride, double reach) {
     double middle[3] = {0.0, 0.0, 0.0}, off[3] = {0.0, 0.0, 0.0}, square[3][4] = {{0.0}};
     double seen = 0.0;
-    int32_t nearest[FITTING];
+    count_moved(s, m, stride, reach);
     for (int pass = 0; pass < 2; pass++) {
         for (int64_t v = 0, at = 0; v < s->positions.rows; v += stride, at++) {
+            int32_t u = s->moved[at];
             double p[3];
-            move(m, s->positions.data + 3 * v, p);
-            int32_t u = nearest[at] = pass ? nearest[at] : nearest_vertex(s, p, reach);
             if (u < 0) continue;
+            move(m, s->positions.data + 3 * v, p);
             const double *q = s->positions.data + 3 * (int64_t)u;
             if (pass == 0) {
                 for (int i = 0; i < 3; i++) middle[i] += p[i], off[i] += q[i] - p[i];
@@ -291,66 +296,55 @@ static int64_t choose_pool(Motion *votes) {
     return count;
 }
 
-/* Bring the motions that take most of a few vertices to others to the front; returns how many are left. */
-static int64_t sort_pool(const Space *s, Motion *pool, int64_t count, int64_t most, int64_t stride, double reach,
-    int64_t least_moved) {
-    int64_t left = 0;
-    for (int64_t i = 0; i < count; i++) {
-        Motion m = pool[i];
-        int64_t wanted = left == most ? largest(pool[left - 1].votes + 1, least_moved) : least_moved;
-        m.votes = count_moved(s, &m, stride, reach, wanted);
-        if (m.votes >= wanted) left = keep(pool, left, most, m);
-    }
-    return left;
-}
-
 /* Motions of positions (n x 3, in steps of a grid, from the middle of their box) with their faces (m x 3) and valences
  * (n): rows of a turn (9) and a shift (3) in `found`, in the order of what each explains that those before do not, each
  * at least `worth` vertices. `heads` has room for a power of two; `links`: n + m; others are 0. Returns how many. */
 KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads,
                             Ints links, Bytes covered, Doubles room, Doubles2 found) {
-    int64_t n = positions.rows, m = faces.rows, count = 0;
+    int64_t n = positions.rows, m = faces.rows, count = 0, moving = 0;
     Motion *pool = (Motion *)room.data;
     if (n < 1 || positions.columns != 3 || faces.columns != 3 || degrees.size != n || heads.size < 2
         || (heads.size & (heads.size - 1)) != 0 || links.size < n + m || covered.size < FITTED * COUNTED
-        || room.size * (int64_t)sizeof(double) < (int64_t)(VOTES * sizeof(Motion) + NEAR_WORDS * sizeof(uint64_t))
+        || room.size * (int64_t)sizeof(double) < (int64_t)(VOTES * sizeof(Motion) + (1 << NEAR_BITS))
         || found.columns != 12)
         return MISUSED;
     for (int64_t k = 0; k < 3 * m; k++)
         if (faces.data[k] < 0 || faces.data[k] >= n) return MISUSED;
     for (int64_t k = 0; k < 3 * n; k++)
         if (!(__builtin_fabs(positions.data[k]) < 0x1p30)) return MISUSED;
-    Space s = {positions, heads.data, links.data, (uint32_t)heads.size - 1, (uint64_t *)(pool + VOTES)};
+    Space s = {positions, heads.data, links.data, (uint32_t)heads.size - 1, (uint8_t *)(pool + VOTES),
+        (int32_t *)(pool + POOL)};
     for (int64_t i = 0; i < heads.size; i++) heads.data[i] = -1;
     collect_votes(&s, faces, degrees, heads.data, links.data + n, s.mask, pool);
     count = choose_pool(pool);
     for (int64_t i = 0; i < heads.size; i++) heads.data[i] = -1;
     for (int64_t v = 0; v < n; v++) {
         const double *x = positions.data + 3 * v;
-        uint32_t key = cell_key(cell_of(x[0]), cell_of(x[1]), cell_of(x[2]), s.mask);
+        int32_t own[3] = {cell_of(x[0]), cell_of(x[1]), cell_of(x[2])};
+        uint32_t key = cell_key(own[0], own[1], own[2], s.mask);
         links.data[v] = heads.data[key];
         heads.data[key] = (int32_t)v;
-        for (int i = 0; i < 8; i++) {
-            uint32_t bit = near_key(x, i & 1 ? LOOSE : -LOOSE, i & 2 ? LOOSE : -LOOSE, i & 4 ? LOOSE : -LOOSE);
-            s.near[bit >> 6] |= UINT64_C(1) << (bit & 63);
-        }
+        for (int k = 0; k < 8; k++)
+            s.near[near_key(own[0] - (k >> 2), own[1] - (k >> 1 & 1), own[2] - (k & 1))] |= (uint8_t)(1 << k);
     }
     int64_t tried = n / TRIED + 1, fitting = n / FITTING + 1, counted = n / COUNTED + 1, fitted = 0, kept = 0;
-    count = sort_pool(&s, pool, count, FITTED, tried, LOOSE, 3);
     for (int64_t i = 0; i < count; i++) {
-        Motion *own = pool + i;
+        Motion own = pool[i];
+        own.votes = count_moved(&s, &own, tried, LOOSE);
+        if (own.votes >= 3) moving = keep(pool, moving, FITTED, own);
+    }
+    for (Motion *own = pool; own < pool + moving; own++)
         if (fit(&s, own, fitting, LOOSE) && fit(&s, own, fitting, LOOSE / 2.0) && fit(&s, own, fitting, CLOSE))
             pool[fitted++] = *own;
-    }
     /* Which vertices each explains: of a vertex and its image the later. */
     int64_t size = (n - 1) / counted + 1;
-    for (int64_t i = 0; i < fitted; i++)
-        for (int64_t v = 0; v < n; v += counted) {
-            double at[3];
-            move(pool + i, positions.data + 3 * v, at);
-            int32_t u = nearest_vertex(&s, at, CLOSE);
+    for (int64_t i = 0; i < fitted; i++) {
+        count_moved(&s, pool + i, counted, CLOSE);
+        for (int64_t at = 0; at < size; at++) {
+            int64_t v = at * counted, u = s.moved[at];
             if (u >= 0 && u != v) covered.data[size * i + largest(u, v) / counted] = 1;
         }
+    }
     while (kept < found.rows) {
         int64_t best = -1, most = 0;
         for (int64_t i = 0; i < fitted; i++) {
@@ -359,11 +353,11 @@ KERNEL int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts
             if (gain > most) most = gain, best = i;
         }
         if (best < 0 || (double)(most * counted) < worth) break;
+        double *row = found.data + 12 * kept++;
         for (int i = 0; i < 3; i++) {
-            for (int j = 0; j < 3; j++) found.data[12 * kept + 3 * i + j] = pool[best].turn[i][j];
-            found.data[12 * kept + 9 + i] = pool[best].shift[i];
+            for (int j = 0; j < 3; j++) row[3 * i + j] = pool[best].turn[i][j];
+            row[9 + i] = pool[best].shift[i];
         }
-        kept++;
         for (int64_t i = 0; i < fitted; i++)
             for (int64_t v = 0; v < size && i != best; v++)
                 covered.data[size * i + v] &= !covered.data[size * best + v];

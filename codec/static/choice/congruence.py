@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Levels, Matrix
-from bsm.codec.geometry.turns import Turn, quaternion_of, turned_by
+from bsm.codec.geometry.turns import Turn, cross_of, quaternion_of, turned_by
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.grid import Grid
 
@@ -24,8 +24,7 @@ FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer
 
 def transforms_of(prepared: Prepared, grid: Grid, finer: float = 1.0) -> Levels:
     """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    turns, shifts = _motions(prepared, grid.step / finer, grid.turn)
-    origin = np.array(grid.origin)
+    (turns, shifts), origin = _motions(prepared, grid.step / finer, grid.turn), np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
 
 
@@ -72,11 +71,18 @@ def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> L
     most, middle, moved = int(max(span.max(), 1)), span / 2.0, turns @ (span / 2.0) + shifts
     source = np.abs(turns).argmax(axis=2)
     sign = np.sign(np.take_along_axis(turns, source[..., None], axis=2)[..., 0])
-    near = (np.abs(turns - np.eye(3)[source] * sign[..., None]) * span).max(axis=(1, 2)) < 1.0
-    parallel = near & (np.sort(source, axis=1) == np.arange(3)).all(axis=1)
+    others = (np.abs(turns - np.eye(3)[source] * sign[..., None]) * span).max(axis=(1, 2)) >= 1.0
+    others |= (np.sort(source, axis=1) != np.arange(3)).any(axis=1)
     kind = 8 * (2 * source[:, 0] + ((source[:, 1] - source[:, 0]) % 3 == 2)) + (sign < 0) @ np.array([1, 2, 4])
     given = np.rint(moved - sign * middle[source]) + np.where(sign > 0, span[source], 0)
+    rows, ends = np.column_stack([kind, np.zeros((len(turns), 4)), given]), span + span[source]
+    if others.any():
+        rows[others], ends[others] = _turned(turns[others], moved[others], middle, most), 24 * most
+    return np.asarray(rows[((rows[:, 5:] >= 0) & (rows[:, 5:] <= ends)).all(axis=1)], np.int32)
 
+
+def _turned(turns: Matrix, moved: Matrix, middle: Matrix, most: int) -> Matrix:
+    """The numbers of transforms that are not parallel to the axes, which move the middle so."""
     mirrored = np.linalg.det(turns) < 0.0
     side = np.where(mirrored, -1.0, 1.0)[:, None, None]
     quaternion = quaternion_of(side * turns)
@@ -84,17 +90,12 @@ def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> L
     which = np.abs(quaternion).argmax(axis=1)[:, None]
     unit = np.rint(quaternion / np.take_along_axis(quaternion, which, axis=1) * (1 << bits))
     a, v = unit[:, :1, None], unit[:, 1:]
-    across = np.cross(v[:, None], np.eye(3)).transpose(0, 2, 1)
     spun = (
         (a * a - np.square(v).sum(axis=1)[:, None, None]) * np.eye(3)
         + 2.0 * v[:, :, None] * v[:, None]
-        + 2.0 * a * across
+        + 2.0 * a * cross_of(v[:, None], np.eye(3)).transpose(0, 2, 1)
     )
     turned = side * spun / np.square(unit).sum(axis=1)[:, None, None]
     quarters = np.rint(4.0 * (moved - turned @ middle)) + 12 * most
     others = unit[np.arange(4) != which].reshape(-1, 3) + (1 << bits)
-
-    ends = np.where(parallel[:, None], span + span[source], 24 * most)
-    axial = np.column_stack([kind, np.zeros((len(turns), 4)), given])
-    rows = np.where(parallel[:, None], axial, np.column_stack([AXIS_KINDS + mirrored, which, others, quarters]))
-    return rows[((rows[:, 5:] >= 0) & (rows[:, 5:] <= ends)).all(axis=1)].astype(np.int32)
+    return np.column_stack([AXIS_KINDS + mirrored, which, others, quarters])
