@@ -175,15 +175,15 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
     Record record;
     Mark mark = mark_of(scratch);
     Map *map = NULL;
-    bool brief = payload.size > 1 && (payload.data[1] == BRIEF || payload.data[1] == BRIEF_TURNED);
+    bool brief = !BSMDEC_LONG && payload.size > 1 && (payload.data[1] == BRIEF || payload.data[1] == BRIEF_TURNED);
     if (payload.size > MOST_HEADER) return FAIL(context, CORRUPT, "a header of # bytes is too long", payload.size);
-    if (brief && (!TAKE(scratch, 1, map) || !parse_map(context, payload, map))) return false;
-    brief = brief && (map->count == 1 || (map->count == 2 && map->key[1].whole == BRIEF_METADATA));
+    bool parsed = !brief || (TAKE(scratch, 1, map) && parse_map(context, payload, map));
+    brief = brief && parsed && (map->count == 1 || (map->count == 2 && map->key[1].whole == BRIEF_METADATA));
     *header = (Header){.brief = brief};
-    if (!(brief ? parse_brief(context, map, &record, header)
-                : parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record)))
-        return false;
+    parsed = parsed && (brief ? parse_brief(context, map, &record, header)
+        : parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record));
     release_to(scratch, mark);
+    if (!parsed) return false;
     set_header(&record, header);
 #ifdef BSMDEC_LACKS /* by a smaller build for pages */
     if (BSMDEC_LACKS) return FAIL(context, UNSUPPORTED, "");

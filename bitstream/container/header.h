@@ -30,6 +30,11 @@ typedef struct {
     Span connectivity, values, metadata;
 } Header;
 
+#ifndef BSMDEC_LONG /* whether a build knows no brief streams */
+#define BSMDEC_LONG 0
+#endif
+INLINE bool is_brief(const Header *header) { return !BSMDEC_LONG && header->brief; }
+
 /* How positions on a grid are coded. */
 INLINE int method_of(const Header *header) {
 #ifdef BSMDEC_LIGHT /* a build of light grids alone */

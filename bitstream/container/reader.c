@@ -246,15 +246,12 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
 }
 
 /* Keep what follows the header of a brief stream in its frame (F 11). */
-static bool keep_brief(Reader *reader, Header *header) {
-    Span *parts[] = {&header->connectivity, &header->values, &header->metadata};
-    for (int i = 0; header->brief && i < 3; i++) {
-        uint8_t *copy;
-        if (!TAKE(&reader->meshes, parts[i]->size + 1, copy)) return false;
-        if (parts[i]->size > 0) memcpy(copy, parts[i]->data, (size_t)parts[i]->size);
-        parts[i]->data = copy;
-    }
-    return true;
+static bool keep_brief(Reader *reader, Span payload, Header *header) {
+    uint8_t *copy;
+    if (!is_brief(header)) return true;
+    if (!TAKE(&reader->meshes, payload.size, copy)) return false;
+    memcpy(copy, payload.data, (size_t)payload.size);
+    return parse_header(reader->context, (Span){copy, payload.size}, &reader->scratch, header);
 }
 
 /* The packets for which a brief stream has no frames. */
@@ -283,7 +280,7 @@ static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
         if (packet->type == HEADER_FRAME) {
             reader->header = !reader->header;
             release_all(&reader->meshes);
-            if (!keep_brief(reader, &reader->headers[reader->header])) return false;
+            if (!keep_brief(reader, frame.payload, &reader->headers[reader->header])) return false;
         }
         if (packet->type == ATTRIBUTE_FRAME) {
             if (!TAKE(&reader->meshes, 1, own)) return false;
@@ -310,9 +307,8 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
     }
     while (reader->grammar.last != END_FRAME) {
         Frame frame = {0};
-        if (reader->grammar.header != NULL && reader->grammar.header->brief) {
+        if (reader->grammar.header != NULL && is_brief(reader->grammar.header))
             return next_of_brief(reader, packet) ? A_PACKET : NOTHING_BUT_AN_ERROR;
-        }
         if (!read_frame(reader, waiting(reader), &frame)) return NOTHING_BUT_AN_ERROR;
         if (frame.size == 0) return incomplete(reader);
         if (!pay(reader, FRAME_WORK + BYTE_WORK * (double)frame.size, (double)frame.size)) return NOTHING_BUT_AN_ERROR;
