@@ -208,7 +208,7 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
             width = min(CELL_WIDTH * flat ** (2.0 / 3.0), 1.0)
             steps = (*steps, Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
-    unknown = Forecast(0.0, 0.0, sure=False, known=False)
+    unknown = Forecast(0.0, 0.0, sure=False, known=False, lost=0.0)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 
@@ -226,7 +226,7 @@ def treat(
     verdict = judge(noisy, full, finding, patient.probe)
     if verdict.reason:
         return noisy, replace(choice, steps=(), reason=verdict.reason)
-    share = restraint(verdict.movement, finding)
+    share = restraint(finding, choice.noise.normal * finding.edge, choice.forecast.lost if choice.forecast else 0.0)
     result = keep_good(noisy, noisy + share * (full - noisy) if share < 1.0 else full, verdict.good)
     if choice.forecast:
         part = noisy + strength * (result - noisy)

@@ -66,12 +66,14 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Forecast:
-    """Angles to expect where there is noise, without and with the filter; whether they are sure, and known at all."""
+    """Angles to expect where there is noise, without and with the filter; whether they are sure, and known at all; and
+    the roughness that the filter takes from a guess (a logarithm)."""
 
     untreated: float
     expected: float
     sure: bool
     known: bool
+    lost: float
 
 
 class Rehearsal:
@@ -127,7 +129,7 @@ class Rehearsal:
         least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
         expected = float(after) * winner.error / noisy * least
         known = self._finding.clear and self._drowned < MOST_DROWNED
-        return Forecast(before * self.untreated / noisy, expected, sure, known)
+        return Forecast(before * self.untreated / noisy, expected, sure, known, lost)
 
     @property
     def _drowned(self) -> float:

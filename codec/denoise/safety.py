@@ -19,10 +19,9 @@ varies by chance between windows if neighbors share it, and with the slant in sc
 broad noise is stronger where few views meet; and where noise is not known."""
 MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
 FAINT = 0.02  # movements below, in mean edges, harm nobody
-DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
-"""Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
-NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.92, 5.0, 0.4
-"""Movement over noise on meshes without detail; the share that is not applied for each unit more; and its maximum."""
+DETAIL_LOST, NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.075, 1.03, 4.0, 0.4
+"""Noise may be mixed with detail where a rehearsal loses so much roughness (a logarithm): its level over that in the
+finest frequencies without detail, the share of movements that is not made for each unit more, and the largest one."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
@@ -30,7 +29,6 @@ FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 @dataclass(frozen=True, eq=False)
 class Verdict:
     good: Mask
-    movement: float
     reason: str  # why the result as a whole may not stand; empty if it may
 
 
@@ -39,13 +37,13 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
     if finding.kind in ("cells", "steps"):
-        return Verdict(everywhere, 1.0, "")  # within the bound of the cause
+        return Verdict(everywhere, "")  # within the bound of the cause
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
     if not finding.noisy and not unsure:
         # No statistics here: they may be what is missing.
         if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINT * finding.edge:
-            return Verdict(everywhere, 0.0, "")
-        return Verdict(~everywhere, np.inf, f"{finding.reason}, and the result moves vertices nevertheless")
+            return Verdict(everywhere, "")
+        return Verdict(~everywhere, f"{finding.reason}, and the result moves vertices nevertheless")
     normals = probe.smooth_normals(result, passes=0)
     removed = probe.levels(np.einsum("ij,ij->i", noisy - result, normals))
     found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
@@ -62,17 +60,13 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     bad = windows.valid & ~(ratio <= most)
     failed = float(bad[judged].mean()) if judged.any() else 0.0
     reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
-    return Verdict(~bad[windows.labels], movement, reason if failed > FAILED_SHARE else "")
+    return Verdict(~bad[windows.labels], reason if failed > FAILED_SHARE else "")
 
 
-def restraint(movement: float, finding: Finding) -> float:
-    """How much of a movement to make: less than all where faint noise seems to be mixed with detail."""
-    level = finding.level / finding.edge
-    if finding.kind != "white":
-        return 1.0
-    faintness = min(max((DETAIL_DROWNED - level) / (DETAIL_DROWNED - DETAIL_SEEN), 0.0), 1.0)
-    excess = min(max(DETAIL_SLOPE * (movement - NOISE_ALONE), 0.0), DETAIL_MOST)
-    return 1.0 - faintness * excess
+def restraint(finding: Finding, finest: float, lost: float) -> float:
+    """How much of a movement to make; `finest`: the finest level of the noise, `lost`: roughness lost in rehearsals."""
+    mixed = finding.kind == "white" and lost > DETAIL_LOST and finest > 0.0
+    return 1.0 - min(max(DETAIL_SLOPE * (finding.level / finest - NOISE_ALONE), 0.0), DETAIL_MOST) if mixed else 1.0
 
 
 def keep_good(noisy: Positions, result: Positions, good: Mask) -> Positions:

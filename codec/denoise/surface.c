@@ -2,22 +2,8 @@
 #include "codec/denoise/denoise.h"
 #include "codec/denoise/vectors.h"
 
-/* First place in an ascending row that is not below `value`. */
-static int64_t place_of(const int32_t *row, int64_t size, int32_t value) {
-    int64_t low = 0, high = size;
-    while (low < high) {
-        int64_t middle = (low + high) / 2;
-        if (row[middle] < value) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
-/* Each face with the faces that share a vertex with it, itself first; in a fan of more than 2 `crowd` faces only the
- * `crowd` before and behind. Returns the number of members; `seen` is scratch, one entry a face. */
+/* Each face with the faces that share a vertex of at most `crowd` faces with it, itself first. Returns the number of
+ * members; `seen` is scratch, one entry a face. */
 int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
     Longs starts, Ints members) {
     int64_t end = 0;
@@ -29,12 +15,7 @@ int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts aroun
         for (int corner = 0; corner < 3; corner++) {
             int32_t v = faces.data[3 * f + corner];
             int64_t first = around_starts.data[v], last = around_starts.data[v + 1];
-            if (last - first > 2 * crowd) {
-                int64_t place = first + place_of(around.data + first, last - first, (int32_t)f);
-                first = largest(first, place - crowd);
-                last = least(last, place + crowd + 1);
-            }
-            for (int64_t k = first; k < last; k++) {
+            for (int64_t k = last - first > crowd ? last : first; k < last; k++) {
                 int32_t g = around.data[k];
                 if (seen.data[g] != f) {
                     seen.data[g] = (int32_t)f;

@@ -15,7 +15,7 @@ from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
 Floats = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-CROWD = 32
+CROWD = 64  # faces around a vertex from which on they are not near each other because of it
 CROWDED = 16.0  # faces within a distance, over its square: about twice as many as there are of even triangles
 
 
@@ -40,7 +40,7 @@ class Topology:
     @cached_property
     def patches(self) -> Rows:
         """Faces that share a vertex with each face; itself comes first."""
-        sizes = np.minimum(np.diff(self.around.starts), 2 * CROWD + 1)
+        sizes = np.minimum(np.diff(self.around.starts), CROWD)
         members = np.empty(len(self.faces) + int(sizes[self.faces].sum()), np.int32)
         starts, seen = np.empty(len(self.faces) + 1, np.int64), np.empty(len(self.faces), np.int32)
         count = _kernels.face_patches(self.faces, self.around.starts, self.around.members, CROWD, seen, starts, members)

@@ -104,16 +104,15 @@ def rounding_step(coordinate: Floats, fewest: int = FEWEST_VALUES) -> float | No
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
-    """An axis along which vertices were moved, and how far at most."""
+class Box:
+    """Axes along which vertices were moved, the rows of `frame`, and how far at most."""
 
-    axis: Floats
-    most: float
+    frame: Floats
+    half: Floats
 
     def within(self, given: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back to the lines through the given ones."""
-        along = np.clip((moved - given) @ self.axis, -self.most, self.most)
-        return np.asarray(given + along[:, None] * self.axis)
+        """Moved positions, shape (n, 3), brought back to where those that were `given` may be."""
+        return np.asarray(given + np.clip((moved - given) @ self.frame.T, -self.half, self.half) @ self.frame)
 
 
 FARTHEST, ASIDE = 5.0, 1.5

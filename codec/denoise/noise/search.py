@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.causes import Line, find_grid, find_steps
+from bsm.codec.denoise.noise.causes import Box, find_grid, find_steps
 from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
@@ -248,7 +248,7 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     if growth is not None:
         reason += f", {growth.max() / growth.min():.1f} times as strong at one end as at the other"
     facing = np.abs(evidence.normals @ axis)
-    bound = Line(axis, AXIS_MOST * float(amount.max()))
+    bound = Box(axis[None], AXIS_MOST * amount.max(keepdims=True))
     finding = Finding("axis", level * edge, amount * facing, edge, reason, axis=axis, growth=growth, bound=bound)
     return _suspect("axis", along, finding)
 

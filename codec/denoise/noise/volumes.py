@@ -14,7 +14,7 @@ import numpy as np
 from scipy import sparse
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.causes import FEW_VALUES, FEWEST_VALUES, rounding_step
+from bsm.codec.denoise.noise.causes import FEW_VALUES, FEWEST_VALUES, Box, rounding_step
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Floats, Topology
 
@@ -28,12 +28,10 @@ SAFE = 1.1  # over the estimate of the largest curvature
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
+class Cells(Box):
     """Cells of a binary volume along the rows of `frame`, and how far each vertex may move along these."""
 
-    frame: Floats
     steps: Floats
-    half: Floats
     thick: int = 1  # cells of a slice
     thin: float = 0.0  # share of the stairs along an axis that bound walls of one cell
 
@@ -45,10 +43,6 @@ class Cells:
     def levels(self, normals: Floats) -> Floats:
         """Standard deviation along normals, shape (n, 3), of what sampling takes away or adds, shape (n,)."""
         return np.asarray(np.sqrt(np.square(normals @ self.frame.T * self.steps).sum(axis=1) / 12.0))
-
-    def within(self, given: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back to where those that were `given` may be."""
-        return np.asarray(given + np.clip((moved - given) @ self.frame.T, -self.half, self.half) @ self.frame)
 
     def flattened(self, positions: Positions, topology: Topology) -> Positions:
         """The surface of fewest bends within the bounds, shape (n, 3)."""
@@ -116,7 +110,7 @@ def _cells(places: Positions, frame: Floats) -> Cells | None:
         # Only the middle of a slice was sampled.
         half[aside | between[:, axis]] = np.inf
         half[aside | between[:, axis], axis] = thick * halves[axis]
-    return Cells(frame, steps, half, thick, thin)
+    return Cells(frame, half, steps, thick, thin)
 
 
 def _frames(positions: Positions, topology: Topology) -> list[Floats]:

@@ -146,9 +146,8 @@ def test_the_hub_of_a_wheel_does_not_make_everybody_a_neighbor() -> None:
     spokes = np.arange(200)
     faces = np.stack([spokes, (spokes + 1) % 200, np.full(200, 200)], axis=1).astype(np.int32)
     topology = Topology(faces, 201)
-    assert np.diff(topology.patches.starts).max() == 65
-    assert sorted(members(topology.patches, 100)) == list(range(68, 133))
-    assert {1, 199} < set(members(topology.patches, 0))
+    assert (np.diff(topology.patches.starts) == 3).all()
+    assert sorted(members(topology.patches, 100)) == [99, 100, 101]
 
 
 def test_vertices_follow_the_true_normals_to_the_plane() -> None:
