@@ -31,12 +31,10 @@ def transforms_of(prepared: Prepared, grid: Grid, finer: float = 1.0) -> Levels:
 def mirrored_origin(prepared: Prepared, origin: Matrix, step: float, turn: Turn) -> Matrix:
     """The origin of a grid, at most half a cell lower, for which mirrors take cells of the grid to cells."""
     turns, shifts = _motions(prepared, step, turn)
-    moved = origin.copy()
-    for axis in range(3):
-        back = np.flatnonzero(np.abs(turns[:, axis] + np.eye(3)[axis]).max(axis=1) < PARALLEL)
-        if len(back):
-            halves = (shifts[back[0], axis] - 2.0 * origin[axis]) / step
-            moved[axis] -= (math.ceil(halves) - halves) * step / 2.0
+    moved, back = origin.copy(), np.abs(turns + np.eye(3)).max(axis=2) < PARALLEL
+    for axis in np.flatnonzero(back.any(axis=0)):
+        halves = (shifts[back[:, axis].argmax(), axis] - 2.0 * origin[axis]) / step
+        moved[axis] -= (math.ceil(halves) - halves) * step / 2.0
     return moved
 
 
@@ -47,9 +45,11 @@ def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matri
         cell = FINER * 2.0 ** (octave / 2.0)
         prepared.motions[octave] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
         prepared.motions[octave][:, 9:] *= cell
-    turns, shifts = np.split(prepared.motions[octave], [9], axis=1)
+    turns, shifts = prepared.motions[octave][:, :9].reshape(-1, 3, 3), prepared.motions[octave][:, 9:]
+    if not any(turn):
+        return turns, shifts
     axes = turned_by(np.eye(3), turn)
-    return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T
+    return axes @ turns @ axes.T, shifts @ axes.T
 
 
 def motions_between(positions: Matrix, faces: Faces) -> Matrix:
