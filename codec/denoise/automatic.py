@@ -62,8 +62,8 @@ SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 1.0, 0.1, 3.0)
 _OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for width in (0.4, 0.25, 0.55)]
 AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
-FUSED = tuple(Recipe(BENDS, weight, "own", 0.3) for weight in (0.3, 0.6, 0.15, 1.2))
-EVEN, FUSED_UNEVEN, FUSED_MOST = 0.15, 7.0, 2.5
+FUSED = (*(Recipe(BENDS, weight, "own", 0.3) for weight in (0.3, 0.6, 0.15)), *CANDIDATES[:3])
+EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
 with: the weight of bends over the unevenness, and its bound."""
 CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
