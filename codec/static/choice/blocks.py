@@ -301,10 +301,14 @@ class Refined:
         base, reaches = self.base, self._bounds.reaches
         room = (self._diagonal / step) ** 2 - 1.0
         layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self.ratio))
-        steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
+        steps, expected = base.expected_steps(layer), partial(base.known_steps, layer)
         near = self._near(steps)
-        levels = self._settler.levels(base.offsets, base.frames, steps, known, PULLED, near, self.ratio)
-        return layer, *base.within(reaches, layer, levels)
+        levels = self._settler.levels(base.offsets, base.frames, steps, expected, PULLED, near, self.ratio)
+        levels, known = base.within(reaches, layer, levels)
+        if len((gaps := self._bounds.gaps).ends):
+            moved = base.moved(layer, levels, known) - self._prepared.positions
+            levels, known = base.within(gaps.kept(reaches, moved), layer, levels)
+        return layer, levels, known
 
     @cached_property
     def base(self) -> RefinementBase:

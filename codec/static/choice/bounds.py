@@ -239,9 +239,11 @@ class Gaps(NamedTuple):
         """How much of each gap moves of vertices, shape (n, 3), close, over what may be, shape (k,)."""
         return np.asarray((self.closing * moved[self.ends]).sum(axis=(1, 2)) / (1.0 - FINEST_PART))
 
-    def kept(self, reach: Matrix) -> Matrix:
-        """How far vertices may be moved in any direction, of so much, shape (n,)."""
-        np.minimum.at(reach, self.ends, 0.5 / np.sqrt(squares_of(self.closing[:, 0]))[:, None])
+    def kept(self, reach: Matrix, moved: Matrix | None = None) -> Matrix:
+        """How far vertices may be, of `reach`, so that no gap closes, or none of those that `moved` would close."""
+        wrong = np.s_[:] if moved is None else self.closed(moved) > 1.0
+        near, reach = 0.5 / np.sqrt(squares_of(self.closing[wrong, 0])), reach.copy()
+        np.minimum.at(reach, self.ends[wrong], near[:, None])
         return reach
 
 
