@@ -18,6 +18,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, areas_and_normals, compare, flat_faces
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import join, joined
+from bsm.files.conventions import shares_of
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
@@ -220,11 +221,10 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
     first, second, faces = paired.original.positions, paired.positions, paired.original.faces
-    positions = compare(first, second, faces)
     flattened = int((flat_faces(second, faces) & ~flat_faces(first, faces)).sum())
     places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
     found: dict[str, AttributeComparison | None] = {}
-    areas_of = areas_and_normals(original.positions, original.faces)[0]
+    areas = np.repeat(areas_and_normals(original.positions, original.faces)[0], 3)[paired.corners]
     after = {attribute.name: attribute for attribute in decoded.attributes}
     for attribute in original.attributes:
         other = after.get(attribute.name)
@@ -232,7 +232,8 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
         if other is not None and other.components == attribute.components:
             values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[paired.corners]
             others = at_corners(other, decoded.faces).reshape(-1, attribute.components)[paired.others]
-            areas = np.repeat(areas_of, 3)[paired.corners] if attribute.semantic == "normal" else None
-            found[attribute.name] = compare_values(values, others, areas)
-    merged = max(0, places[0] - places[1])
-    return MeshComparison(**asdict(positions), attributes=found, flattened=flattened, merged=merged)
+            if attribute.semantic == "color" and values.dtype != others.dtype:
+                values, others = map(shares_of, (values, others))
+            found[attribute.name] = compare_values(values, others, areas if attribute.semantic == "normal" else None)
+    counts = {"flattened": flattened, "merged": max(0, places[0] - places[1])}
+    return MeshComparison(**asdict(compare(first, second, faces)), attributes=found, **counts)

@@ -1,12 +1,13 @@
 """`bsm compare` and `bsm.look`: the same answers, pictures on request, and meshes of another numbering."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import bsm
-from bsm import EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode
+from bsm import Attribute, EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode
 from bsm.cli import main
 from bsm.codec.look.measure import LookMetric
 from bsm.comparison import in_order_of, read_permutation, reorder, write_permutation
@@ -206,3 +207,13 @@ def test_other_axes_and_units_are_named(tmp_path, capsys):
     for name, notes in (("b", 0), ("c", 2), ("d", 0)):
         assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / f"{name}.npz")]) == 0
         assert capsys.readouterr().err.count("positions are compared as they are") == notes
+
+
+@pytest.mark.parametrize("suffix", ["ply", "glb", "obj"])
+def test_colors_are_compared_as_shares_where_one_has_bytes(tmp_path, suffix):
+    ring = torus(9, 6)
+    shares = np.linspace(0.0, 1.0, len(ring.positions), dtype=np.float32)[:, None] * np.ones(3, np.float32)
+    painted = replace(ring, attributes=(Attribute("color", shares, "vertex", "color"),))
+    bsm.save(painted, tmp_path / f"a.{suffix}")
+    found = bsm.compare(painted, tmp_path / f"a.{suffix}").attributes["color"]
+    assert found is not None and found.max_error <= 0.51 / 255 and found.range == pytest.approx(1.0)
