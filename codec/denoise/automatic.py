@@ -20,7 +20,7 @@ from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.recipe import BENDS, RAYS, Patient, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, silent
-from bsm.codec.denoise.safety import judge, keep_good, restraint
+from bsm.codec.denoise.safety import DETAIL_LOST, judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
 
@@ -91,6 +91,7 @@ class AutomaticChoice:
     untreated: float
     expected: float
     learnt: float = 0.0
+    detailed: bool = False
     outliers: int = 0
     ripples: tuple[float, ...] = ()
     forecast: Forecast | None = None
@@ -186,7 +187,8 @@ def choose(
         if steps and winner.error > most:
             steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
     noise = NoiseLevel(rehearsal.level.normal / finding.edge, rehearsal.level.tangential / finding.edge)
-    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, share, forecast=forecast)
+    detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
+    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, share, detailed, forecast=forecast)
 
 
 def _by_cause(finding: Finding) -> AutomaticChoice:
@@ -208,7 +210,7 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
             width = min(CELL_WIDTH * flat ** (2.0 / 3.0), 1.0)
             steps = (*steps, Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
-    unknown = Forecast(0.0, 0.0, sure=False, known=False, lost=0.0)
+    unknown = Forecast(0.0, 0.0, sure=False, known=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 
@@ -226,7 +228,7 @@ def treat(
     verdict = judge(noisy, full, finding, patient.probe)
     if verdict.reason:
         return noisy, replace(choice, steps=(), reason=verdict.reason)
-    share = restraint(finding, choice.noise.normal * finding.edge, choice.forecast.lost if choice.forecast else 0.0)
+    share = restraint(finding, choice.noise.normal * finding.edge) if choice.detailed else 1.0
     result = keep_good(noisy, noisy + share * (full - noisy) if share < 1.0 else full, verdict.good)
     if choice.forecast:
         part = noisy + strength * (result - noisy)

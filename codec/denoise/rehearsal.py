@@ -66,14 +66,12 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Forecast:
-    """Angles to expect where there is noise, without and with the filter; whether they are sure, and known at all; and
-    the roughness that the filter takes from a guess (a logarithm)."""
+    """Angles to expect where there is noise, without and with the filter; whether they are sure, and known at all."""
 
     untreated: float
     expected: float
     sure: bool
     known: bool
-    lost: float
 
 
 class Rehearsal:
@@ -113,11 +111,16 @@ class Rehearsal:
         """How far the mesh that is rehearsed for is from the result, in the unit of the errors."""
         return self._goal(Reference(self.perform(steps, share), self._topology.faces), self._given)
 
+    def lost(self, winner: Outcome) -> float:
+        """Return the roughness that the filter takes from the guess, a logarithm."""
+        guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
+        return float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 else 0.0
+
     def forecast(self, winner: Outcome) -> Forecast:
         """Return the angles to expect on the rehearsed mesh; detail that the filter removes is gone from the guess."""
-        guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
+        guess = self._roughness(self.truth.positions)
         scanned = self._finding.kind == "view"  # whose noise is known so well that rehearsals say enough
-        lost = float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 and not scanned else 0.0
+        lost = 0.0 if scanned else self.lost(winner)
         clean = guess * np.exp(LOST_MORE * max(lost, 0.0))
         drawn = self._roughness(self.noisy) ** 2 - guess**2
         found = self._roughness(self._given) ** 2 - clean**2
@@ -129,7 +132,7 @@ class Rehearsal:
         least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
         expected = float(after) * winner.error / noisy * least
         known = self._finding.clear and self._drowned < MOST_DROWNED
-        return Forecast(before * self.untreated / noisy, expected, sure, known, lost)
+        return Forecast(before * self.untreated / noisy, expected, sure, known)
 
     @property
     def _drowned(self) -> float:

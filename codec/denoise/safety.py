@@ -19,9 +19,11 @@ varies by chance between windows if neighbors share it, and with the slant in sc
 broad noise is stronger where few views meet; and where noise is not known."""
 MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
 FAINT = 0.02  # movements below, in mean edges, harm nobody
-DETAIL_LOST, NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.075, 1.03, 4.0, 0.4
-"""Noise may be mixed with detail where a rehearsal loses so much roughness (a logarithm): its level over that in the
-finest frequencies without detail, the share of movements that is not made for each unit more, and the largest one."""
+DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
+"""Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
+NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4
+"""Its level over that in the finest frequencies without detail, the share of movements that is not made for each unit
+more, and the largest one."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
@@ -63,10 +65,10 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     return Verdict(~bad[windows.labels], reason if failed > FAILED_SHARE else "")
 
 
-def restraint(finding: Finding, finest: float, lost: float) -> float:
-    """How much of a movement to make; `finest`: the finest level of the noise, `lost`: roughness lost in rehearsals."""
-    mixed = finding.kind == "white" and lost > DETAIL_LOST and finest > 0.0
-    return 1.0 - min(max(DETAIL_SLOPE * (finding.level / finest - NOISE_ALONE), 0.0), DETAIL_MOST) if mixed else 1.0
+def restraint(finding: Finding, finest: float) -> float:
+    """How much of a movement to make where white noise, of this level in the finest frequencies, may hold detail."""
+    excess = finding.level / finest - NOISE_ALONE if finest > 0.0 else 0.0
+    return 1.0 - min(max(DETAIL_SLOPE * excess, 0.0), DETAIL_MOST)
 
 
 def keep_good(noisy: Positions, result: Positions, good: Mask) -> Positions:
