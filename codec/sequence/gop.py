@@ -117,7 +117,8 @@ class LearntGop:
 
     def lengths(self, places: Order) -> list[int]:
         """Return the lengths of GOPs in which frames at `places` need fewest numbers: motion changes between them."""
-        shapes = np.tensordot(np.linalg.qr(self.components, mode="r"), self.basis[:, places], axes=(1, 2))
+        energies, turns = np.linalg.eigh(self.components.T @ self.components)
+        shapes = np.tensordot(turns * np.sqrt(energies.clip(0.0)), self.basis[:, places], axes=(0, 2))
         columns = self.field.width * len(places)
         sent = SENT * columns * len(self.field.levels) / max(1, len(self.field.basis))
         return _cut(shapes, sent, temporal.WORTH * self.field.step**2)
@@ -240,7 +241,7 @@ class GopEncoder:
         motion *= weights
         body, columns = self._basis(motion, weights)
         basis = columns * weights[:, None]
-        wanted = motion @ np.ascontiguousarray(np.linalg.pinv(basis).T)
+        wanted = motion @ (basis @ np.linalg.pinv(basis.T @ basis, hermitian=True))
         energy = np.vdot(motion, motion)
         del motion  # as large as the frames
         field = np.zeros_like(wanted)
