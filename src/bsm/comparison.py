@@ -221,6 +221,7 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
     first, second, faces = paired.original.positions, paired.positions, paired.original.faces
+    positions = compare(first, second, faces)  # refuses sizes that overflow below
     flattened = int((flat_faces(second, faces) & ~flat_faces(first, faces)).sum())
     places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
     found: dict[str, AttributeComparison | None] = {}
@@ -236,4 +237,4 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
                 values, others = map(shares_of, (values, others))
             found[attribute.name] = compare_values(values, others, areas if attribute.semantic == "normal" else None)
     counts = {"flattened": flattened, "merged": max(0, places[0] - places[1])}
-    return MeshComparison(**asdict(compare(first, second, faces)), attributes=found, **counts)
+    return MeshComparison(**asdict(positions), attributes=found, **counts)
