@@ -185,7 +185,7 @@ class RunEncoder:
 
         search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units.scale, options.threads)
         bound = 0.01 if promise.absolute else promise.farthest
-        first = step or min(0.46 * bound, 4.6e-3 * min(promise.look, 1e3))
+        first = step or min(0.33 * bound, 3.3e-3 * min(promise.look, 1e3))
         finest = finest_step(group.positions, options)
         found = search.run(attempt, first, finest, weighed=not options.low_delay)
         near.to(1.0)

@@ -22,15 +22,15 @@ KNOTS = 8  # frames, evenly over a GOP, that are drawn at every attempt, besides
 DEVIATIONS = 4.0
 """Standard deviations: an attempt is accepted once all frames that may exceed the bound within them are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
-SLACK, SLACK_OF_ONE = 0.065, 0.15
+SLACK, SLACK_OF_ONE = 0.06, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick; twice, of the smallest."""
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
-EVENING, LEAST_LOOK, WIDEST = 2.4, 0.1, 1.4
+EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
 """Power of looks by which the first attempt weighs frames, the k-th by 1 / k of it; the least look that counts,
 relative to the largest; and the largest logarithm of a weight."""
 BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
-RELIEF = 0.2  # share of the largest change of a weight by which the excess falls, about
+RELIEF = 0.3  # share of the largest change of a weight by which the excess falls, about
 TRIES, ENOUGH = 20, 5  # attempts at a step: at most, and those after which one that is near the bound suffices
 _PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
 
