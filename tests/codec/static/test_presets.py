@@ -81,14 +81,14 @@ def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> 
     mesh = together(one, TriangleMesh(one.positions * (1.0, 1.0, -1.0) + (3.1, 0.123, 0.2), one.faces[:, ::-1]))
     nearby = [replace(BALANCED, look=look) for look in (1.0, 0.999, 0.98, 0.95)]
     usual = [Encoder(mesh, EncodeOptions(contract=contract, threads=1)).draft().size for contract in nearby]
-    assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= min(usual) < usual[0]
+    assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= min(usual)
 
 
 @pytest.mark.real
 def test_steps_are_tried_where_folds_and_congruent_parts_make_bytes_jump(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "assets/1002_tray_bottom.STL")).mesh.bare
     usual = sizes(mesh, "normal")
-    assert usual["balanced"] <= 1.02 * usual["fine"]
+    assert usual["balanced"] <= JUMPS * usual["fine"]
     assert usual["balanced"] < 1_400
 
 
