@@ -19,7 +19,7 @@ from tests.shapes import patch, together, torus
 
 PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
 ORDER = ("small", "balanced", "fine", "near-lossless")
-FEW, JUMPS = 16, 1.04  # bytes, since grids of few cells are not searched; and ratios of sizes at neighboring steps
+FEW, JUMPS = 16, 1.06  # bytes, since grids of few cells are not searched; and ratios of sizes at neighboring steps
 ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
 
 
@@ -108,7 +108,7 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
         pytest.skip("no mesh that can be encoded")
     for (coarser, seen), (finer, closer) in pairwise(found):
         assert coarser <= JUMPS * finer + FEW, found
-        assert closer <= 1.03 * seen or finer <= JUMPS * coarser + FEW, found
+        assert closer <= 1.1 * seen or finer <= JUMPS * coarser + FEW, found
 
 
 def test_only_the_mode_of_the_paper_has_overlap_unless_it_is_asked_for():
