@@ -137,9 +137,10 @@ UNITS = {
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
-STEEPEST, NEAREST = 2.0, 0.1
-"""Errors grow with this power of the step at most, with its inverse at least, and so far are two tries apart, in the
-logarithm; and where both sides of a bound are known, the part of the interval by which a try stays away from both."""
+STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
+STRIDE, NEAREST = 2.0, 0.1
+"""Between two tries, in the logarithm; and where both sides of a bound are known, the part of the interval by which
+a try stays away from both."""
 
 
 class Outcome(Protocol):
@@ -210,7 +211,7 @@ class Target:
 
 
 def secant(
-    excess: Callable[[float], float],
+    excess: Callable[[float], float | None],
     first: float,
     least: float,
     most: float,
@@ -218,13 +219,15 @@ def secant(
     rise: float = 1.0,
     slack: float = SLACK,
 ) -> None:
-    """Try numbers, to come to about the largest one whose excess is at most 0."""
+    """Try numbers, to come to about the largest one whose excess is at most 0; None says that no other is wanted."""
     low, high = math.log(least), math.log(most)
     step, slope, before = min(max(first, least), most), rise, (math.nan, math.nan)
     at = math.log(step)
     tried: list[tuple[float, float]] = []
     for _ in range(tries):
         value = excess(step)
+        if value is None:
+            return
         if before[0] != at:
             found = (value - before[1]) / (at - before[0])
             slope = min(max(found, 1.0 / STEEPEST), STEEPEST) if math.isfinite(found) else slope
@@ -232,10 +235,12 @@ def secant(
         tried.append(before)
         good = max((step for step in tried if step[1] <= 0.0), default=None)
         bad = min((step for step in tried if step[1] > 0.0 and (good is None or step[0] > good[0])), default=None)
+        if good is None and len(tried) > tries // 2 and value > tried[0][1] - abs(at - tried[0][0]) / STEEPEST**2:
+            return  # what breaks a bound is not the step
         if (-slack < value <= 0.0) or (bad is None and at >= high) or (good is None and at <= low):
             return
         if good is None or bad is None:
-            at += min(max((-slack / 2.0 - value) / slope, -STEEPEST), STEEPEST)
+            at += min(max((-slack / 2.0 - value) / slope, -STRIDE), STRIDE)
         elif bad[0] - good[0] < slack / STEEPEST:
             return
         else:

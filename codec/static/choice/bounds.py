@@ -17,7 +17,6 @@ from bsm.codec.geometry.metrics import Original, Reference, nearest_points
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
-from bsm.codec.static.choice.ladder import UNIT
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
@@ -181,7 +180,7 @@ class Bounds:
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
                 break
-        return math.exp(UNIT * round(math.log(min(step * self.contract.look / aim, COARSEST)) / UNIT))
+        return min(step * self.contract.look / aim, COARSEST)
 
     @property
     def had(self) -> str:

@@ -6,21 +6,22 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
+from itertools import chain
 from operator import attrgetter, itemgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import LEAST_SAVED, Gridded, may_repeat, paying, rounded
-from bsm.codec.static.choice.ladder import UNIT, hoped
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
-from bsm.codec.static.targets import ANY_ANGLE, SLACK, TRIES, Contract, secant
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract, secant
 from bsm.codec.static.ways.grid import FIRST, SAMPLE
-from bsm.codec.threads import Crew
+from bsm.codec.threads import Crew, threads_of
 
 REFINED = 3  # rounds of spending the bytes that congruent parts save
+RUNGS = 6  # an octave: steps of grids, the same for all promises, as some make more parts congruent by chance
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 ALIKE = 1.02  # bytes over the least, within which normals choose where a visual error is bounded
 Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another: pure functions of the step
@@ -37,8 +38,9 @@ class Search:
         saved: Callable[[Candidate], int],
     ) -> None:
         self._measures, self._prepared = measures, measures.prepared
+        self._tries = {"quick": TRIES // 2, "best": 3 * TRIES}.get(options.effort, TRIES)
         self._options, self._size, self._saved = options, size, saved
-        self._crew = Crew(options.threads)
+        self._crew, self._ahead = Crew(options.threads), min(threads_of(options.threads), 2)
 
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract; raises `TargetError` if none does."""
@@ -67,8 +69,9 @@ class Search:
                 if share < SHAPED and way is not grid and way.at(grid.first).size > SHAPED * first.size:
                     continue  # places that are chosen repeat less
             like = (lambda made, gain=gain: made.like(parts) / gain) if gain < 1.0 else attrgetter("size")
-            most = (near * least + leaning) / gain
-            found = widest(way, bounds, most, self._options.effort, like, self._crew.map)
+            found = widest(
+                way, bounds, (near * least + leaning) / gain, tries=self._tries, size=like, each=self._crew.map
+            )
             if found is not None:
                 kept.append(found)
                 # The guess is for steps at which a mesh looks right.
@@ -77,24 +80,33 @@ class Search:
                 ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
-        if share < 1.0:
-            kept += self._finer(grid, bounds, min(kept, key=lambda made: made.congruent.size))
+        if share < 1.0 or 8 * first.size < self._prepared.graph.size:
+            kept += self._at_rungs(grid, bounds, kept)
         most = near * min(self._size(candidate.congruent) for candidate in kept)
         alike = [candidate for candidate in kept if self._size(candidate.congruent) <= most]
         bent = self._measures.original.angle
         best = min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0)
         return paying(self._prepared, best.congruent)
 
-    def _finer(self, grid: Gridded, bounds: Bounds, found: Candidate) -> Iterator[Candidate]:
-        """Finer grids that take fewer bytes than a candidate, as more parts are congruent by chance."""
-        best, count = found.congruent, self._prepared.graph.size
-        apart, transforms = 10.0 * UNIT, grid.transforms if best.places is None else best.header.transforms
-        widest = apart * math.ceil(math.log(grid.first if best.places is None else found.step) / apart)
-        most = best.begun + LEAST_SAVED * best.size * min(FIRST / count, 1.0)
-        for finer in range(1, 5 if count <= 2 * SAMPLE else 2):
-            made = grid.at(math.exp(widest - finer * apart))
-            if made.like(transforms, most) < best.size and not bounds.folds(made.positions):
-                yield from filter(bounds.keeps, [made])
+    def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
+        """Grids of steps that are the same for all promises, each smaller than those before it."""
+        found = min(kept, key=lambda candidate: candidate.congruent.size)
+        best, rung = found.congruent, math.floor(RUNGS * math.log2(grid.first))
+        more = LEAST_SAVED * best.size * min(FIRST / self._prepared.graph.size, 1.0)
+        transforms = grid.transforms if best.places is None else best.header.transforms
+        least, like = best.size, (transforms, best.begun + more)
+        seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
+        steps = [2.0 ** ((rung + 1 - finer) / RUNGS) for finer in range(RUNGS + 2 if seen else 2 * RUNGS)]
+        made = (list(map(grid.at, steps[at : at + self._ahead])) for at in range(0, len(steps), self._ahead))
+        hoped = ([c for c in some if transforms < 0 or c.step < found.step or bounds.keeps(c)] for some in made)
+        sized = (zip(some, self._crew.map(lambda made: made.like(*like), some), strict=True) for some in hoped)
+        for candidate, size in chain.from_iterable(sized):
+            hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
+            if seen and hopeless > few:  # without pictures, all can be tried
+                break
+            if size < least and not bounds.folds(candidate.positions) and bounds.keeps(candidate):
+                yield candidate
+                least = candidate.congruent.size
 
     def _others(self, way: Refined, found: Candidate, bounds: Bounds) -> list[Refined]:
         """Ways that may be smaller than one that has come to a candidate."""
@@ -198,31 +210,35 @@ def widest(
     way: Way,
     bounds: Bounds,
     most_bytes: float = math.inf,
-    effort: str = "normal",
+    tries: int = TRIES,
     size: Callable[[Candidate], float] = attrgetter("size"),
     each: Callable[[Callable[[Candidate], float], list[Candidate]], Iterable[float]] = map,
 ) -> Candidate | None:
     """Return the smallest candidate found that keeps the bounds, or has few folds; None: not below `most_bytes`."""
-    kept, seen, beyond = list[tuple[bool, Candidate]](), list[tuple[float, float]](), -math.inf
-    worth = LEAST_SAVED * {"quick": 1.0, "best": 1.0 / 64.0}.get(effort, 1.0 / 6.0 if bounds.metric else 1.0 / 64.0)
-    low, high = math.log(way.least), math.log(way.most)
-    at = first = min(max(math.log(way.first), low), high)
+    kept = list[tuple[bool, Candidate]]()
+
+    def at(step: float) -> float | None:
+        candidate, sure = way.at(step), math.inf
+        folded = bounds.folds(candidate.positions)
+        if most_bytes < math.inf and not (folded and bounds.contract.look == math.inf):
+            # A step twice as wide saves three bits of a vertex at most, half as wide costs one.
+            bits = math.log(2.0) * 8.0 * (candidate.size - most_bytes) / len(candidate.positions)
+            sure = -bits * STEEPEST if bits < 0.0 else -bits / (3.0 * STEEPEST)
+        if sure < -10.0 * SLACK and bounds.contract.look < math.inf:
+            return None  # hardly any first step is so much too narrow
+        over = bounds.excess(candidate)
+        if over <= 0.0 and bounds.keeps(candidate):
+            kept.append((folded, candidate))
+        over = max(over, SLACK) if folded else over  # a finer step has fewer folds
+        return over if over < sure else None
+
     with suppress(LimitError):  # blocks that decoders would refuse
-        while len(seen) < 2 * TRIES and (len(seen) < TRIES or not all(folded for folded, _ in kept)):
-            candidate = way.at(math.exp(at))
-            if not seen:  # a step twice as wide saves three bits of a vertex, about
-                saved = 3.0 / (8.0 * math.log(2.0)) * min(len(candidate.positions), candidate.size)
-                worth, beyond = worth * candidate.size / saved, first + (candidate.size - most_bytes) / saved
-                if hoped(seen, first, low, high, beyond)[0] < worth and most_bytes < math.inf:
-                    break
-            folded, over = bounds.folds(candidate.positions), bounds.excess(candidate)
-            if over <= 0.0 and bounds.keeps(candidate):
-                kept.append((folded, candidate))
-            seen.append((at, max(over, SLACK * (8.0 if bounds.metric else 1.0)) if folded else over))  # finer fold less
-            hope, at = hoped(seen, first, low, high, beyond)
-            if hope < worth and (kept or most_bytes < math.inf):
-                break
-    kept = sorted(kept, key=lambda tried: (not tried[0], tried[1].step))[-2:]  # finer ones hardly ever take fewer bytes
+        layered = isinstance(way, Refined) and bounds.contract.look < math.inf
+        quick = tries < TRIES  # a first step that will do in most cases
+        slack = SLACK * (8.0 if quick else 0.25 if tries > TRIES else 2.0 if layered else 1.0)
+        secant(at, way.first * math.exp(-4.0 * SLACK * quick), way.least, way.most, tries, slack=slack)
+    if isinstance(way, Gridded):  # finer ones hardly ever take fewer bytes
+        kept = sorted(kept, key=lambda tried: (not tried[0], tried[1].step))[-2:]
     sizes = each(size, [found for _, found in kept])
     sized = [(folded, taken, found) for (folded, found), taken in zip(kept, sizes, strict=True)]
     _, least, smallest = min(sized, key=itemgetter(0, 1), default=(False, math.inf, None))

@@ -19,7 +19,7 @@ from tests.shapes import patch, together, torus
 
 PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
 ORDER = ("small", "balanced", "fine", "near-lossless")
-FEW, JUMPS = 16, 1.06  # bytes, since grids of few cells are not searched; and ratios of sizes at neighboring steps
+FEW, JUMPS = 16, 1.04  # bytes, since grids of few cells are not searched; and ratios of sizes at neighboring steps
 ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
 
 
@@ -81,14 +81,14 @@ def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> 
     mesh = together(one, TriangleMesh(one.positions * (1.0, 1.0, -1.0) + (3.1, 0.123, 0.2), one.faces[:, ::-1]))
     nearby = [replace(BALANCED, look=look) for look in (1.0, 0.999, 0.98, 0.95)]
     usual = [Encoder(mesh, EncodeOptions(contract=contract, threads=1)).draft().size for contract in nearby]
-    assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= min(usual)
+    assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= min(usual) < usual[0]
 
 
 @pytest.mark.real
 def test_steps_are_tried_where_folds_and_congruent_parts_make_bytes_jump(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "assets/1002_tray_bottom.STL")).mesh.bare
     usual = sizes(mesh, "normal")
-    assert usual["balanced"] <= JUMPS * usual["fine"]
+    assert usual["balanced"] <= 1.02 * usual["fine"]
     assert usual["balanced"] < 1_400
 
 
@@ -108,7 +108,7 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
         pytest.skip("no mesh that can be encoded")
     for (coarser, seen), (finer, closer) in pairwise(found):
         assert coarser <= JUMPS * finer + FEW, found
-        assert closer <= 1.1 * seen or finer <= JUMPS * coarser + FEW, found
+        assert closer <= 1.03 * seen or finer <= JUMPS * coarser + FEW, found
 
 
 def test_only_the_mode_of_the_paper_has_overlap_unless_it_is_asked_for():

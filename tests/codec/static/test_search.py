@@ -24,7 +24,7 @@ SOME = (
     "static/fr_casting.ply", "static/gargoyle_10002.ply", "assets/robot_hand.obj",
     "static/cgal_elephant_with_holes.ply",
 )  # fmt: skip
-BY_CHANCE = 1.1  # grids are tried around a step that was found: around another one a smaller file may be
+BY_CHANCE = 1.04  # grids are tried around a step that was found: around another one a smaller file may be
 
 
 @pytest.mark.parametrize("slope", [0.6, 1.0, 1.8])
@@ -48,6 +48,9 @@ def test_it_stays_within_what_there_is() -> None:
     tried.clear()
     secant(lambda step: tried.append(step) or 1.0, 1.0, 1e-3, 2.0)
     assert min(tried) >= 1e-3 * (1.0 - 1e-12)
+    tried.clear()
+    secant(lambda step: tried.append(step), 1.0, 1e-3, 2.0)
+    assert tried == [1.0], "nothing more is wanted"
 
 
 def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "normal") -> tuple[int, list[int]]:
@@ -77,7 +80,7 @@ def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, 
 def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, monkeypatch: pytest.MonkeyPatch) -> None:
     noise = np.random.default_rng(0).normal(size=mesh.positions.shape)
     whole, less = sizes(replace(mesh, positions=mesh.positions + rough * mesh.diagonal * noise), monkeypatch)
-    assert whole <= BY_CHANCE * min(less)
+    assert whole <= min(less)
 
 
 @pytest.mark.parametrize("effort", ["quick", "normal", pytest.param("best", marks=pytest.mark.slow)])
