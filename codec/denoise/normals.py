@@ -17,7 +17,6 @@ from bsm.codec.denoise.surface import (
     mean_centroid_distance,
     pair_distances,
     surroundings,
-    without_first,
 )
 from bsm.codec.geometry.graph import Rows
 
@@ -102,7 +101,8 @@ def filtered_normals(positions: Positions, topology: Topology, sigma_r: float) -
 def _normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Floats]:
     """Yield the normals, shape (m, 3), after 0, 1, 2, ... iterations, without end."""
     geometry = face_geometry(positions, topology.faces)
-    others = without_first(topology.patches)
+    starts, members = topology.patches
+    others = Rows(starts - np.arange(len(starts)), np.delete(members, starts[:-1]))  # each patch without its own face
     sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
     while True:
         yield geometry.normals

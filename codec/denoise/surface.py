@@ -84,13 +84,6 @@ class Topology:
         return key[order], owner[order]
 
 
-def without_first(rows: Rows) -> Rows:
-    """Rows without their first members; every row must have one."""
-    kept = np.ones(len(rows.members), dtype=np.bool_)
-    kept[rows.starts[:-1]] = False
-    return Rows(rows.starts - np.arange(len(rows.starts)), rows.members[kept])
-
-
 def surroundings(positions: Positions, topology: Topology, radius: float) -> Rows:
     """Faces that are reached from each face, within a radius in mean distances of adjacent centroids; of crowds every
     second, third, ... face."""

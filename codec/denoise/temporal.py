@@ -54,11 +54,9 @@ class TemporalFilter:
         for vertices, (filtered, rank) in zip(self._blocks, smaller, strict=True):
             sums[vertices] += filtered
             kept[vertices] += rank / len(vertices) + rank / (3 * count)
-        held = np.maximum(self._copies, 1)
-        result = np.where((self._copies > 0)[:, None], sums / held[:, None], 0.0).reshape(n, count, 3)
-        result = np.ascontiguousarray(result.transpose(1, 0, 2))
-        result[:, self._copies == 0] = frames[:, self._copies == 0]
-        return Steadied(result, deviation, float(np.sqrt(min(1.0, float(np.mean(kept / held))))))
+        result = (sums / self._copies[:, None]).reshape(n, count, 3).transpose(1, 0, 2)
+        remaining = min(1.0, float(np.mean(kept / self._copies)))
+        return Steadied(np.ascontiguousarray(result), deviation, float(np.sqrt(remaining)))
 
 
 def noise_deviation(values: Floats) -> float:
