@@ -45,7 +45,6 @@ def the_coarsest_step(attempt: Callable[[float], object], target: Target, first:
 
 BROKEN = {
     "the smallest stream": (MESH, {}, Search, "smallest", rounded),
-    "the best of a size": (MESH, {"target": Target("size", 2000)}, Search, "best", rounded),
     "an angle": (MESH, {"target": Target("theta_deg", 0.5)}, Search, "smallest", rounded),
     "a visual error": (MESH, {"target": Target("nmsve_db", -60.0)}, Search, "smallest", rounded),
     "a bound": (MESH, {"contract": Contract(1e-4)}, Search, "smallest", rounded),
@@ -70,6 +69,14 @@ def test_a_broken_search_is_found_out(name: str, monkeypatch: pytest.MonkeyPatch
     with pytest.raises((bsm.VerificationError, bsm.TargetError)) as caught:
         list(Encoder(mesh, EncodeOptions(threads=1, **options)).chunks())
     assert exit_of(caught.value).code == 10
+
+
+def test_the_smallest_stream_stands_for_a_broken_best_one_of_a_size(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Search, "best", rounded)
+    options = EncodeOptions(threads=1, target=Target("size", 2000))
+    data = encode(MESH, options)
+    assert len(data) <= 2000 and options.promise is not None
+    assert LookMetric(MESH).compare(bsm.decode(data)).distance <= options.promise.look
 
 
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine"])
