@@ -51,7 +51,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
     known = found if unsure else windows.means(finding.levels)
     # Rounding is known from its grid, and may hide from the finest frequencies where it has merged vertices.
-    present = np.where(known > 0.0, np.maximum(found, (0.5 if finding.grid is None else 1.0) * known), 0.0)
+    present = np.where(known > 0.0, np.maximum(found, (1.0 if finding.kind == "grid" else 0.5) * known), 0.0)
     ratio = removed / np.maximum(present, FAINT * finding.edge)
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))

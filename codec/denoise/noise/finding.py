@@ -62,11 +62,6 @@ class Finding:
     clear: bool = True  # whether what lies beside the noise has none
 
     @property
-    def grid(self) -> Grid | None:
-        """The grid of rounded positions."""
-        return self.bound if isinstance(self.bound, Grid) and self.kind == "grid" else None
-
-    @property
     def exact(self) -> bool:
         """Whether the coordinates tell the cause, so that nothing has to be guessed."""
         return isinstance(self.bound, (Cells, Grid, Steps))

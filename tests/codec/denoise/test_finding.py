@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise import denoise_automatically
-from bsm.codec.denoise.noise.causes import find_grid
+from bsm.codec.denoise.noise.causes import Grid, find_grid
 from bsm.codec.denoise.noise.outliers import Outliers, put_strays_back
 from bsm.codec.denoise.noise.outliers import find_outliers as outliers_given
 from bsm.codec.denoise.noise.probe import Probe
@@ -85,9 +85,9 @@ def test_rounded_positions_are_known_for_it_and_stay_in_their_cells(sigma: float
     clean, faces = sphere(30)
     noisy = rounded(clean, faces, sigma, 3)
     finding = find(noisy, faces)
-    assert finding.kind == "grid" and finding.grid is not None
+    assert finding.kind == "grid" and isinstance(finding.bound, Grid)
     step = np.sqrt(12.0) * sigma * mean_edge_length(clean, faces)
-    assert finding.grid.steps == pytest.approx(step, rel=1e-3)
+    assert finding.bound.steps == pytest.approx(step, rel=1e-3)
     result, choice = denoise_automatically(noisy, faces)
     assert choice.steps
     assert np.abs(result - noisy).max() <= 0.5 * step * (1.0 + 1e-6)
