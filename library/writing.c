@@ -52,19 +52,18 @@ static bool fill(Context *context, Ints2 to, Written given, int64_t first, const
     return true;
 }
 
-bool begin_positions(CodedField *field, Context *context, Written given, const int32_t *largest, int light,
-    const double *origin, double step, const double *exact, const int32_t *transforms, int congruence) {
+bool begin_positions(CodedField *field, const GridField *like, Context *context, Written given,
+    const int32_t *largest, int light, const double *origin, double step, const double *exact,
+    const int32_t *transforms, int congruence) {
     begin(field, context, given);
     Header *header = &field->header;
     field->kind = ON_GRID;
-    header->on_grid = true;
-    header->light = light;
-    header->congruence = congruence;
-    header->scale = step;
+    *header = (Header){.vertices = given.rows, .faces = given.faces_count, .on_grid = true, .light = light,
+        .congruence = congruence, .scale = step};
     memcpy(header->center, origin, sizeof header->center);
     memcpy(header->grid, largest, sizeof header->grid);
-    if (!begin_grid(&field->grid, context, header, const_ints2(field->faces), &field->arena, &field->scratch))
-        return false;
+    ConstInts2 faces = const_ints2(field->faces);
+    if (!begin_grid_like(&field->grid, like, context, header, faces, &field->arena, &field->scratch)) return false;
     if (exact != NULL) memcpy(field->grid.positions.data, exact, (size_t)(3 * given.rows) * sizeof(double));
     for (int64_t i = 0; i < TRANSFORM_ROW * field->grid.transforms.rows; i++)
         field->grid.transforms.data[i] = transforms[i];
@@ -213,15 +212,6 @@ bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, W
     field->context->writing = NULL;
     release_all(&field->scratch);
     return done;
-}
-
-const int32_t *order_of_field(const CodedField *field) {
-    return field->kind == OF_VALUES ? field->attribute.group[0].order.data : field->grid.order.data;
-}
-
-const int32_t *values_of_field(const CodedField *field) {
-    return field->kind == ON_GRID ? field->grid.values.data
-        : field->kind == OF_LEVELS ? field->layer.levels.levels.data : field->attribute.group[0].pieces.data;
 }
 
 #endif

@@ -41,8 +41,9 @@ typedef struct {
 /* Begin a field: positions on a grid, of floats in its cells also `exact` ones; levels; values of an attribute on rows
  * at vertices, with their places on a grid or NULL. A grid has the header's `congruence`, and rows of so many
  * `transforms` (specification, V 17.2). */
-bool begin_positions(CodedField *field, Context *context, Written given, const int32_t *largest, int light,
-    const double *origin, double step, const double *exact, const int32_t *transforms, int congruence);
+bool begin_positions(CodedField *field, const GridField *like, Context *context, Written given,
+    const int32_t *largest, int light, const double *origin, double step, const double *exact,
+    const int32_t *transforms, int congruence);
 bool begin_refinement(CodedField *field, Context *context, Written given);
 bool begin_attribute(CodedField *field, Context *context, Written given, const Declaration *declaration,
     int64_t vertices, const int32_t *at, const int32_t *places);
@@ -51,8 +52,5 @@ void end_field(CodedField *field);
 int64_t room_of_chunk(const CodedField *field, int64_t count);
 /* Write the payloads of rows, or, without `writing`, read that of one kind of values. */
 bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Writing *writing);
-/* The rows in the order of coding, all of them (NULL: as they are numbered), and the first kind of values. */
-const int32_t *order_of_field(const CodedField *field);
-const int32_t *values_of_field(const CodedField *field);
 
 #endif

@@ -29,10 +29,10 @@ static bool charge_grid(Context *context, const Header *header) {
         || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
 }
 
-static bool begin_full(GridField *field, Arena *arena, Arena *scratch) {
+static bool begin_full(GridField *field, const GridField *like, Arena *arena, Arena *scratch) {
     Grid *grid = &field->grid;
     int64_t n = field->header->vertices, words = most_of(field->header) / 64 + 1;
-    if (!order_mesh(&field->corners, arena, scratch, &field->order) 
+    if ((like == NULL && !order_mesh(&field->corners, arena, scratch, &field->order))
         || !make_value_model(arena, &field->model, is_congruent(field->header)))
         return false;
     *grid = (Grid){.largest = const_ints(field->largest), .order = const_ints(field->order), .values = field->values};
@@ -96,19 +96,26 @@ static bool code_twins(GridField *field, Coder coder) {
     return true;
 }
 
-bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
-    Arena *scratch) {
+bool begin_grid_like(GridField *field, const GridField *like, Context *context, const Header *header,
+    ConstInts2 faces, Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     *field = (GridField){.context = context, .header = header, .faces = faces};
-    if (!charge_grid(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
+    if (like != NULL) field->corners = like->corners, field->order = like->order;
+    if (!charge_grid(context, header)) return false;
+    if (like == NULL && !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
     if (!take_ints(arena, AXES, &field->largest) || !zero_ints2(arena, n, AXES, &field->values)
         || !take_doubles2(arena, n, AXES, &field->positions))
         return false;
     for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
     memcpy(field->largest.data, header->grid, sizeof header->grid);
     if (method_of(header) == LIGHT) return begin_light(field, arena);
-    return begin_full(field, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena))
+    return begin_full(field, like, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena))
         && (!is_congruent(header) || begin_twins(field, arena));
+}
+
+bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
+    Arena *scratch) {
+    return begin_grid_like(field, NULL, context, header, faces, arena, scratch);
 }
 
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {

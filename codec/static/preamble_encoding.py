@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from bsm._core import Field
 from bsm._core.bitstream import constant
 from bsm.bitstream.connectivity.faces import Splits, encode_connectivity, encode_order
 from bsm.bitstream.connectivity.partition import encode_labels
@@ -198,6 +199,13 @@ class Prepared:
     def before_grid(self) -> tuple[packets.Connectivity | packets.Order, ...]:
         """Return the packets between header and positions on a grid."""
         return (self.connectivity, *self.order)
+
+    @cached_property
+    def linked(self) -> Field:
+        """A field on the faces: others share what follows from them."""
+        field = Field(self.mesh.faces, np.zeros((self.graph.size, 3), np.int32))
+        field.grid(np.zeros(3, np.int32), 0, np.zeros(3), 1.0, None)
+        return field
 
 
 @dataclass(frozen=True)

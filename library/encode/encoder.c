@@ -95,7 +95,7 @@ static bool write_positions(Encoder *encoder) {
     CodedField *field;
     if (!TAKE_ZEROS(&writer->arena, 1, field)) return false;
     Written given = {coded->faces.data, rounded->places.data, coded->faces.rows, n, 3};
-    bool done = begin_positions(field, context, given, rounded->largest, light, rounded->origin, rounded->step,
+    bool done = begin_positions(field, NULL, context, given, rounded->largest, light, rounded->origin, rounded->step,
         rounded->exact ? encoder->positions.data : NULL, NULL, 0);
     for (int64_t first = 0, count; done && first < n; first += count) {
         Writing writing;

@@ -433,6 +433,8 @@ auto places_on_grid(Rows<double, 3> positions, int bits, double cell, Row<double
 class Field : public Shared, Output {
   public:
     Field(Rows<int32_t, 3> faces, Table values) : faces(faces), values(values) {}
+    Field(const Field &other, Table values)
+        : faces(other.faces), values(values), like(other.next == 0 && other.rows() == rows() ? other.encoding : NULL) {}
 
     void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact,
         std::optional<Rows<int32_t, 8>> transforms, bool learnt) {
@@ -440,7 +442,7 @@ class Field : public Shared, Output {
             || (transforms && transforms->shape(0) > 16))
             throw nb::value_error("a grid has three axes, and at most 16 transforms");
         begin([&] {
-            return encode_positions(encoding, given(), largest.data(), light, origin.data(), step,
+            return encode_positions(encoding, like, given(), largest.data(), light, origin.data(), step,
                 exact ? exact->data() : nullptr, transforms ? transforms->data() : nullptr,
                 transforms ? (int)transforms->shape(0) + 1 + 17 * learnt : 0);
         });
@@ -483,6 +485,7 @@ class Field : public Shared, Output {
     Rows<int32_t, 3> faces;
     Table values;
     nb::object kept;
+    const Encoding *like = nullptr; // that has linked the same faces
     int64_t next = -1; // before it has begun
 
     size_t rows() const { return values.shape(0); }
@@ -650,6 +653,7 @@ NB_MODULE(_core, m) {
             "indices"_a.none(), "quality"_a, "amount"_a);
     nb::class_<Field>(m, "Field")
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
+        .def(nb::init<const Field &, Table>(), "other"_a, "values"_a, nb::keep_alive<1, 2>())
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
             "transforms"_a.none() = nb::none(), "learnt"_a = false)
         .def("levels", in_turn(&Field::levels))

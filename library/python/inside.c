@@ -170,10 +170,11 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
     return true;
 }
 
-bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
-    double step, const double *exact, const int32_t *transforms, int congruence) {
-    return begin_positions(&encoding->field, &encoding->writer.context, given, largest, light, origin, step, exact,
-        transforms, congruence);
+bool encode_positions(Encoding *encoding, const Encoding *like, Written given, const int32_t *largest, int light,
+    const double *origin, double step, const double *exact, const int32_t *transforms, int congruence) {
+    const GridField *known = light != LIGHT && like != NULL ? &like->field.grid : NULL;
+    return begin_positions(&encoding->field, known != NULL && known->grid.order.data != NULL ? known : NULL,
+        &encoding->writer.context, given, largest, light, origin, step, exact, transforms, congruence);
 }
 
 bool encode_levels(Encoding *encoding, Written given) {
@@ -216,5 +217,13 @@ bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, i
     return done;
 }
 
-const int32_t *encoding_order(const Encoding *encoding) { return order_of_field(&encoding->field); }
-const int32_t *encoding_values(const Encoding *encoding) { return values_of_field(&encoding->field); }
+const int32_t *encoding_order(const Encoding *encoding) {
+    const CodedField *field = &encoding->field;
+    return field->kind == OF_VALUES ? field->attribute.group[0].order.data : field->grid.order.data;
+}
+
+const int32_t *encoding_values(const Encoding *encoding) {
+    const CodedField *field = &encoding->field;
+    return field->kind == ON_GRID ? field->grid.values.data
+        : field->kind == OF_LEVELS ? field->layer.levels.levels.data : field->attribute.group[0].pieces.data;
+}

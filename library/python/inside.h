@@ -68,9 +68,9 @@ typedef struct {
 /* Carry an attribute, the first or the next one; its seams are the payload. Then write the decoded values. */
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);
 void carried_values(const Encoding *encoding, void *values);
-/* With the `congruence` of the header, and its rows of `transforms` (specification, V 17.2). */
-bool encode_positions(Encoding *encoding, Written given, const int32_t *largest, int light, const double *origin,
-    double step, const double *exact, const int32_t *transforms, int congruence);
+/* With `congruence` of the header, its rows of `transforms` (V 17.2), and corners of an encoding like it, or NULL. */
+bool encode_positions(Encoding *encoding, const Encoding *like, Written given, const int32_t *largest, int light,
+    const double *origin, double step, const double *exact, const int32_t *transforms, int congruence);
 bool encode_levels(Encoding *encoding, Written given);
 bool encode_attribute(Encoding *encoding, Written given, const uint8_t *declaration, int64_t size, int64_t vertices,
     const int32_t *at, const int32_t *places);
@@ -82,6 +82,7 @@ bool decode_chunk(Encoding *encoding, int64_t first, int64_t count, const uint8_
  * place of each axis. */
 bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, int bits, double cell,
     const double *origin, double *grid, int32_t *places);
+/* The rows in the order of coding (NULL: as they are numbered), and the first kind of values. */
 const int32_t *encoding_order(const Encoding *encoding);
 const int32_t *encoding_values(const Encoding *encoding);
 

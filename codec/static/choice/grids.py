@@ -30,7 +30,7 @@ def grid_draft(prepared: Prepared, grid: Grid, places: Levels, brief: bool = Fal
     """The stream of places on a grid, shape (n, 3), none negative; cut if its first packet takes more than `most`."""
     grid = replace(grid, light=grid.light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
-    coded = encode_grid(prepared.mesh.faces, grid, places)
+    coded = encode_grid(prepared.linked if brief else prepared.mesh.faces, grid, places)  # if others follow
     first = next(coded)
     body, begun = (*prepared.before_grid, first), len(first.data)
     if begun <= most:
@@ -215,25 +215,11 @@ class Gridded:
     def rounded(self, bits: int) -> Candidate:
         return self._candidate(*_rounded(self._prepared, bits=bits))
 
-    def _congruent(self, grid: Grid, places: Levels, coded: Callable[[int], Draft], make: Callable[[], Draft]) -> Draft:
-        """The stream of places on a grid, also predicted by congruent parts if that takes fewer bytes."""
-        if self.transforms >= 0:
-            return coded(self.transforms)
-        draft = least = make()
-        if not may_repeat(self._prepared):
-            return draft
-        sampled, transforms = partial(sampled_size, self._prepared.mesh.faces), transforms_of(self._prepared, grid)
-        for some in [transforms, transforms[:0]] if len(transforms) else [transforms]:
-            own = replace(grid, transforms=some)
-            if len(some) or len(places) <= SAMPLE or sampled(own, places) < sampled(grid, places):
-                least = min(least, coded(len(some)), key=lambda d: d.size)
-            if least.size < (1.0 - LEAST_SAVED) * draft.size:
-                break
-        return least
-
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
+        linked = self._prepared.linked if brief else self._prepared.mesh.faces
         light = partial(grid_draft, self._prepared, replace(grid, light=True), places, brief)
+        sampled, few = lru_cache(partial(sampled_size, linked, grid, places)), len(places) <= SAMPLE
         drafts = dict[int, Draft]()
 
         def coded(transforms: int, most: float = math.inf) -> Draft:
@@ -243,10 +229,20 @@ class Gridded:
                 drafts[kind] = grid_draft(self._prepared, replace(grid, transforms=some), places, brief, most)
             return drafts[kind]
 
+        def also(make: Callable[[], Draft]) -> Draft:
+            if self.transforms >= 0:
+                return coded(self.transforms)
+            draft = least = make()
+            transforms = transforms_of(self._prepared, grid) if brief else None
+            for some in () if transforms is None else (transforms, transforms[:0])[: 1 + len(transforms)]:
+                if len(some) or few or sampled_size(linked, replace(grid, transforms=some), places) < sampled():
+                    least = min(least, coded(len(some)), key=lambda d: d.size)
+                if least.size < (1.0 - LEAST_SAVED) * draft.size:
+                    break
+            return least
+
+        guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
-        sampled, few = partial(sampled_size, self._prepared.mesh.faces, grid, places), len(places) <= SAMPLE
-        guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
-        also = partial(self._congruent, grid, places, coded)
         make, like = partial(coded, -1), lambda *given: coded(*given).size
         return Candidate(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)

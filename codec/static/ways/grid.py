@@ -53,22 +53,22 @@ def grid_of(header: Header) -> Grid:
 
 
 def grid_field(
-    faces: Indices, largest: Sequence[int], coded: Levels, light: int = 0, grid: Grid | None = None, exact: Any = None
+    faces: Any, largest: Sequence[int], coded: Levels, light: int = 0, grid: Grid | None = None, exact: Any = None
 ) -> Field:
-    """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats in their cells."""
+    """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats; a field can give faces."""
     field, ends, grid = Field(faces, np.ascontiguousarray(coded, np.int32)), np.array(largest, np.int32), grid or UNIT
     field.grid(ends, light, np.array(grid.origin, np.float64), grid.step, exact, grid.transforms, grid.learnt)
     return field
 
 
-def encode_grid(faces: Indices, grid: Grid, coded: Levels, exact: Positions | None = None) -> Iterator[packets.Grid]:
+def encode_grid(faces: Indices | Field, grid: Grid, coded: Levels, exact: Any = None) -> Iterator[packets.Grid]:
     """Make the packets of coded values, shape (n, 3), 0 to the grid's largest; of `exact` floats in their cells."""
     field, size = grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
     for start, end in pairwise([*range(0, min(size, 1)), *range(FIRST, size, CHUNK), size]):
         yield packets.Grid(start, end - start, with_lengths(field.write(end - start)))
 
 
-def sampled_size(faces: Indices, grid: Grid, coded: Levels, light: int = 0) -> int:
+def sampled_size(faces: Indices | Field, grid: Grid, coded: Levels, light: int = 0) -> int:
     """The bytes of the first coded values."""
     return sum(map(len, grid_field(faces, grid.largest, coded, light, grid).write(SAMPLE)))
 
