@@ -12,8 +12,8 @@ import numpy as np
 from scipy import spatial
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.surface import Floats, Mask, face_geometry
-from bsm.codec.geometry.metrics import distances_to_surface
+from bsm.codec.denoise.surface import Floats, Mask
+from bsm.codec.geometry.metrics import distances_to_surface, face_geometry
 from tools.scans import CAMERAS, SAMPLES, Camera, Scan, isosurface, turning, view
 
 MARGIN = 3  # cells about a shape

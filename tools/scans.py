@@ -24,8 +24,8 @@ import numpy as np
 from scipy import ndimage, spatial
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.surface import Floats, Mask, face_geometry
-from bsm.codec.geometry.metrics import distances_to_surface
+from bsm.codec.denoise.surface import Floats, Mask
+from bsm.codec.geometry.metrics import distances_to_surface, face_geometry, face_normals
 from bsm.pictures import nearest_faces
 
 BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that it resolves
@@ -81,7 +81,7 @@ class Scan:
 
     def angle(self, positions: Positions) -> float:
         """Mean angle of the faces to the true surface, degrees, where there is one."""
-        cosines = np.einsum("ij,ij->i", face_geometry(positions, self.faces).normals, self.normals)
+        cosines = np.einsum("ij,ij->i", face_normals(positions, self.faces), self.normals)
         return float(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))[self.normals.any(axis=1)].mean())
 
     def rms(self, positions: Positions) -> float:
@@ -107,7 +107,7 @@ def render(positions: Positions, faces: Faces, camera: Camera) -> tuple[Floats, 
     away = slope[..., 0] * (columns - first[..., 0]) + slope[..., 1] * (rows - first[..., 1])
     nearness = first[..., 2] - away / slope[..., 2]
     rays = _rays(camera)
-    facing = -np.einsum("ijk,ijk->ij", face_geometry(positions, faces).normals[owner], rays)
+    facing = -np.einsum("ijk,ijk->ij", face_normals(positions, faces)[owner], rays)
     depth = np.where(owner < 0, np.inf, np.where(facing > 0.0, 1.0 / nearness, -np.inf))
     return depth, np.arccos(np.clip(facing / np.linalg.norm(rays, axis=2), 0.1, 1.0))
 
@@ -140,7 +140,7 @@ def view(positions: Positions, faces: Faces, camera: Camera, seed: int, turn: Fl
     rays = _rays(camera).reshape(-1, 3)[kept]
     noisy, true = (rays * values.ravel()[kept, None] for values in (measured, depth))
     known = _together(depth.ravel()[kept][grid], camera)
-    normals = np.where(known[:, None], face_geometry(true, grid).normals, 0.0)
+    normals = np.where(known[:, None], face_normals(true, grid), 0.0)
     return Scan(noisy, grid, normals, lambda moved: np.linalg.norm(moved - true, axis=1))
 
 

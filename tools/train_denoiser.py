@@ -33,7 +33,8 @@ from bsm.codec.denoise.learnt.cascade import (
     regressed_normals,
 )
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
-from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals, surroundings
+from bsm.codec.denoise.surface import Floats, Topology, follow_normals, surroundings
+from bsm.codec.geometry.metrics import face_normals
 from bsm.files.mesh import read_mesh
 from bsm.simplification import collapsed, compact
 from tools.made_shapes import made_shape
@@ -82,7 +83,7 @@ def example(folder: Path, number: int) -> Example | None:
         return None
     # Strength from 0.06 to 0.75 edges, evenly in its logarithm.
     sigma = float(0.06 * (0.75 / 0.06) ** random.random())
-    normals = face_geometry(positions, faces).normals
+    normals = face_normals(positions, faces)
     kind = random.integers(25)
     if kind < 7:
         noisy = gaussian_along_normals(positions, faces, sigma, number)

@@ -21,8 +21,9 @@ from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.recipe import BENDS, RAYS, Patient, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, silent
 from bsm.codec.denoise.safety import DETAIL_LOST, judge, keep_good, restraint
-from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
+from bsm.codec.denoise.surface import Floats, Mask, Topology
 from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.metrics import face_normals
 
 WHOLE, PIECE, PIECES = 6000, 2000, 2  # vertices up to which all are rehearsed on, and of two pieces from there on
 
@@ -114,7 +115,7 @@ class AutomaticChoice:
     ) -> AutomaticChoice:
         """Return the choice with the angles of the whole mesh, whose errors count by the share that is applied."""
         assert self.forecast is not None
-        ends = (face_geometry(positions, topology.faces).normals for positions in (full, result))
+        ends = (face_normals(positions, topology.faces) for positions in (full, result))
         undone = np.degrees(2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(np.subtract(*ends), axis=1), 1.0)))
         touched = noisy[topology.faces].any(axis=1)
         expected = float((touched * np.hypot(undone, share * self.forecast.expected)).mean())

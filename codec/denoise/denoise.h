@@ -8,18 +8,15 @@ int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts aroun
     Longs starts, Ints members);
 int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t most, int64_t begin,
               Ints seen, Longs reached_starts, Ints reached);
-void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals);
 void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances);
-void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, Doubles2 averaged);
 void pull_in(ConstDoubles2 given, ConstDoubles2 moved, ConstDoubles2 normals, ConstDoubles levels, double aside,
              double most, Doubles2 held);
 void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, ConstDoubles2 normals,
                     int64_t iterations, ConstBytes free, Doubles2 planes, Doubles2 sums);
 void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
     ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed, Doubles2 filtered);
-void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,
-                  ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means);
-void most_consistent(ConstDoubles scores, ConstDoubles2 means, ConstLongs starts, ConstInts members, Doubles2 guide);
+void patch_guidance(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,
+                    ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means, Doubles2 guide);
 void describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
                     ConstDoubles2 smooth, ConstDoubles2 axes, ConstLongs starts, ConstInts near, double distance,
                     int64_t begin, Doubles2 described, Doubles2 frames);

@@ -42,9 +42,11 @@ KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
     }
 }
 
-/* `steps`: distance between the normals of each pair of neighboring faces. A low score is a consistent patch. */
-KERNEL void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members,
-    ConstDoubles steps, ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means) {
+/* `steps`: distance between the normals of each pair of neighboring faces. A low score is a consistent patch; `guide`
+ * gets the mean of the most consistent one that holds the face. */
+KERNEL void patch_guidance(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members,
+                           ConstDoubles steps, ConstLongs inner_starts, ConstInts inner, Doubles scores,
+                           Doubles2 means, Doubles2 guide) {
     for (int64_t f = 0; f < normals.rows; f++) {
         int64_t first = starts.data[f], last = starts.data[f + 1];
         double widest = 0.0, total = 0.0, highest = 0.0;
@@ -73,9 +75,6 @@ KERNEL void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs s
         scores.data[f] = __builtin_sqrt(widest) * highest / (total + 1e-9);
         put_row(means.data, f, direction(sum, (Vector3){0.0, 0.0, 0.0}));
     }
-}
-
-void most_consistent(ConstDoubles scores, ConstDoubles2 means, ConstLongs starts, ConstInts members, Doubles2 guide) {
     for (int64_t f = 0; f < scores.size; f++) {
         int32_t best = members.data[starts.data[f]];
         for (int64_t k = starts.data[f] + 1; k < starts.data[f + 1]; k++)

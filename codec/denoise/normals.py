@@ -9,16 +9,15 @@ import numpy as np
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import (
-    FaceGeometry,
     Floats,
     Topology,
-    face_geometry,
     follow_normals,
     mean_centroid_distance,
     pair_distances,
     surroundings,
 )
 from bsm.codec.geometry.graph import Rows
+from bsm.codec.geometry.metrics import FaceGeometry, face_geometry
 
 
 def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: float, sigma_r: float) -> Floats:
@@ -32,12 +31,10 @@ def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
     """Guidance normal of each face: the mean normal of the most consistent patch that holds the face. A patch is a face
     with all faces that share a vertex with it; it is consistent if its normals lie close together and its differences
     are spread over many inner edges instead of one crease."""
-    patches, inner = topology.patches, topology.inner
-    normals = geometry.normals
+    _, areas, normals = geometry
     steps = pair_distances(normals, topology.pairs)
-    scores, means, guide = np.empty(len(normals)), np.empty_like(normals), np.empty_like(normals)
-    _kernels.patch_scores(normals, geometry.areas, *patches, steps, *inner, scores, means)
-    _kernels.most_consistent(scores, means, *patches, guide)
+    scores, means, guide = np.empty_like(areas), np.empty_like(normals), np.empty_like(normals)
+    _kernels.patch_guidance(normals, areas, *topology.patches, steps, *topology.inner, scores, means, guide)
     return guide
 
 

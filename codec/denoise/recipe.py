@@ -20,8 +20,8 @@ from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, patch_guidance
-from bsm.codec.denoise.surface import Mask, Topology, face_geometry, surface_normals
-from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.denoise.surface import Mask, Topology, surface_normals
+from bsm.codec.geometry.metrics import face_normals, mean_edge_length
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
 LOCAL = "local"
@@ -41,7 +41,7 @@ def coarse_heights(noisy: Positions, coarse: Positions, guided: GuidedFilter) ->
 
 def coarse_normals(noisy: Positions, coarse: Positions, guided: GuidedFilter) -> Positions:
     """Keep the noisy positions, shape (n, 3), after one joint bilateral pass that the coarse mesh's normals guide."""
-    guide = face_geometry(coarse, guided.topology.faces).normals
+    guide = face_normals(coarse, guided.topology.faces)
     return guided.step(noisy, lambda *_: guide, SIGMA_R)
 
 

@@ -15,8 +15,8 @@ from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
 from bsm.codec.denoise.recipe import Patient, Recipe, Step, Treatments, blend
-from bsm.codec.denoise.surface import face_geometry, pair_distances
-from bsm.codec.geometry.metrics import Reference, mean_edge_length
+from bsm.codec.denoise.surface import pair_distances
+from bsm.codec.geometry.metrics import Reference, face_geometry, face_normals, mean_edge_length
 from bsm.codec.threads import ordered_map
 
 MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
@@ -145,7 +145,7 @@ class Rehearsal:
 
     def _roughness(self, positions: Positions) -> float:
         """Mean distance between the normals of neighboring faces."""
-        normals = face_geometry(positions, self._topology.faces).normals
+        normals = face_normals(positions, self._topology.faces)
         return float(pair_distances(normals, self._topology.pairs).mean())
 
     @property

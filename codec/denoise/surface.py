@@ -1,7 +1,6 @@
-"""Who is near whom on a surface, the geometry of its faces, and vertices that follow given normals."""
+"""Who is near whom on a surface, and vertices that follow given normals."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +10,7 @@ from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
+from bsm.codec.geometry.metrics import face_geometry, face_normals
 
 Floats = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -32,6 +32,12 @@ class Topology:
     @cached_property
     def around(self) -> Rows:
         return vertex_faces(self.faces, self.n)
+
+    @cached_property
+    def incidence(self) -> sparse.csr_matrix:
+        """Ones where a face, the column, is around a vertex, the row."""
+        starts, members = self.around
+        return sparse.csr_matrix((np.ones(len(members)), members, starts), (self.n, len(self.faces)))
 
     @cached_property
     def neighbors(self) -> Rows:
@@ -98,33 +104,15 @@ def surroundings(positions: Positions, topology: Topology, radius: float) -> Row
     return Rows(starts, reached[: starts[count]].copy())
 
 
-class FaceGeometry(NamedTuple):
-    """Centroids (m, 3), areas (m,) and unit normals (m, 3) of the faces; a face without area has normal zero."""
-
-    centroids: Floats
-    areas: Floats
-    normals: Floats
-
-
-def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
-    """Centroids, areas and unit normals of `faces`, shape (m, 3), on `positions`, shape (n, 3)."""
-    m = len(faces)
-    geometry = FaceGeometry(np.empty((m, 3)), np.empty(m), np.empty((m, 3)))
-    _kernels.face_geometry(
-        np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), *geometry
-    )
-    return geometry
-
-
-def vertex_normals(normals: Floats, around: Rows) -> Floats:
-    """Unit vertex normals, shape (n, 3): the plain mean of the normals, shape (m, 3), of the faces around."""
-    averaged = np.empty((len(around.starts) - 1, 3))
-    _kernels.vertex_normals(normals, around.starts, around.members, averaged)
-    return averaged
+def unit(vectors: Floats) -> Floats:
+    """Rows of length one in the directions of those of `vectors`; zero where they are."""
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.where(lengths > 0.0, lengths, 1.0))
 
 
 def surface_normals(positions: Positions, topology: Topology) -> Floats:
-    return vertex_normals(face_geometry(positions, topology.faces).normals, topology.around)
+    """Unit vertex normals, shape (n, 3): the plain mean of those of the faces around."""
+    return unit(topology.incidence @ face_normals(positions, topology.faces))
 
 
 def pair_distances(values: Floats, pairs: Indices) -> Floats:

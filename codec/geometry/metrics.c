@@ -58,6 +58,23 @@ void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts m
 
 enum { LANES = 8, TERMS = 13 };
 
+/* Centroids, areas and unit normals; the normal of a face without area is zero. */
+void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals) {
+    for (int64_t f = 0; f < faces.rows; f++) {
+        const int32_t *face = faces.data + 3 * f;
+        const double *a = positions.data + 3 * (int64_t)face[0], *b = positions.data + 3 * (int64_t)face[1];
+        const double *c = positions.data + 3 * (int64_t)face[2];
+        double cross[3];
+        cross3(a, b, c, cross);
+        double length = __builtin_sqrt(dot3(cross, cross));
+        areas.data[f] = 0.5 * length;
+        for (int64_t j = 0; j < 3; j++) {
+            normals.data[3 * f + j] = length > 0.0 ? cross[j] / length : 0.0;
+            centroids.data[3 * f + j] = (a[j] + b[j] + c[j]) / 3.0;
+        }
+    }
+}
+
 /* Arc sine of x in 0 .. 1, to 1e-9: its series up to 1/2, and beyond that by half the complement. */
 INLINE double arc_sine(double x) {
     static const double terms[TERMS] = {

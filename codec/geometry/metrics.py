@@ -10,6 +10,7 @@ distance of each sample is exact, found in a tree of bounding boxes.
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -76,7 +77,7 @@ class Reference:
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self._neighbors = vertex_neighbors(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbors)
-        areas, self._normals = areas_and_normals(self.positions, self.faces)
+        _, areas, self._normals = face_geometry(self.positions, self.faces)
         self._areas: Floats = areas / (areas.sum() or 1.0)
         counted = self._normals.any(axis=1)
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
@@ -150,16 +151,23 @@ def decibel(value: float) -> float:
     return 10.0 * math.log10(value) if value > 0.0 else -math.inf
 
 
+class FaceGeometry(NamedTuple):
+    """Centroids (m, 3), areas (m,) and unit normals (m, 3) of faces; a face without area has normal zero."""
+
+    centroids: Floats
+    areas: Floats
+    normals: Floats
+
+
+def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
+    geometry = FaceGeometry(np.empty(faces.shape), np.empty(len(faces)), np.empty(faces.shape))
+    positions, faces = np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32)
+    _kernels.face_geometry(positions, faces, *geometry)
+    return geometry
+
+
 def face_normals(positions: Positions, faces: Faces) -> Floats:
-    """Unit normals, shape (m, 3); zero where a face has no area."""
-    return areas_and_normals(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32))[1]
-
-
-def areas_and_normals(positions: Positions, faces: Faces) -> tuple[Floats, Floats]:
-    """Areas, shape (m,), and unit normals."""
-    centroids, areas, normals = (np.empty(shape) for shape in (faces.shape, len(faces), faces.shape))
-    _kernels.face_geometry(positions, faces, centroids, areas, normals)
-    return areas, normals
+    return face_geometry(positions, faces).normals
 
 
 def flat_faces(positions: Positions, faces: Faces) -> Mask:
@@ -203,7 +211,7 @@ class Original:
     def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
-        areas, self.normals = areas_and_normals(self.positions, self.faces)
+        _, areas, self.normals = face_geometry(self.positions, self.faces)
         counts = areas if by_area else (areas > 0.0).astype(np.float64)
         self.weights: Floats = counts / (counts.sum() or 1.0)
 

@@ -12,7 +12,7 @@ from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around
-from bsm.codec.geometry.metrics import areas_and_normals
+from bsm.codec.geometry.metrics import face_geometry
 from bsm.codec.geometry.welding import degenerate, group_rows
 
 Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
@@ -155,7 +155,7 @@ class Size:
         if not edge > 0.0:
             return cls(LEAST_PIXELS, 0.0)
         # On average over all sides, a face covers half of its area, and has rows for half of its longest side.
-        areas = areas_and_normals(positions, np.ascontiguousarray(faces, np.int32))[0]
+        areas = face_geometry(positions, faces).areas
         covered = float(areas.sum()) / (2.0 * extent**2)
         rows = ROW * float(lengths.max(axis=0).sum()) / (2.0 * extent)
         room = MOST_COVERED + COVERED_BY_FACE * len(faces)

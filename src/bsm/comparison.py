@@ -15,7 +15,7 @@ from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Comparison, areas_and_normals, compare, flat_faces
+from bsm.codec.geometry.metrics import Comparison, compare, face_geometry, flat_faces
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import join, joined
 from bsm.files.conventions import shares_of
@@ -225,7 +225,7 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
     flattened = int((flat_faces(second, faces) & ~flat_faces(first, faces)).sum())
     places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
     found: dict[str, AttributeComparison | None] = {}
-    areas = np.repeat(areas_and_normals(original.positions, original.faces)[0], 3)[paired.corners]
+    areas = np.repeat(face_geometry(original.positions, original.faces).areas, 3)[paired.corners]
     after = {attribute.name: attribute for attribute in decoded.attributes}
     for attribute in original.attributes:
         other = after.get(attribute.name)

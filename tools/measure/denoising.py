@@ -28,9 +28,9 @@ from bsm.bitstream.errors import BsmError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Floats, Topology, face_geometry
+from bsm.codec.denoise.surface import Floats, Topology
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Reference, mean_edge_length
+from bsm.codec.geometry.metrics import Reference, face_normals, mean_edge_length
 from bsm.codec.geometry.welding import weld
 from bsm.files.mesh import read_mesh, write_mesh
 from tools.made_shapes import made_shape
@@ -112,7 +112,7 @@ def _made(mesh: Callable[[Any], tuple[Positions, Faces]], name: Any, make: Calla
 
 def _moved(clean: Positions, faces: Faces, sigma: float, noise: Callable[..., Positions]) -> Scan:
     noisy = noise(clean, faces, sigma, 3)
-    normals = face_geometry(clean, faces).normals
+    normals = face_normals(clean, faces)
     return Scan(noisy, faces, normals, lambda moved: np.linalg.norm(moved - clean, axis=1))
 
 

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
-from bsm.codec.geometry.metrics import areas_and_normals, face_normals
+from bsm.codec.geometry.metrics import face_geometry, face_normals
 from bsm.codec.look.pictures import Canvas, Picture, averaged, cameras, difference
 from tools.measure.attributes import with_normals
 
@@ -56,7 +56,7 @@ class Gallery:
     def photographs(self, positions: Positions) -> list[Photograph]:
         """Glossy in three lights; normals are sums of faces by area, up to edges that are sharp in the original."""
         placed, canvas = self._placed(positions), Canvas(SAMPLES * PHOTOGRAPH)
-        areas, normals = areas_and_normals(placed, self._faces)
+        _, areas, normals = face_geometry(placed, self._faces)
         weighed = np.repeat(areas[:, None] * normals, 3, axis=0)
         sums = [np.bincount(self._smooth.ravel(), values) for values in weighed.T]
         corners = unit(np.column_stack(sums))[self._smooth].reshape(-1, 9).astype(np.float32)

@@ -10,7 +10,8 @@ import numpy as np
 
 from bsm.codec.arrays import Mask, Positions
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions
-from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals, surroundings, vertex_normals
+from bsm.codec.denoise.surface import Floats, Topology, follow_normals, surroundings, unit
+from bsm.codec.geometry.metrics import face_normals
 
 FARTHEST = np.float32(6.0)  # bound of standardised numbers
 MOST_NEGATIVE = np.float32(80.0)
@@ -55,8 +56,7 @@ VERTEX_ITERATIONS = 15
 def regressed_normals(described: Iterable[tuple[Singles, Floats]], network: Network) -> Floats:
     """Normals by one network, shape (m, 3), whichever way the mesh is turned."""
     found = [np.einsum("kij,ki->kj", frames, network(numbers)) for numbers, frames in described]
-    normals = np.concatenate(found) if found else np.zeros((0, 3))
-    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
+    return unit(np.concatenate(found) if found else np.zeros((0, 3)))
 
 
 class Learnt(NamedTuple):
@@ -75,9 +75,8 @@ def learnt(positions: Positions, topology: Topology, noisy: Mask | None = None) 
 
 def joined(positions: Positions, other: Learnt, share: float, topology: Topology) -> Positions:
     """Positions, shape (n, 3), that follow the mean of their own normals and the learnt ones, whose part is `share`."""
-    normals = (1.0 - share) * face_geometry(positions, topology.faces).normals + share * other.normals
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    normals = unit((1.0 - share) * face_normals(positions, topology.faces) + share * other.normals)
     # Only along the normals: the networks leave vertices where noise has put them along the surface.
-    up = vertex_normals(normals, topology.around)
+    up = unit(topology.incidence @ normals)
     start = positions + share * np.einsum("ij,ij->i", other.positions - positions, up)[:, None] * up
     return follow_normals(start, topology, normals, VERTEX_ITERATIONS)

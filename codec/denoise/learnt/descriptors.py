@@ -9,8 +9,9 @@ import numpy.typing as npt
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.normals import filter_normals, patch_guidance
-from bsm.codec.denoise.surface import FaceGeometry, Floats, Mask, Topology, face_geometry, mean_centroid_distance
+from bsm.codec.denoise.surface import Floats, Mask, Topology, mean_centroid_distance
 from bsm.codec.geometry.graph import Rows
+from bsm.codec.geometry.metrics import FaceGeometry, face_geometry
 
 Singles = npt.NDArray[np.float32]
 

@@ -15,8 +15,8 @@ from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe, grouped_quantiles
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.surface import Floats, Mask, face_geometry
-from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.denoise.surface import Floats, Mask
+from bsm.codec.geometry.metrics import face_normals, mean_edge_length
 
 CLEAR = 0.7
 """Share of the energy around it that a clear outlier explains by itself: no clean mesh tried has more than a few."""
@@ -98,11 +98,8 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
 
 def _spiky(positions: Positions, probe: Probe) -> Mask:
     """Vertices, shape (n,), around which the normals point all ways."""
-    around, n = probe.topology.around, len(positions)
-    sizes = np.diff(around.starts)
-    owners = np.repeat(np.arange(n), sizes)
-    normals = face_geometry(positions, probe.topology.faces).normals[around.members]
-    together = np.stack([np.bincount(owners, column, n) for column in normals.T], axis=1)
+    together = probe.topology.incidence @ face_normals(positions, probe.topology.faces)
+    sizes = np.diff(probe.topology.around.starts)
     return np.asarray(probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes))
 
 

@@ -15,7 +15,7 @@ from scipy import sparse
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Positions
 from bsm.codec.blocks.overlap import metis_partition
-from bsm.codec.denoise.surface import Floats, Mask, Topology, surface_normals
+from bsm.codec.denoise.surface import Floats, Mask, Topology, surface_normals, unit
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 
 WINDOW = 200
@@ -126,9 +126,7 @@ class Probe:
         for _ in range(passes):
             smooth = self.average @ smooth
         normals = surface_normals(smooth, self.topology)
-        normals = normals + self.average @ normals
-        length = np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.asarray(normals / np.where(length > 0.0, length, 1.0))
+        return unit(normals + self.average @ normals)
 
     def correlated(self, white: Floats, steps: int) -> Floats:
         """White values, shape (n, d), averaged half and half with their neighbors as often as `steps` says."""

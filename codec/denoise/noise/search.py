@@ -20,7 +20,7 @@ from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattic
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
 from bsm.codec.denoise.noise.volumes import find_cells
-from bsm.codec.denoise.surface import Floats, Mask
+from bsm.codec.denoise.surface import Floats, Mask, unit
 from bsm.codec.geometry.metrics import mean_edge_length
 
 RULES = {
@@ -194,8 +194,7 @@ def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
     level = along.level(probe.windows.valid)
     rays = positions - view.eye
     width = pixel(view.plane(positions), probe.topology) * (rays @ view.axis)
-    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
-    amount = level * width * np.abs(np.einsum("ij,ij->i", rays, evidence.normals))
+    amount = level * width * np.abs(np.einsum("ij,ij->i", unit(rays), evidence.normals))
     terraced = min(len(np.unique(column)) for column in positions.T) < TERRACED * len(positions)
     reason = f"noise of a camera, along its rays{', in steps of depth' if terraced else ''}"
     view = replace(view, level=level, terraced=terraced)

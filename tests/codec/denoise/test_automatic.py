@@ -9,8 +9,7 @@ from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.automatic import CANDIDATES
 from bsm.codec.denoise.noise.synthesis import estimate_noise
 from bsm.codec.denoise.normals import guided_normal_filtering
-from bsm.codec.denoise.surface import face_geometry
-from bsm.codec.geometry.metrics import mean_edge_length, rms_over_edge
+from bsm.codec.geometry.metrics import face_normals, mean_edge_length, rms_over_edge
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
 from tests.shapes import theta
 from tools.noise import correlated_along_normals, gaussian_along_normals, gaussian_isotropic
@@ -81,7 +80,7 @@ def test_vertices_end_closer_even_where_triangles_are_uneven() -> None:
     clean = middles[random.integers(0, 40, 2500)] + widths * random.normal(size=(2500, 3))
     clean /= np.linalg.norm(clean, axis=1, keepdims=True)
     faces = ConvexHull(clean).simplices.astype(np.int32)
-    inward = np.einsum("ij,ij->i", face_geometry(clean, faces).normals, clean[faces[:, 0]]) < 0.0
+    inward = np.einsum("ij,ij->i", face_normals(clean, faces), clean[faces[:, 0]]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
     noisy = gaussian_along_normals(clean, faces, 0.2, seed=3)
     denoised = denoise_automatically(noisy, faces)[0]
