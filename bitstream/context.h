@@ -1,6 +1,5 @@
 /* What all of a decoder shares: its host's memory, what it may still do, and the first thing wrong. */
-#ifndef BSMDEC_CONTEXT_H
-#define BSMDEC_CONTEXT_H
+#pragma once
 
 #include <string.h>
 
@@ -140,5 +139,3 @@ bool charge_ledger(Context *context, const Ledger *ledger, int first, int end);
 /* Bytes for which there is room. */
 double memory_left(const Context *context);
 bool within_memory(Context *context, double memory, int64_t vertices, double received);
-
-#endif

@@ -1,7 +1,6 @@
 /* What decoding costs, in nanoseconds of a processor core and in bytes (specification, M 14.2, M 14.3),
  * and what encoders hold against the limits of decoders. */
-#ifndef BSMDEC_COSTS_H
-#define BSMDEC_COSTS_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -40,5 +39,3 @@ INLINE double grid_field_bytes(double n, double m) { return 84 * n + 48 * m + VA
 INLINE double grid_memory(double n, double m) { return 80 * n + grid_field_bytes(n, m); }
 INLINE double layer_field_bytes(double n, double m) { return (24 + 36) * n + 48 * m + LEVEL_MODEL_BYTES + (1 << 17); }
 INLINE double layer_memory(double n, double m) { return (28 + 48 * 3) * n + layer_field_bytes(n, m); }
-
-#endif

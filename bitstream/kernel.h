@@ -3,8 +3,7 @@
  * A kernel is C11 without a C library: it allocates nothing (the caller brings scratch space), calls nothing, and keeps
  * every index inside the sizes that come with each array. The same files are compiled to WebAssembly.
  */
-#ifndef BSM_KERNEL_H
-#define BSM_KERNEL_H
+#pragma once
 
 #include <float.h>
 #include <stdbool.h>
@@ -125,5 +124,3 @@ BSM_ARRAY(Doubles, double)
 
 INLINE int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 INLINE int64_t largest(int64_t a, int64_t b) { return a > b ? a : b; }
-
-#endif

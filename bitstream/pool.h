@@ -1,6 +1,5 @@
 /* Memory of the C library, of which Linux makes huge pages where much is asked for: few page faults, not many. */
-#ifndef BSMDEC_POOL_H
-#define BSMDEC_POOL_H
+#pragma once
 
 #include "bitstream/kernel.h"
 #include "library/bsmdec.h"
@@ -34,6 +33,4 @@ bsmdec_allocator without_pool(bsmdec_allocator host);
 #else
 INLINE bsmdec_allocator with_pool(bsmdec_allocator host, Pool *pool) { return (void)pool, host; }
 INLINE bsmdec_allocator without_pool(bsmdec_allocator host) { return host; }
-#endif
-
 #endif

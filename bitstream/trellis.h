@@ -1,6 +1,5 @@
 /* Dependent quantization: which of two grids a level is on (specification, M 9.11). */
-#ifndef BSM_TRELLIS_H
-#define BSM_TRELLIS_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -28,5 +27,3 @@ INLINE void values_of_levels(const int32_t *levels, int64_t count, double half_s
         state = trellis_following(state, levels[i]);
     }
 }
-
-#endif

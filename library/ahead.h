@@ -2,8 +2,7 @@
  *
  * Decoding ahead changes nothing but time. A chain that fails ahead, for whatever reason, is decoded again in its turn.
  * A chain that does not fail leaves its charges in ledgers, and they are made in its turn. */
-#ifndef BSMDEC_AHEAD_H
-#define BSMDEC_AHEAD_H
+#pragma once
 
 #include "library/state.h"
 
@@ -18,5 +17,3 @@ void end_chains_ahead(Mesh *mesh);
 /* `blend`; meanwhile another thread reads the levels that are left. All become those of the mesh, if there are any. */
 bool blend_beside(bsmdec *decoder, Refined *refined);
 void end_ahead(Mesh *mesh);
-
-#endif

@@ -1,7 +1,6 @@
 /* The arithmetic of the processor: the decoder needs that of IEEE 754, rounded to nearest, with subnormal numbers; its
  * host may have set another one. Game engines let small numbers be flushed to 0. */
-#ifndef BSMDEC_ARITHMETIC_H
-#define BSMDEC_ARITHMETIC_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -77,6 +76,4 @@ INLINE void end_arithmetic(Arithmetic host) { fesetenv(&host); }
 /* Whether this build computes as IEEE 754 has it, where nothing else is set: each operation rounded by itself, to its
  * type. */
 bool is_exact(void);
-#endif
-
 #endif

@@ -1,6 +1,5 @@
 /* An attribute of a mesh: its values, and how the user is given them (specification, D, A). */
-#ifndef BSMDEC_ATTRIBUTE_H
-#define BSMDEC_ATTRIBUTE_H
+#pragma once
 
 #include "bitstream/attributes/attributes.h"
 #include "bitstream/container/header.h"
@@ -75,5 +74,3 @@ Given given_shape(const Attribute *attribute, const Numbering *numbering);
 bool given_rows(const Attribute *attribute, const Numbering *numbering, Arena *scratch, Longs rows);
 /* The row of each of the user's corners. */
 int32_t row_of_corner(const Attribute *attribute, const Numbering *numbering, int64_t corner);
-
-#endif

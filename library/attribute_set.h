@@ -1,6 +1,5 @@
 /* The attributes of a mesh: declarations, seams, and rows (specification, D 1 to D 3). */
-#ifndef BSMDEC_ATTRIBUTE_SET_H
-#define BSMDEC_ATTRIBUTE_SET_H
+#pragma once
 
 #include "library/attribute.h"
 #include "bitstream/container/packet.h"
@@ -34,5 +33,3 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
 bool start_attribute(Attributes *attributes, Attribute *attribute, ConstInts2 places, Arena *scratch);
 bool code_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first, int64_t count);
 bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch);
-
-#endif

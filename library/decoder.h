@@ -1,6 +1,5 @@
 /* What the functions of bsmdec.h have in common. */
-#ifndef BSMDEC_DECODER_H
-#define BSMDEC_DECODER_H
+#pragma once
 
 #include "library/state.h"
 
@@ -29,5 +28,3 @@ const Attribute *started_attribute(bsmdec *decoder, int index);
 bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute);
 /* Describe one of the attributes if it is available; nothing is noted. */
 bool find_shape(const bsmdec *decoder, int index, bsmdec_attribute *shape);
-
-#endif

@@ -1,6 +1,5 @@
 /* Sequences: consecutive runs, each a mesh and its GOPs (specification, S 1, S 9). */
-#ifndef BSMDEC_SEQUENCE_H
-#define BSMDEC_SEQUENCE_H
+#pragma once
 
 #include "library/state.h"
 
@@ -12,5 +11,3 @@ bool end_sequence(bsmdec *decoder);
 /* Make a reported frame the current one. */
 bool show(bsmdec *decoder, int64_t index);
 void close_sequence(bsmdec *decoder);
-
-#endif

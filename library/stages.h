@@ -1,6 +1,5 @@
 /* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
-#ifndef BSMDEC_STAGES_H
-#define BSMDEC_STAGES_H
+#pragma once
 
 #include "library/state.h"
 
@@ -15,5 +14,3 @@ void end_mesh(Mesh *mesh);
 bool look_at_positions(bsmdec *decoder);
 /* Whether the checksum of all positions is the stream's; a tolerant decoder reports a difference as a loss. */
 bool check_sum(bsmdec *decoder, uint32_t found);
-
-#endif

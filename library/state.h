@@ -1,6 +1,5 @@
 /* What a decoder has come to know: of the present mesh, of a sequence, and of what its caller has asked. */
-#ifndef BSMDEC_STATE_H
-#define BSMDEC_STATE_H
+#pragma once
 
 #include "codec/signal/assembly.h"
 #include "library/attribute_set.h"
@@ -160,5 +159,3 @@ bool blend(bsmdec *decoder, Refined *refined);
 bool announce(bsmdec *decoder);
 /* Record the error as a loss of `block`, or with -1 of something else, and continue; false if it is fatal. */
 bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere);
-
-#endif

@@ -1,6 +1,5 @@
 /* Payloads written by the functions that read them: faces, and fields of integers on them. */
-#ifndef BSMDEC_WRITING_H
-#define BSMDEC_WRITING_H
+#pragma once
 
 #include "library/attribute_set.h"
 #include "bitstream/payloads/grid.h"
@@ -52,5 +51,3 @@ void end_field(CodedField *field);
 int64_t room_of_chunk(const CodedField *field, int64_t count);
 /* Write the payloads of rows, or, without `writing`, read that of one kind of values. */
 bool code_chunk(CodedField *field, int64_t first, int64_t count, Span payload, Writing *writing);
-
-#endif

@@ -96,7 +96,7 @@ def _read(path: str) -> str:
     """A file, with the vectors of doubles and the Onorm that it has: others have vectors of floats."""
     vectors = (ROOT / VECTORS).read_text()
     text = (ROOT / path).read_text().replace(f'#include "{ONORM}"\n', (ROOT / ONORM).read_text())
-    return text.replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}")
+    return text.replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}").replace("#pragma once\n", "")
 
 
 def _bare(text: str) -> str:

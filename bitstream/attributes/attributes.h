@@ -1,6 +1,5 @@
 /* Values of attributes: where they are, what foretells them, and the kernels of this room. */
-#ifndef BSM_ATTRIBUTES_H
-#define BSM_ATTRIBUTES_H
+#pragma once
 
 #include "bitstream/fields/fields.h"
 
@@ -99,5 +98,3 @@ int64_t code_faces(Coder coder, ValueModel model, Corners corners, FaceValues va
 extern INSIDE const BankPlan EDGE_BANK;
 int64_t code_edges(Coder coder, Bank bank, Corners corners, Bytes seams, ConstBytes others, Ints2 ends);
 int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first);
-
-#endif

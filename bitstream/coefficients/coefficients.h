@@ -1,6 +1,5 @@
 /* Quantized coefficients: what surrounds them, and the kernels of this room. */
-#ifndef BSM_COEFFICIENTS_H
-#define BSM_COEFFICIENTS_H
+#pragma once
 
 #include "bitstream/entropy/entropy.h"
 #include "bitstream/trellis.h"
@@ -169,5 +168,3 @@ int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2
 #define PRIORS_BYTES 12120
 
 extern const unsigned char PRIORS[PRIORS_BYTES];
-
-#endif

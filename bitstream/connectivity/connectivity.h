@@ -1,6 +1,5 @@
 /* Faces: the front of a conquest, its model, and the kernels of this room. */
-#ifndef BSM_CONNECTIVITY_H
-#define BSM_CONNECTIVITY_H
+#pragma once
 
 #include "bitstream/entropy/entropy.h"
 
@@ -263,5 +262,3 @@ int64_t code_degenerate(Coder coder, Ints corners, int64_t count);
 
 /* Numbering by first appearance. */
 int64_t number_by_appearance(ConstInts sequence, Ints order, Ints number);
-
-#endif

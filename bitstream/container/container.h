@@ -1,6 +1,5 @@
 /* Numbers of the container that its writers and its readers need (specification, F, S 2.1). */
-#ifndef BSM_CONTAINER_H
-#define BSM_CONTAINER_H
+#pragma once
 
 enum {
     MAJOR = 1,            /* version of the format */
@@ -10,5 +9,3 @@ enum {
     MOST_COPIES = 16, FREE_COPIES = 1 << 16, /* rows of all blocks, at most: for each vertex, and in addition */
     METHODS = 8, RUNS = 32, WITH_ATTRIBUTES = 4, /* in the first byte of a GOP */
 };
-
-#endif

@@ -1,6 +1,5 @@
 /* Which packet may follow which (specification, F 3.5 to F 3.14). */
-#ifndef BSMDEC_GRAMMAR_H
-#define BSMDEC_GRAMMAR_H
+#pragma once
 
 #include "bitstream/container/packet.h"
 
@@ -21,5 +20,3 @@ void lose_frames(Grammar *grammar);
 bool check_packet(Context *context, const Grammar *grammar, const Packet *packet);
 /* What an attribute's packet declares has to stay: `declaration` is the grammar's own copy of it. */
 void advance_grammar(Grammar *grammar, const Packet *packet, Declaration *declaration);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a stream says before anything else, and what it declares of attributes (specification, F 4, F 10, D 1). */
-#ifndef BSMDEC_HEADER_H
-#define BSMDEC_HEADER_H
+#pragma once
 
 #include "bitstream/container/container.h"
 #include "bitstream/container/maps.h"
@@ -91,5 +90,3 @@ bool parse_declaration(Context *context, Span payload, Arena *scratch, Declarati
 INLINE bool is_by_vertex(const Declaration *d) {
     return (d->domain == BSMDEC_VERTEX && d->origin == 0) || (d->domain == BSMDEC_CORNER && d->origin == 1);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Canonical msgpack maps (specification, F 1.5), and records of typed fields in them (F 4.1 to F 4.5). */
-#ifndef BSMDEC_MAPS_H
-#define BSMDEC_MAPS_H
+#pragma once
 
 #include "bitstream/container/wire.h"
 
@@ -50,5 +49,3 @@ typedef struct {
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record);
 /* Set the fields that are not stored to their defaults, and check that every value is in its range. */
 bool complete_record(Context *context, const Field *fields, int count, Record *record);
-
-#endif

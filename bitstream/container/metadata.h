@@ -1,6 +1,5 @@
 /* Metadata: what authors say of their meshes, each name once (specification, F 3.9, F 5.1). */
-#ifndef BSMDEC_METADATA_H
-#define BSMDEC_METADATA_H
+#pragma once
 
 #include "bitstream/container/maps.h"
 
@@ -25,5 +24,3 @@ typedef struct {
 /* The entry of a name, NULL if there is none. */
 const MetadataEntry *find_name(const Metadata *metadata, Span name);
 bool add_entry(Metadata *metadata, const Value *key, const Value *value);
-
-#endif

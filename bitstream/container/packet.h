@@ -1,6 +1,5 @@
 /* Packets: what a frame of the stream holds (specification, F 3). */
-#ifndef BSMDEC_PACKET_H
-#define BSMDEC_PACKET_H
+#pragma once
 
 #include "bitstream/container/header.h"
 
@@ -23,5 +22,3 @@ typedef struct {
     const Header *header;
     const Declaration *declaration;
 } Packet;
-
-#endif

@@ -1,6 +1,5 @@
 /* Bytes to packets (specification, F 2, F 3, F 5, F 8). */
-#ifndef BSMDEC_READER_H
-#define BSMDEC_READER_H
+#pragma once
 
 #include "bitstream/container/grammar.h"
 #include "bitstream/container/metadata.h"
@@ -50,5 +49,3 @@ Arrival next_packet(Reader *reader, Packet *packet);
 /* Look at the frame that starts `*place` bytes after the last packet and move `*place` to its end: true if all of it
  * has come and it is a sound frame of blocks or refinements. Nothing else changes, and nothing is charged. */
 bool peek_packet(Reader *reader, int64_t *place, Packet *packet);
-
-#endif

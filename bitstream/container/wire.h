@@ -1,6 +1,5 @@
 /* The smallest pieces of the format: varints, checksums, payloads read from front to back. */
-#ifndef BSMDEC_WIRE_H
-#define BSMDEC_WIRE_H
+#pragma once
 
 #include "bitstream/context.h"
 
@@ -38,5 +37,3 @@ int64_t take_varint(Cursor *cursor);
 Span take_span(Cursor *cursor, int64_t count);
 INLINE Span take_rest(Cursor *cursor) { return take_span(cursor, cursor->left.size); }
 bool at_end(const Cursor *cursor);
-
-#endif

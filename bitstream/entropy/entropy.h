@@ -1,6 +1,5 @@
 /* What a range coder and its models are, and what they are coded with; most of it is inlined. */
-#ifndef BSM_ENTROPY_H
-#define BSM_ENTROPY_H
+#pragma once
 
 #include <stdint.h>
 #include "bitstream/kernel.h"
@@ -284,5 +283,3 @@ int64_t finish_coder(Coder coder);
 int64_t code_one_uniform(Coder coder, int64_t value, int64_t count);
 int64_t code_one_unsigned(
     Coder coder, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value, int64_t node);
-
-#endif

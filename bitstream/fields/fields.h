@@ -1,6 +1,5 @@
 /* Integers on vertices: corners, models of values, and the kernels of this room. */
-#ifndef BSM_FIELDS_H
-#define BSM_FIELDS_H
+#pragma once
 
 #include "bitstream/entropy/entropy.h"
 
@@ -326,5 +325,3 @@ typedef struct {
 } Levels;
 
 int64_t ISA(code_levels)(Coder coder, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count);
-
-#endif

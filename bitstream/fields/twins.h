@@ -1,6 +1,5 @@
 /* What repeats in a mesh: images under transforms, and congruent flaps (specification, V 17). */
-#ifndef BSM_TWINS_H
-#define BSM_TWINS_H
+#pragma once
 
 #include "bitstream/fields/fields.h"
 
@@ -82,5 +81,3 @@ void seek_twins(Twins *twins, const Corners *corners, const Ints2 *values, const
 void choose_twins(const Twins *twins, int *chosen);
 /* Learn from a vertex, which is known now. */
 void remember_twins(Twins *twins, const Ints2 *values, const Around *around, int32_t v);
-
-#endif

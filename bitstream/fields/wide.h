@@ -1,6 +1,5 @@
 /* Learners on rows as vectors where registers are long: of `square`, both halves. Behind the terms are zeros. */
-#ifndef BSM_WIDE_H
-#define BSM_WIDE_H
+#pragma once
 
 #include "bitstream/fields/fields.h"
 
@@ -46,6 +45,4 @@ INLINE void learn_wide_in_turn(
 #else
 #define learn_wide learn
 #define learn_wide_in_turn learn_in_turn
-#endif
-
 #endif

@@ -1,7 +1,6 @@
 /* What entropy-coded payloads are read with (specification, C 1 to C 3): the kernels' coder and banks, of a decoder's
  * memory. */
-#ifndef BSMDEC_CODING_H
-#define BSMDEC_CODING_H
+#pragma once
 
 #include "bitstream/entropy/entropy.h"
 #include "bitstream/container/wire.h"
@@ -29,5 +28,3 @@ bool nonsense(const Coding *coding, const char *what);
 bool finish_coding(const Coding *coding);
 
 MUST_CHECK bool make_bank(Arena *arena, BankPlan plan, Bank *bank);
-
-#endif

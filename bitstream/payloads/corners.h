@@ -1,6 +1,5 @@
 /* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
-#ifndef BSMDEC_CORNERS_H
-#define BSMDEC_CORNERS_H
+#pragma once
 
 #include "bitstream/fields/fields.h"
 #include "bitstream/payloads/coding.h"
@@ -13,5 +12,3 @@ MUST_CHECK bool make_value_model(Arena *arena, ValueModel *model, bool of_twins)
 MUST_CHECK bool make_learners(Arena *arena, int64_t count, Longs2 *learners);
 /* What a kernel of values says of a payload: how many of `count` it has done. */
 bool check_chunk_done(const Coding *coding, int64_t done, int64_t count);
-
-#endif

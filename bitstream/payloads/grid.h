@@ -1,6 +1,5 @@
 /* Positions on a grid (specification, V 7 to V 10, V 12, V 15 to V 17). */
-#ifndef BSMDEC_GRID_H
-#define BSMDEC_GRID_H
+#pragma once
 
 #include "bitstream/fields/twins.h"
 #include "bitstream/container/header.h"
@@ -40,5 +39,3 @@ bool begin_grid(GridField *field, Context *context, const Header *header, ConstI
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload);
 bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch);
 bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch);
-
-#endif

@@ -1,6 +1,5 @@
 /* How the user of a mesh numbers what was coded (specification, F 9). */
-#ifndef BSMDEC_ORDER_H
-#define BSMDEC_ORDER_H
+#pragma once
 
 #include "bitstream/container/header.h"
 
@@ -26,5 +25,3 @@ typedef struct {
 } Arrangement;
 /* Write the coded part of ORDER. */
 bool write_order(Context *context, const Arrangement *arrangement, Arena *scratch, struct Writing *writing);
-
-#endif

@@ -1,6 +1,5 @@
 /* What is written in place of being read, where BSMDEC_WRITES is defined. */
-#ifndef BSMDEC_PAYLOADS_H
-#define BSMDEC_PAYLOADS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -17,5 +16,3 @@ typedef struct {
     const int32_t *faces, *values;
     int64_t faces_count, rows, columns;
 } Written;
-
-#endif

@@ -1,6 +1,5 @@
 /* Faces, and the part that each vertex is in (specification, C 4 to C 8, C 10). */
-#ifndef BSMDEC_TOPOLOGY_H
-#define BSMDEC_TOPOLOGY_H
+#pragma once
 
 #include "bitstream/connectivity/connectivity.h"
 #include "bitstream/container/header.h"
@@ -19,5 +18,3 @@ bool code_connectivity(Context *context, Span payload, const Header *header, con
 /* `offsets`, `neighbors`: of the graph of a mesh. */
 bool decode_labels(Context *context, Span payload, ConstInts offsets, ConstInts neighbors, int64_t parts,
     Arena *scratch, Ints labels);
-
-#endif

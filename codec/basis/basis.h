@@ -1,6 +1,5 @@
 /* The kernels of dictionaries. */
-#ifndef BSM_BASIS_H
-#define BSM_BASIS_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -43,5 +42,3 @@ int64_t hold(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, Const
              ConstInts own_offsets, ConstInts own_neighbors, Doubles inner, Doubles springs, Ints starts, Ints outer,
              Doubles stiffness);
 void pull(ConstInts starts, ConstInts outer, ConstDoubles stiffness, ConstDoubles2 field, Doubles2 pulls);
-
-#endif

@@ -1,6 +1,5 @@
 /* Dictionaries of patches: U, by orthogonal iterations (specification, M 8). */
-#ifndef BSMDEC_DICTIONARIES_H
-#define BSMDEC_DICTIONARIES_H
+#pragma once
 
 #include "codec/basis/dictionary_costs.h"
 #include "codec/basis/structure.h"
@@ -30,5 +29,3 @@ double work_of_dictionary(const Header *header, const Patch *patch, bool follows
 bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor);
 INLINE int64_t solving_space(int64_t rows, int64_t columns) { return (rows + 4) * (columns + 16) + 15; }
 MUST_CHECK bool take_factor(Arena *arena, const Patch *patch, Factor *factor);
-
-#endif

@@ -1,6 +1,5 @@
 /* What dictionaries cost, as bitstream/costs.h has it of all else (specification, M 14.2, M 14.3). */
-#ifndef BSMDEC_DICTIONARY_COSTS_H
-#define BSMDEC_DICTIONARY_COSTS_H
+#pragma once
 
 #include "bitstream/costs.h"
 #include "codec/basis/basis.h"
@@ -35,5 +34,3 @@ INLINE double patch_memory(const Fronts *fronts, int64_t columns) {
            size = fronts->places.data[fronts->places.size - 1];
     return 8 * (6 * rows * c + 2 * c * c + size) + 500 * rows;
 }
-
-#endif

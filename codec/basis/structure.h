@@ -1,6 +1,5 @@
 /* The graph of a mesh, its blocks and their patches (specification, M 2 to M 6). */
-#ifndef BSMDEC_STRUCTURE_H
-#define BSMDEC_STRUCTURE_H
+#pragma once
 
 #include "codec/basis/basis.h"
 #include "bitstream/container/header.h"
@@ -43,5 +42,3 @@ INLINE ConstInts members_of(const Blocks *blocks, int64_t index, int64_t count) 
 INLINE int64_t size_of_block(const Blocks *blocks, int64_t index) {
     return blocks->starts.data[index + 1] - blocks->starts.data[index];
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The kernels of blocks. */
-#ifndef BSM_BLOCKS_H
-#define BSM_BLOCKS_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -18,5 +17,3 @@ int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, Co
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
                      Longs edges, Ints members);
 void add_copies(Doubles2 sums, Doubles total, ConstInts vertices, ConstDoubles2 positions, ConstDoubles weights);
-
-#endif

@@ -1,6 +1,5 @@
 /* The kernels of denoising. */
-#ifndef BSM_DENOISE_H
-#define BSM_DENOISE_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -20,5 +19,3 @@ void patch_guidance(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts
 void describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
                     ConstDoubles2 smooth, ConstDoubles2 axes, ConstLongs starts, ConstInts near, double distance,
                     int64_t begin, Doubles2 described, Doubles2 frames);
-
-#endif

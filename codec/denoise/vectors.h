@@ -1,6 +1,5 @@
 /* Three numbers, places and directions; and eight side by side. */
-#ifndef BSM_DENOISE_VECTORS_H
-#define BSM_DENOISE_VECTORS_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -56,5 +55,3 @@ INLINE Lanes exponentials(Lanes x) {
     sum = sum * rest + 1.0f;
     return (Lanes)((LaneInts)sum + ((LaneInts)shifted << 23));
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The kernels of geometry. */
-#ifndef BSM_GEOMETRY_H
-#define BSM_GEOMETRY_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -106,5 +105,3 @@ INLINE double to_triangle(const double *p, const double *triangle) {
     nearest = second < nearest ? second : nearest;
     return third < nearest ? third : nearest;
 }
-
-#endif

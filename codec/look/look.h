@@ -1,6 +1,5 @@
 /* Pictures of surfaces, and how much two of them differ to the eye. */
-#ifndef BSM_LOOK_H
-#define BSM_LOOK_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -22,5 +21,3 @@ int64_t paint_colors(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, C
     ConstSingles2 picture, Singles2 painted);
 int64_t paint_checker(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
     ConstDoubles steepness, double dark, Singles2 picture);
-
-#endif

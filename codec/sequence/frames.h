@@ -1,6 +1,5 @@
 /* GOPs to frames (specification, S 3.7 to S 7, S 10). */
-#ifndef BSMDEC_FRAMES_H
-#define BSMDEC_FRAMES_H
+#pragma once
 
 #include "codec/sequence/gop.h"
 
@@ -16,5 +15,3 @@ void forget_frames(Gops *gops);
 bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch);
 /* What frame `t` of the GOP is in a track, until the GOP is over. */
 bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 *frame);
-
-#endif

@@ -1,6 +1,5 @@
 /* Groups of frames of a sequence: what each says, and what all of a mesh build on (specification, S). */
-#ifndef BSMDEC_GOP_H
-#define BSMDEC_GOP_H
+#pragma once
 
 #include "bitstream/payloads/coding.h"
 #include "codec/sequence/parts.h"
@@ -79,5 +78,3 @@ typedef struct {
 
 /* Whether there is room for a GOP, and its work is paid for (S 8). */
 bool reserve_gop(Gops *gops, const Gop *gop, double received);
-
-#endif

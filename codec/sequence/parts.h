@@ -1,6 +1,5 @@
 /* Parts of a mesh whose frames move: what they hang on, and their dictionaries (specification, S 3, S 8.2). */
-#ifndef BSMDEC_PARTS_H
-#define BSMDEC_PARTS_H
+#pragma once
 
 #include "codec/sequence/temporal.h"
 #include "codec/basis/dictionaries.h"
@@ -39,5 +38,3 @@ void release_dictionaries(Parts *parts);
 bool lend_dictionary(Parts *parts, int64_t index, Arena *scratch, Singles2 *dictionary);
 /* What continues a field into a part, of which `ends` are the rows around it. */
 bool extend_part(const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension);
-
-#endif

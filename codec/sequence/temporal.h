@@ -1,6 +1,5 @@
 /* What frames are predicted from, and how they are made of what was coded. */
-#ifndef BSM_TEMPORAL_H
-#define BSM_TEMPORAL_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -29,5 +28,3 @@ void bend_columns(ConstDoubles2 part, ConstDoubles2 positions, Doubles2 columns)
 int64_t ISA(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames);
 int64_t ISA(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result);
 int64_t ISA(turn_columns)(Doubles2 free, Doubles vector, Doubles shares);
-
-#endif

@@ -1,6 +1,5 @@
 /* Blocks put together to a mesh (specification, M 12). */
-#ifndef BSMDEC_ASSEMBLY_H
-#define BSMDEC_ASSEMBLY_H
+#pragma once
 
 #include "codec/signal/chain.h"
 
@@ -23,5 +22,3 @@ bool mark_whole(const Assembly *assembly, const Header *header, const Graph *gra
     int beyond, Bytes *whole);
 /* From BSM units to the unit of the mesh, in place (M 12.5). */
 bool into_unit(Context *context, const Header *header, Doubles2 positions);
-
-#endif

@@ -1,6 +1,5 @@
 /* Blocks to positions: what the blocks of a chain know of those before them (specification, M 7 to M 12). */
-#ifndef BSMDEC_CHAIN_H
-#define BSMDEC_CHAIN_H
+#pragma once
 
 #include "bitstream/coefficients/coefficients.h"
 #include "bitstream/payloads/coding.h"
@@ -75,5 +74,3 @@ void commit_block(Chains *chains, Singles2 dictionary, const DecodedBlock *decod
 void leave_chain(Chains *chains);
 /* Count a block as decoded that other chains decoded, and make its charges. */
 bool settle_block(Chains *chains, int64_t index, const Ledger *ledger);
-
-#endif

@@ -1,6 +1,5 @@
 /* Levels that refine what blocks decoded to (specification, V 11, M 17). */
-#ifndef BSMDEC_LAYER_H
-#define BSMDEC_LAYER_H
+#pragma once
 
 #include "bitstream/fields/fields.h"
 #include "bitstream/container/header.h"
@@ -39,5 +38,3 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
 
 /* Marks of the vertices whose steps follow from whole ones alone; empty: all. */
 bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit);
-
-#endif

@@ -1,6 +1,5 @@
 /* The kernels of signals. */
-#ifndef BSM_SIGNAL_H
-#define BSM_SIGNAL_H
+#pragma once
 
 #include "codec/basis/basis.h"
 
@@ -34,5 +33,3 @@ int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, do
                       Doubles steps);
 int64_t add_heights(Doubles2 positions, ConstDoubles2 frames, ConstInts2 levels, double step);
 int64_t add_slides(Doubles2 positions, ConstDoubles2 frames, ConstInts2 levels, ConstDoubles steps);
-
-#endif

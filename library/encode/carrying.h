@@ -1,6 +1,5 @@
 /* Attributes of a given mesh in the order of coding (encoder only; specification, D). */
-#ifndef BSMDEC_CARRYING_H
-#define BSMDEC_CARRYING_H
+#pragma once
 
 #include "library/encode/quantizing.h"
 #include "library/encode/writer.h"
@@ -41,5 +40,3 @@ bool code_carried(Writer *writer, const CodedMesh *coded, const Carried *carried
 bool take_pieces(Arena *arena, const Carried *carried, Ints2 *pieces);
 /* Whether values are predicted from positions, should these be on a grid. */
 bool can_lean(const Declaration *declaration);
-
-#endif

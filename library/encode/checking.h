@@ -1,6 +1,5 @@
 /* What is given to the encoder, and whether its streams keep what they promise. */
-#ifndef BSMDEC_CHECKING_H
-#define BSMDEC_CHECKING_H
+#pragma once
 
 #include "library/encode/carrying.h"
 #include "library/encode/rounding.h"
@@ -26,5 +25,3 @@ typedef struct {
 bool check_mesh(Encoder *encoder);
 /* Decode the stream with bsmdec and compare it with what was given. */
 bool prove_stream(Encoder *encoder);
-
-#endif

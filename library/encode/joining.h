@@ -1,6 +1,5 @@
 /* A given mesh as it is coded: one vertex at each position (encoder only). */
-#ifndef BSMDEC_JOINING_H
-#define BSMDEC_JOINING_H
+#pragma once
 
 #include "library/bsmenc.h"
 #include "library/writing.h"
@@ -38,5 +37,3 @@ int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratc
 /* Make one vertex of those at one position; -0.0 is there where 0.0 is, unless `exact`. With `keep`, faces without area
  * stay. */
 bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined);
-
-#endif

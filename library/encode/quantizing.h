@@ -1,6 +1,5 @@
 /* Values of attributes as whole numbers that keep a quality (encoder only; specification, A). */
-#ifndef BSMDEC_QUANTIZING_H
-#define BSMDEC_QUANTIZING_H
+#pragma once
 
 #include "library/attribute.h"
 #include "library/encode/joining.h"
@@ -19,5 +18,3 @@ bool quantize(Context *context, const void *values, int64_t rows, bsmenc_quality
 double direction_of(const double *vector, double *unit);
 /* The angle between a vector and a unit vector, in degrees. */
 double degrees_between(const double *vector, const double *unit);
-
-#endif

@@ -1,6 +1,5 @@
 /* Which grid positions are coded on, and where on it they are (encoder only). */
-#ifndef BSMDEC_ROUNDING_H
-#define BSMDEC_ROUNDING_H
+#pragma once
 
 #include "library/encode/joining.h"
 
@@ -23,5 +22,3 @@ INLINE double rounded_at(const Rounded *rounded, int64_t place, int axis) {
     double product = (double)rounded->places.data[3 * place + axis] * rounded->step;
     return product + rounded->origin[axis];
 }
-
-#endif

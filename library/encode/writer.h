@@ -1,6 +1,5 @@
 /* Packets to bytes: what bitstream/container/reader.c reads (specification, F 1 to F 5). */
-#ifndef BSMDEC_WRITER_H
-#define BSMDEC_WRITER_H
+#pragma once
 
 #include "bitstream/container/header.h"
 #include "bitstream/payloads/order.h"
@@ -41,5 +40,3 @@ void put_section(StreamWriter *writer, FrameType type);
 /* Write END, with the checksum of decoded positions. */
 void end_stream(StreamWriter *writer, ConstDoubles2 positions);
 void give_stream(StreamWriter *writer);
-
-#endif

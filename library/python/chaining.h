@@ -1,6 +1,5 @@
 /* Blocks as encoders step through them: what decoders do with each (codec/signal/chain.h), with levels in between. */
-#ifndef BSMDEC_CHAINING_H
-#define BSMDEC_CHAINING_H
+#pragma once
 
 #include "codec/basis/basis.h"
 
@@ -76,5 +75,3 @@ double memory_of_gop(int method, int64_t frames, ConstLongs2 fields, int64_t ver
 bool begin_solver(CodedChain *chain, ConstInts offsets, ConstInts neighbors, ConstDoubles shift);
 bool solve_iterations(CodedChain *chain, ConstSingles2 start, int64_t power, int64_t iterations, int64_t apart,
     Singles2 subspace);
-
-#endif

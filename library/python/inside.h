@@ -1,6 +1,5 @@
 /* What the binding for Python asks of a decoder beside bsmdec.h. */
-#ifndef BSMDEC_PYTHON_H
-#define BSMDEC_PYTHON_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -85,5 +84,3 @@ bool encode_rounded(Encoding *encoding, const double *positions, int64_t rows, i
 /* The rows in the order of coding (NULL: as they are numbered), and the first kind of values. */
 const int32_t *encoding_order(const Encoding *encoding);
 const int32_t *encoding_values(const Encoding *encoding);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a page asks of a decoder beside bsmdec.h; one decoder in one memory. */
-#ifndef BSMDEC_PAGE_H
-#define BSMDEC_PAGE_H
+#pragma once
 
 #include "library/bsmdec.h"
 
@@ -9,5 +8,3 @@ void page_give(void *memory, size_t size);
 bsmdec_allocator page_host(void);
 /* What coefficients start from (web/scripts/kernels.mjs). */
 void make_priors(void);
-
-#endif

@@ -1,6 +1,5 @@
 /* What chooses levels, places and transforms: shaping.c, settling.c, creases.c, congruence.c. Encoder only. */
-#ifndef BSM_CHOICE_H
-#define BSM_CHOICE_H
+#pragma once
 
 #include "bitstream/kernel.h"
 
@@ -58,5 +57,3 @@ int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 l
 
 int64_t find_motions(ConstDoubles2 positions, ConstInts2 faces, ConstInts degrees, double worth, Ints heads, Ints links,
     Bytes covered, Doubles room, Doubles2 found);
-
-#endif
