@@ -17,8 +17,7 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.surface import Floats
+from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.geometry.graph import vertex_neighbors
 
 Field = Callable[[Floats], Floats]

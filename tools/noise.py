@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.surface import Floats, Topology, surface_normals
+from bsm.codec.arrays import Faces, Floats, Positions
+from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.graph import vertex_neighbors
 from bsm.codec.geometry.metrics import mean_edge_length
 

@@ -11,8 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy import spatial
 
-from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.surface import Floats, Mask
+from bsm.codec.arrays import Faces, Floats, Mask, Positions
 from bsm.codec.geometry.metrics import distances_to_surface, face_geometry
 from tools.scans import CAMERAS, SAMPLES, Camera, Scan, isosurface, turning, view
 

@@ -23,8 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import ndimage, spatial
 
-from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.surface import Floats, Mask
+from bsm.codec.arrays import Faces, Floats, Mask, Positions
 from bsm.codec.geometry.metrics import distances_to_surface, face_geometry, face_normals
 from bsm.pictures import nearest_faces
 

@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise.learnt.cascade import (
     FARTHEST,
     VERTEX_ITERATIONS,
@@ -33,7 +33,7 @@ from bsm.codec.denoise.learnt.cascade import (
     regressed_normals,
 )
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions, mirrored
-from bsm.codec.denoise.surface import Floats, Topology, follow_normals, surroundings
+from bsm.codec.denoise.surface import Topology, follow_normals, surroundings
 from bsm.codec.geometry.metrics import face_normals
 from bsm.files.mesh import read_mesh
 from bsm.simplification import collapsed, compact

@@ -5,30 +5,29 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import counted
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Floats, Mask, Order, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
 from bsm.codec.denoise.learnt.cascade import Learnt
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.outliers import NO_OUTLIERS, Outliers, find_outliers
-from bsm.codec.denoise.noise.ripples import NO_RIPPLES, Ripples, find_ripples
+from bsm.codec.denoise.noise.outliers import put_outliers_back
+from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.recipe import BENDS, RAYS, Patient, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, silent
-from bsm.codec.denoise.safety import DETAIL_LOST, judge, keep_good, restraint
-from bsm.codec.denoise.surface import Floats, Mask, Topology
+from bsm.codec.denoise.safety import DETAIL_LOST, judge, restraint
+from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import face_normals
 
 WHOLE, PIECE, PIECES = 6000, 2000, 2  # vertices up to which all are rehearsed on, and of two pieces from there on
 
 
-def sample(faces: Faces, levels: Floats) -> tuple[npt.NDArray[np.int64], Faces]:
+def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
     """Vertices of the sample, ascending, and its faces in their numbers; all of a mesh that is not large."""
     n = len(levels)
     if n <= WHOLE:
@@ -121,29 +120,29 @@ class AutomaticChoice:
         expected = float((touched * np.hypot(undone, share * self.forecast.expected)).mean())
         return replace(self, untreated=self.forecast.untreated * float(touched.mean()), expected=expected)
 
-    def after(self, outliers: Outliers, ripples: Ripples) -> AutomaticChoice:
+    def after(self, outliers: int, ripples: Ripples) -> AutomaticChoice:
         """The choice for a mesh of which outliers and ripples have been put back."""
-        count, lengths = len(outliers.vertices), tuple(float(length) for length in ripples.lengths)
-        choice = replace(self, outliers=count, ripples=lengths)
-        if self.steps or not (count or lengths):
+        choice = replace(self, outliers=outliers, ripples=ripples.lengths)
+        if self.steps or not (outliers or ripples.lengths):
             return choice
-        if lengths:
-            waves = ", ".join(f"{length:.1f}" for length in lengths)
+        if ripples.lengths:
+            waves = ", ".join(f"{length:.1f}" for length in ripples.lengths)
             reason = f"waves of {waves} mean edges across the whole mesh, {ripples.level:.2f} edges high"
             return replace(choice, kind="ripples", reason=reason)
-        return replace(choice, kind="outliers", reason=f"{counted(vertices=count)} that stood out")
+        return replace(choice, kind="outliers", reason=f"{counted(vertices=outliers)} that stood out")
 
 
-def calm(positions: Positions, patient: Patient) -> tuple[Positions, Outliers, Ripples, Finding]:
-    """The positions, shape (n, 3), with outliers and ripples put back, both, and the noise of the rest."""
+def calm(positions: Positions, patient: Patient) -> tuple[int, Ripples, Finding]:
+    """The number of outliers that are put back, the positions, shape (n, 3), without these and ripples, and their
+    noise."""
     finding = find_noise(positions, patient.probe)
-    outliers = NO_OUTLIERS if finding.exact else find_outliers(positions, patient.probe, finding)
-    calmed = outliers.put_back(positions)
-    ripples = NO_RIPPLES if finding.exact else find_ripples(calmed, patient.probe)
-    calmed = ripples.put_back(calmed)
-    if len(outliers.vertices) or len(ripples.lengths):
-        finding = find_noise(calmed, patient.probe)
-    return calmed, outliers, ripples, finding
+    if finding.exact:
+        return 0, Ripples(positions), finding
+    back = put_outliers_back(positions, patient.probe, finding)
+    outliers, ripples = int((back != positions).any(axis=1).sum()), find_ripples(back, patient.probe)
+    if outliers or ripples.lengths:
+        finding = find_noise(ripples.positions, patient.probe)
+    return outliers, ripples, finding
 
 
 def choose(
@@ -221,17 +220,18 @@ def treat(
     """Apply the choice to `noisy`, shape (n, 3), where it is safe; also return it as carried out, with its angles."""
     if not choice.steps:
         return noisy, choice
-    finding = finding.reaching(patient.topology, choice.noise.slides)
-    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels > 0.0
+    finding, touched = finding.reaching(patient.topology, choice.noise.slides), finding.levels > 0.0
+    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, touched
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
-    full = keep_good(noisy, patient.treatments(noisy).mean(choice.steps, choice.learnt), finding.levels > 0.0)
+    full = patient.treatments(noisy).mean(choice.steps, choice.learnt)
+    full = np.where(touched[:, None], full, noisy)
     full = full if finding.bound is None else finding.bound.within(noisy, full)
-    verdict = judge(noisy, full, finding, patient.probe)
-    if verdict.reason:
-        return noisy, replace(choice, steps=(), reason=verdict.reason)
+    good, reason = judge(noisy, full, finding, patient.probe)
+    if reason:
+        return noisy, replace(choice, steps=(), reason=reason)
     share = restraint(finding, choice.noise.normal * finding.edge) if choice.detailed else 1.0
-    result = keep_good(noisy, noisy + share * (full - noisy) if share < 1.0 else full, verdict.good)
+    result = np.where(good[:, None], noisy + share * (full - noisy) if share < 1.0 else full, noisy)
     if choice.forecast:
         part = noisy + strength * (result - noisy)
-        choice = choice.seen(share * strength, full, part, finding.levels > 0.0, patient.topology)
+        choice = choice.seen(share * strength, full, part, touched, patient.topology)
     return result, choice

@@ -8,7 +8,8 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.arrays import Floats
+from bsm.codec.denoise.surface import Topology
 
 BEND = 0.02  # change of slope up to which bends are rounded, not sharp
 ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0

@@ -4,18 +4,13 @@
 block as weight.
 """
 
-from collections.abc import Iterator
-
 import numpy as np
-import numpy.typing as npt
 
-from bsm.codec.arrays import Faces, Indices
+from bsm.codec.arrays import Faces, Floats, Indices
 from bsm.codec.blocks.overlap import Blend, Blocks, block_size, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.threads import ordered_map
-
-Floats = npt.NDArray[np.float64]
 
 BLOCK_SIZE = 500  # about the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle
 OVERLAP = 1.15
@@ -40,7 +35,7 @@ class CoarseFilter:
         partition = metis_partition(graph, max(1, round(n / block)))
         self._size = block_size(partition, overlap)
         blocks = grow_blocks(graph, partition, self._size)
-        self._blocks = list(_dictionaries(blocks, self._width(keep), rules))
+        self._blocks = _dictionaries(blocks, self._width(keep), rules)
 
     def __call__(self, values: Floats, keep: float = KEEP) -> Floats:
         """Filter `values`, shape (n, 3); `keep` is at most the filter's."""
@@ -57,7 +52,7 @@ class CoarseFilter:
         return max(1, round(keep * self._size))
 
 
-def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tuple[Indices, Floats, Floats]]:
+def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> list[tuple[Indices, Floats, Floats]]:
     """Vertices of every block, their weights, and its dictionary; chains run in parallel."""
 
     def dictionaries_of(indices: range) -> list[tuple[Indices, Floats, Floats]]:
@@ -70,5 +65,4 @@ def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tup
             found.append((vertices, weights, dictionary.astype(np.float64)))
         return found
 
-    for found in ordered_map(dictionaries_of, rules.chains(blocks.count), None):
-        yield from found
+    return [each for found in ordered_map(dictionaries_of, rules.chains(blocks.count), None) for each in found]

@@ -6,7 +6,6 @@ from itertools import chain, count, islice
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
@@ -19,13 +18,12 @@ from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.normals import FINE_STEPS, GuidedFilter
 from bsm.codec.denoise.recipe import HAND_OVERS, DenoiseOptions, Patient
 from bsm.codec.denoise.rehearsal import GOALS, Progress, silent
-from bsm.codec.denoise.safety import judge, keep_good
+from bsm.codec.denoise.safety import judge
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.threads import ordered_map
 
-Frames = npt.NDArray[np.float64]
 Pair = tuple[Positions, Positions]
 
 WINDOW = 64  # frames that the temporal filter sees at once, if they fit
@@ -88,7 +86,7 @@ class FrameDenoiser:
             given, welded = pair
             assert choice is not None and found is not None
             if (choice.outliers or choice.ripples) and welded is not begun:
-                welded = calm(welded, self._patient)[0]
+                welded = calm(welded, self._patient)[1].positions
             result, done = treat(choice, welded, found, self._patient, self._strength)
             return (given, result), done
 
@@ -97,7 +95,8 @@ class FrameDenoiser:
                 begun = group[0][1]
                 self._progress("finding noise", 0.0)
                 if remaining is None:
-                    begun, outliers, ripples, found = calm(begun, self._patient)
+                    outliers, ripples, found = calm(begun, self._patient)
+                    begun = ripples.positions
                     group[0] = group[0][0], begun
                 else:
                     found = find_noise(begun, self._patient.probe)
@@ -120,7 +119,7 @@ class FrameDenoiser:
         size = int(np.clip(WINDOW_BYTES // (24 * max(1, n)), 2 * OVERLAP, WINDOW))
         filter_: TemporalFilter | None = None
         seen: list[Positions] = []
-        tail: Frames | None = None
+        tail: Positions | None = None
         fresh = 0
         while True:
             new = list(islice(frames, size - fresh))
@@ -132,11 +131,10 @@ class FrameDenoiser:
             level: float | None = None
             if len(seen) >= FEWEST_FRAMES:
                 filter_ = filter_ or TemporalFilter(self._patient.topology.faces, n)
-                steadied = filter_(welded)
+                steadied, deviation, remaining = filter_(welded)
                 edge = mean_edge_length(welded[0], self._patient.topology.faces)
-                if np.sqrt(3.0) * steadied.deviation > UNSTEADY * edge:
-                    welded = steadied.frames
-                    level = np.sqrt(3.0) * steadied.deviation * steadied.remaining
+                if np.sqrt(3.0) * deviation > UNSTEADY * edge:
+                    welded, level = steadied, np.sqrt(3.0) * deviation * remaining
             results = welded[-fresh:]
             if tail is not None:
                 fading = min(len(tail), len(results))
@@ -165,10 +163,10 @@ class FrameDenoiser:
             result = step(start(noisy, smooth, GuidedFilter(noisy, topology)), topology.faces, **iterations)
             if self._force:
                 return given, result
-            verdict = judge(noisy, result, find_noise(noisy, self._patient.probe), self._patient.probe)
-            if verdict.reason:
-                raise HarmError(f"{verdict.reason}; nothing is written unless it is forced", frame=number)
-            return given, keep_good(noisy, result, verdict.good)
+            good, reason = judge(noisy, result, find_noise(noisy, self._patient.probe), self._patient.probe)
+            if reason:
+                raise HarmError(f"{reason}; nothing is written unless it is forced", frame=number)
+            return given, np.where(good[:, None], result, noisy)
 
         first = list(islice(frames, 2))
         numbers: Iterable[int | None] = count() if len(first) == 2 else [None]  # a mesh has no frames

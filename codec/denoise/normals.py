@@ -7,15 +7,8 @@ from itertools import islice
 import numpy as np
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.surface import (
-    Floats,
-    Topology,
-    follow_normals,
-    mean_centroid_distance,
-    pair_distances,
-    surroundings,
-)
+from bsm.codec.arrays import Faces, Floats, Positions
+from bsm.codec.denoise.surface import Topology, follow_normals, mean_centroid_distance, pair_distances, surroundings
 from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import FaceGeometry, face_geometry
 

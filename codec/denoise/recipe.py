@@ -10,7 +10,7 @@ from itertools import islice
 import numpy as np
 
 from bsm.bitstream.errors import public
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Mask, Positions
 from bsm.codec.choices import check_options, named
 from bsm.codec.denoise.bends import fewer_bends
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
@@ -20,7 +20,7 @@ from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
 from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, filtered_normals, patch_guidance
-from bsm.codec.denoise.surface import Mask, Topology, surface_normals
+from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.metrics import face_normals, mean_edge_length
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}

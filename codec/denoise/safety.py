@@ -4,14 +4,11 @@ In each window the movement is compared with the noise in the finest frequencies
 than the noise, the filter removed shape as well.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Mask, Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Mask
 
 MOST, MOST_FUSED, MOST_UNKNOWN = 1.9, 3.0, 1.25
 """Movement along the normals over noise, above which a window has lost more than noise: where noise is known, which
@@ -28,24 +25,19 @@ REACHED = 0.5  # share of the level of the noise from which on a window counts f
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
 
-@dataclass(frozen=True, eq=False)
-class Verdict:
-    good: Mask
-    reason: str  # why the result as a whole may not stand; empty if it may
-
-
-def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> Verdict:
-    """Compare the movement in each window with the noise there."""
+def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> tuple[Mask, str]:
+    """Compare the movement in each window with the noise there: which vertices may take the result, and why it may not
+    stand as a whole, or nothing."""
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
     if finding.kind in ("cells", "steps"):
-        return Verdict(everywhere, "")  # within the bound of the cause
+        return everywhere, ""  # within the bound of the cause
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
     if not finding.noisy and not unsure:
         # No statistics here: they may be what is missing.
         if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINT * finding.edge:
-            return Verdict(everywhere, "")
-        return Verdict(~everywhere, f"{finding.reason}, and the result moves vertices nevertheless")
+            return everywhere, ""
+        return ~everywhere, f"{finding.reason}, and the result moves vertices nevertheless"
     normals = probe.smooth_normals(result, passes=0)
     removed = probe.levels(np.einsum("ij,ij->i", noisy - result, normals))
     found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
@@ -62,15 +54,10 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     bad = windows.valid & ~(ratio <= most)
     failed = float(bad[judged].mean()) if judged.any() else 0.0
     reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
-    return Verdict(~bad[windows.labels], reason if failed > FAILED_SHARE else "")
+    return ~bad[windows.labels], reason if failed > FAILED_SHARE else ""
 
 
 def restraint(finding: Finding, finest: float) -> float:
     """How much of a movement to make where white noise, of this level in the finest frequencies, may hold detail."""
     excess = finding.level / finest - NOISE_ALONE if finest > 0.0 else 0.0
     return 1.0 - min(max(DETAIL_SLOPE * excess, 0.0), DETAIL_MOST)
-
-
-def keep_good(noisy: Positions, result: Positions, good: Mask) -> Positions:
-    """The result, shape (n, 3), where it is `good`, shape (n,), and the input, bit for bit, where not."""
-    return np.where(good[:, None], result, noisy)

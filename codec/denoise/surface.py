@@ -3,17 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy import sparse
 
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Indices, Positions
+from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
 from bsm.codec.geometry.metrics import face_geometry, face_normals
-
-Floats = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 CROWD = 64  # faces around a vertex from which on they are not near each other because of it
 CROWDED = 16.0  # faces within a distance, over its square: about twice as many as there are of even triangles
@@ -79,7 +75,7 @@ class Topology:
         return boundary
 
     @cached_property
-    def _edges(self) -> tuple[npt.NDArray[np.int64], Indices]:
+    def _edges(self) -> tuple[Order, Indices]:
         """The edges of all faces as ``smaller << 32 | larger``, ascending, and the face of each; loops left out."""
         owner = np.repeat(np.arange(len(self.faces), dtype=np.int32), 3)
         ends = self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)

@@ -24,11 +24,10 @@ INLINE Vector3 cross(Vector3 a, Vector3 b) {
     return (Vector3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 INLINE double length_of(Vector3 a) { return __builtin_sqrt(dot(a, a)); }
-INLINE Vector3 over(Vector3 a, double s) { return (Vector3){a.x / s, a.y / s, a.z / s}; }
 /* The direction of `a`, or `otherwise` where it has none. */
 INLINE Vector3 direction(Vector3 a, Vector3 otherwise) {
     double length = length_of(a);
-    return length > 0.0 ? over(a, length) : otherwise;
+    return length > 0.0 ? (Vector3){a.x / length, a.y / length, a.z / length} : otherwise;
 }
 
 /* Additions and products alone: the same to the last bit on every processor. */

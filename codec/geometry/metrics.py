@@ -16,11 +16,9 @@ import numpy as np
 
 from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, public
-from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
 from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbors
 from bsm.codec.geometry.mesh import extent_of, require_sizes
-
-Floats = Matrix
 
 
 @public

@@ -25,10 +25,10 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.errors import BsmError
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference, face_normals, mean_edge_length
 from bsm.codec.geometry.welding import weld

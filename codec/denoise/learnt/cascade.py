@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bsm.codec.arrays import Mask, Positions
+from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, RADIUS, Singles, descriptions
-from bsm.codec.denoise.surface import Floats, Topology, follow_normals, surroundings, unit
+from bsm.codec.denoise.surface import Topology, follow_normals, surroundings, unit
 from bsm.codec.geometry.metrics import face_normals
 
 FARTHEST = np.float32(6.0)  # bound of standardised numbers

@@ -7,9 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Floats, Mask, Order, Positions
 from bsm.codec.denoise.normals import filter_normals, patch_guidance
-from bsm.codec.denoise.surface import Floats, Mask, Topology, mean_centroid_distance
+from bsm.codec.denoise.surface import Topology, mean_centroid_distance
 from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import FaceGeometry, face_geometry
 
@@ -67,7 +67,7 @@ def _repeated(geometry: FaceGeometry, near: Rows, distance: float) -> Iterator[F
                 yield normals
 
 
-def mirrored(x: bool, y: bool) -> tuple[npt.NDArray[np.int64], Singles]:
+def mirrored(x: bool, y: bool) -> tuple[Order, Singles]:
     """The numbers of a face as seen in a frame with x, y or both the other way round."""
     order = np.arange(NUMBERS)
     signs = np.ones(NUMBERS, dtype=np.float32)

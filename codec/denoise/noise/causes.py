@@ -12,10 +12,10 @@ from typing import Protocol
 import numpy as np
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Faces, Indices, Positions
+from bsm.codec.arrays import Faces, Floats, Indices, Positions
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.surface import Floats, Topology, surface_normals
+from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.welding import weld
 
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
@@ -51,10 +51,9 @@ class Grid:
         """Standard deviation along normals, shape (n, 3), of what rounding takes away or adds, shape (n,)."""
         return np.asarray(np.sqrt(np.square(normals * self.steps).sum(axis=1) / 12.0))
 
-    def within(self, rounded: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back into the cells of the rounded ones."""
+    def within(self, given: Positions, moved: Positions) -> Positions:
         half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
-        return np.clip(moved, rounded - half, rounded + half)
+        return np.clip(moved, given - half, given + half)
 
     def parted(self, rounded: Positions, probe: Probe) -> Positions:
         """Rounded positions, shape (n, 3); neighbors at one position are drawn to their other neighbors."""
@@ -111,7 +110,6 @@ class Box:
     half: Floats
 
     def within(self, given: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back to where those that were `given` may be."""
         return np.asarray(given + np.clip((moved - given) @ self.frame.T, -self.half, self.half) @ self.frame)
 
 
@@ -122,14 +120,13 @@ slide. Both leave the angles of noise along normals and of single vertices as th
 
 @dataclass(frozen=True, eq=False)
 class Reach:
-    """How far noise reaches, shape (n,), and whether it has moved vertices along the surface, too."""
+    """Where noise may have come from: its levels, shape (n,), and whether it moves vertices along the surface, too."""
 
     topology: Topology
     levels: Floats
     slides: bool
 
     def within(self, given: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back to where noise may have come from."""
         normals = np.zeros((0, 3)) if self.slides else surface_normals(moved, self.topology)
         held = np.empty_like(moved)
         _kernels.pull_in(given, moved, normals, self.levels, ASIDE, FARTHEST, held)
@@ -138,7 +135,7 @@ class Reach:
 
 @dataclass(frozen=True, eq=False)
 class Steps:
-    """Depths along an axis, or inverse ones, that come in steps."""
+    """Depths along an axis, or inverse ones, that come in steps: vertices go half a step along their rays."""
 
     view: View
     axis: Floats
@@ -151,7 +148,6 @@ class Steps:
         return np.asarray(1.0 / depth if self.inverse else depth)
 
     def within(self, given: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back to half a step of the given ones along their rays."""
         rays = given - self.view.eye
         share = np.einsum("ij,ij->i", moved - self.view.eye, rays) / np.einsum("ij,ij->i", rays, rays)
         half = 0.5 * self.step / np.abs(self.depths(given))

@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Floats, Mask, Order, Positions
 from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Bound, Grid, Reach, Steps
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
-from bsm.codec.denoise.surface import Floats, Mask, Topology
+from bsm.codec.denoise.surface import Topology
 
 LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has at least, and over the usual
 LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
@@ -70,7 +69,7 @@ class Finding:
     def noisy(self) -> bool:
         return self.kind not in ("none", "unknown")
 
-    def on(self, members: npt.NDArray[np.int64]) -> Finding:
+    def on(self, members: Order) -> Finding:
         growth = None if self.growth is None else self.growth[members]
         return replace(self, levels=self.levels[members], growth=growth)
 

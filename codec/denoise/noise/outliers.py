@@ -6,16 +6,13 @@ The columns that explain most around them are peeled off by matching pursuit, th
 believed only where many are clear, and as many on one side of the surface as on the other.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.sparse import linalg
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe, grouped_quantiles
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import face_normals, mean_edge_length
 
 CLEAR = 0.7
@@ -45,28 +42,12 @@ ROUNDS = 40
 REFINEMENTS = 30
 
 
-@dataclass(frozen=True, eq=False)
-class Outliers:
-    vertices: np.ndarray
-    displacements: Floats
-
-    def put_back(self, positions: Positions) -> Positions:
-        """The positions, shape (n, 3), with the vertices back in their places, and all others bit for bit."""
-        result = positions.copy()
-        result[self.vertices] -= self.displacements
-        return result
-
-
-NO_OUTLIERS = Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
-
-
-def find_outliers(positions: Positions, probe: Probe, finding: Finding) -> Outliers:
-    """Find vertices far outside their neighbors, noise or not, then what stands out of a mesh without noise."""
+def put_outliers_back(positions: Positions, probe: Probe, finding: Finding) -> Positions:
+    """Put back vertices far outside their neighbors, noise or not, then those that stand out of a mesh without noise;
+    all others stay as they are, bit for bit."""
     back = put_strays_back(positions, probe)
-    if not (finding if back is positions else find_noise(back, probe)).noisy:
-        back = _peeled(back, probe).put_back(back)
-    vertices = np.flatnonzero((back != positions).any(axis=1))
-    return Outliers(vertices, (positions - back)[vertices])
+    noisy = (finding if back is positions else find_noise(back, probe)).noisy
+    return back if noisy else _peeled(back, probe)
 
 
 def put_strays_back(positions: Positions, probe: Probe) -> Positions:
@@ -116,7 +97,7 @@ def _distances(positions: Positions, probe: Probe) -> tuple[Floats, Floats]:
     return off / scale, np.abs(height) / scale
 
 
-def _peeled(positions: Positions, probe: Probe) -> Outliers:
+def _peeled(positions: Positions, probe: Probe) -> Positions:
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions, passes=1)
     operator, gain = probe.fine_operator
@@ -132,7 +113,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
             off = amounts[amounts != 0.0]
             few = len(off) < max(FEWEST, FEWEST_SHARE * len(amounts))
             if few or abs(np.sign(off).mean()) >= ONE_SIDED or np.median(np.abs(off)) <= WORTH:
-                return NO_OUTLIERS
+                return positions
             standard = np.abs(rest) / np.where(gain > 0.0, gain, np.inf)
             if share == LESS_CLEAR[0]:
                 most = LARGEST * float(np.quantile(np.abs(off), 0.9))
@@ -153,8 +134,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
     vertices = np.flatnonzero(amounts)
     if len(vertices) > MOST_SHARE * len(positions):
         # This many are no exceptions: the filters remove noise that is everywhere.
-        return NO_OUTLIERS
+        return positions
     # The first ones were measured beside neighbors that were off as well: all of them again, together.
-    change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
-    amounts[vertices] += change
-    return Outliers(vertices, edge * amounts[vertices, None] * normals[vertices])
+    amounts[vertices] += linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
+    return np.where(amounts[:, None] != 0.0, positions - edge * amounts[:, None] * normals, positions)

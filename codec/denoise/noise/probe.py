@@ -13,9 +13,9 @@ import numpy.typing as npt
 from scipy import sparse
 
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Positions
+from bsm.codec.arrays import Floats, Indices, Mask, Positions
 from bsm.codec.blocks.overlap import metis_partition
-from bsm.codec.denoise.surface import Floats, Mask, Topology, surface_normals, unit
+from bsm.codec.denoise.surface import Topology, surface_normals, unit
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 
 WINDOW = 200
@@ -137,7 +137,7 @@ class Probe:
     def levels(self, along: Floats) -> Floats:
         return self.windows.quantiles(np.abs(along), SHARE) / BOUND
 
-    def _repeated(self, values: npt.NDArray[np.float64]) -> Floats:
+    def _repeated(self, values: Floats) -> Floats:
         for _ in range(FINEST):
             values = values - self.average @ values
         return values

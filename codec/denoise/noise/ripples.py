@@ -9,14 +9,13 @@ the mesh are calmer without them.
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy import fft
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Floats, Positions
 from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
-from bsm.codec.denoise.surface import Floats
 from bsm.codec.geometry.metrics import mean_edge_length
 
 LENGTHS = (2.8, 10.0)
@@ -29,7 +28,6 @@ reach this here and there."""
 MOST_WAVES = 3
 WORTH = 0.97  # a wave has to lower the level of what the filter sees to this
 SETTLING, POLISHING = 3, 14  # steps after each wave, and after the last
-SMOOTHING = 1  # averagings of the heights at which phases are taken
 FAINTEST, STRONGEST = 0.04, 1.0  # standard deviation of all waves together, in mean edges, that is believed
 CALMER, MANY_WINDOWS, CALMER_OF_FEW, PLAIN = 0.85, 20, 0.42, 0.15
 """Median over the windows of the level without the waves, over that with them, at most: of many windows, and of fewer;
@@ -39,38 +37,33 @@ FEWEST = 1000  # vertices
 OUTSIDE = 2.5  # standardised values from which on they are creases, not waves
 
 
-@dataclass(frozen=True, eq=False)
-class Ripples:
-    lengths: Floats
-    level: float
-    displacements: Floats
+class Ripples(NamedTuple):
+    """Positions without waves, and the lengths and the strength of these, in mean edges."""
 
-    def put_back(self, positions: Positions) -> Positions:
-        """The positions, shape (n, 3), without the waves; bit for bit where there are none."""
-        return positions - self.displacements if len(self.lengths) else positions
-
-
-NO_RIPPLES = Ripples(np.zeros(0), 0.0, np.zeros((0, 3)))
+    positions: Positions
+    lengths: tuple[float, ...] = ()
+    level: float = 0.0
 
 
 def find_ripples(positions: Positions, probe: Probe) -> Ripples:
+    nothing = Ripples(positions)
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions)[probe.counted]
     valid = probe.windows.valid
     if len(normals) < FEWEST or not valid.any() or not edge > 0.0:
-        return NO_RIPPLES
+        return nothing
     if np.linalg.eigvalsh(normals.T @ normals / len(normals))[0] < ROUND:
-        return NO_RIPPLES
+        return nothing
     fit = _Fit(positions / edge, probe)
-    while fit.count < MOST_WAVES and (begun := fit.peak()) is not None:
+    while len(fit.vectors) < MOST_WAVES and (begun := fit.peak()) is not None:
         wider = fit.with_wave(begun)
         for _ in range(SETTLING):
             wider.step()
         if wider.level > WORTH * fit.level:
             break
         fit = wider
-    if fit.count == 0:
-        return NO_RIPPLES
+    if not len(fit.vectors):
+        return nothing
     for _ in range(POLISHING):
         # The surface as it is without the waves: its normals, and where the vertices were.
         fit.look(fit.given - fit.amounts[:, None] * fit.normals, passes=1)
@@ -81,8 +74,8 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
     sound = bool(((lengths > LENGTHS[0]) & (lengths < LENGTHS[1])).all())
     most = CALMER if int(valid.sum()) >= MANY_WINDOWS else CALMER_OF_FEW
     if not sound or not FAINTEST < level < STRONGEST or calmer > most or (calmer > PLAIN and fit.peak() is not None):
-        return NO_RIPPLES
-    return Ripples(lengths, level, edge * fit.amounts[:, None] * fit.normals)
+        return nothing
+    return Ripples(positions - edge * fit.amounts[:, None] * fit.normals, tuple(lengths.tolist()), level)
 
 
 class _Fit:
@@ -94,10 +87,6 @@ class _Fit:
         self.amounts = np.zeros(len(places))
         self.look(self.given, passes=2)
 
-    @property
-    def count(self) -> int:
-        return len(self.vectors)
-
     def with_wave(self, vector: Floats) -> _Fit:
         """A fit with one more wave, its vector of shape (3,), which the next step gives its height."""
         other = copy(self)
@@ -107,10 +96,8 @@ class _Fit:
     def look(self, places: Positions, passes: int) -> None:
         self.normals = self._probe.smooth_normals(places, passes)
         # Where a plane lies across a wave, the phases of noisy heights would be a picture of the noise.
-        smooth = places
-        for _ in range(SMOOTHING):
-            smooth = self._probe.average @ smooth
-        self._places = places - np.einsum("ij,ij->i", places - smooth, self.normals)[:, None] * self.normals
+        heights = np.einsum("ij,ij->i", places - self._probe.average @ places, self.normals)
+        self._places = places - heights[:, None] * self.normals
         self.seen = np.einsum("ij,ij->i", self._probe.fine(self.given), self.normals)
         self._weigh(self._probe.fine(self.amounts[:, None])[:, 0])
 

@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.noise.causes import Box, find_grid, find_steps
 from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
 from bsm.codec.denoise.noise.volumes import find_cells
-from bsm.codec.denoise.surface import Floats, Mask, unit
+from bsm.codec.denoise.surface import unit
 from bsm.codec.geometry.metrics import mean_edge_length
 
 RULES = {

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Floats, Positions
 from bsm.codec.denoise.bends import fewer_bends
 from bsm.codec.denoise.noise.probe import SHARE, Probe
-from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.denoise.surface import Topology
 
 FAR = 1e3  # extents between an eye and the mesh from which on rays are parallel
 REGULAR, ONE_SIDED = 0.08, 0.98

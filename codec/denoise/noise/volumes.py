@@ -13,10 +13,10 @@ from itertools import combinations
 import numpy as np
 from scipy import sparse
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Floats, Positions
 from bsm.codec.denoise.noise.causes import FEW_VALUES, FEWEST_VALUES, Box, rounding_step
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.denoise.surface import Topology
 
 HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
 ALIKE, SQUARE, TOGETHER = 1e-3, 1e-2, 1e-4

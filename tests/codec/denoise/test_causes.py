@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.volumes import find_cells
-from bsm.codec.denoise.surface import Floats, Topology
+from bsm.codec.denoise.surface import Topology
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tests.shapes import theta
 from tools.noise import gaussian_along_axis

@@ -18,9 +18,9 @@ import numpy.typing as npt
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise.normals import bilateral_normal_filtering, guided_normal_filtering
-from bsm.codec.denoise.surface import Floats, Topology, follow_normals, surface_normals
+from bsm.codec.denoise.surface import Topology, follow_normals, surface_normals
 from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import face_geometry, face_normals, mean_edge_length
 
