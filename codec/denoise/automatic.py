@@ -66,9 +66,11 @@ FUSED = (*(Recipe(BENDS, weight, "own", 0.3) for weight in (0.3, 0.6, 0.15)), *C
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
 with: the weight of bends over the unevenness, and its bound."""
-CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, 16
-"""For binary volumes; of thick slices, whose stairs are steeper, the width grows with thickness to the power of 2/3."""
-THICK, BENDS_ITERATIONS = 2.5, (8, 12)
+CELL_KEEP, CELL_WIDTH, CELL_ITERATIONS = 0.2, 0.25, (16, 11)
+"""For binary volumes; of thick slices, whose stairs are steeper, the width grows with thickness to the power of 2/3,
+and the iterations are fewer where so much of the stairs, a cell's thickness, is on walls of one slice."""
+DETAILED = 1.0 / 30.0
+THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
@@ -203,12 +205,13 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
         assert isinstance(finding.bound, Cells)
         flat, stored = finding.bound.flatness, finding.bound.thick > 1
         more = BENDS_ITERATIONS[: 1 if stored else int(flat // THICK)]
-        steps = tuple(Step(Recipe(BENDS, 0.0, "own", 0.4), count) for count in more)
+        steps = tuple(Step(Recipe(BENDS, 0.0, "own", BENDS_WIDTH), count) for count in more)
         if more and not stored and finding.bound.thin > WALLS:
             steps = (*steps, Step(Recipe("none", 0.0, "own", 0.4), BENDS_ITERATIONS[0]))
         if not stored:
             width = min(CELL_WIDTH * flat ** (2.0 / 3.0), 1.0)
-            steps = (*steps, Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS))
+            detailed = bool(more) and finding.bound.thin > DETAILED * flat
+            steps = (*steps, Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS[detailed]))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
     unknown = Forecast(0.0, 0.0, sure=False, known=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
