@@ -62,6 +62,8 @@ class Comparison:
     max_error_relative: float
 
 
+SIZES = 1e-70, 1e70
+"""Smallest extent and largest coordinate of meshes that are compared: squares of areas are numbers."""
 _LOST = math.pi / 2  # angle of a face that lost its area: half of the most
 
 
@@ -70,7 +72,7 @@ class Reference:
 
     def __init__(self, positions: Positions, faces: Faces) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, dtype=np.float64)
-        require_sizes(self.positions, done="compared")
+        require_sizes(self.positions, *SIZES, "compared")
         self.faces = np.ascontiguousarray(faces, dtype=np.int32)
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self._neighbors = vertex_neighbors(self.faces, len(self.positions))
@@ -106,7 +108,7 @@ class Reference:
         return float(lengths[counted].mean()) if counted.any() else 0.0
 
     def compare(self, decoded: Positions) -> Comparison:
-        require_sizes(decoded, done="compared")
+        require_sizes(decoded, 0.0, SIZES[1], "compared")
         visual = self.nmsve(decoded)
         squared = np.square(self.positions - decoded).sum(axis=1)
         rms, largest = math.sqrt(squared.mean()), math.sqrt(squared.max())

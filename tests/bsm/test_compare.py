@@ -217,3 +217,16 @@ def test_colors_are_compared_as_shares_where_one_has_bytes(tmp_path, suffix):
     bsm.save(painted, tmp_path / f"a.{suffix}")
     found = bsm.compare(painted, tmp_path / f"a.{suffix}").attributes["color"]
     assert found is not None and found.max_error <= 0.51 / 255 and found.range == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("size", [1e-69, 1e69])
+def test_meshes_of_any_size_are_compared_alike_or_not_at_all(size):
+    positions, faces = torus(8, 6).positions, torus(8, 6).faces
+    moved = positions + np.random.default_rng(0).normal(0.0, 0.01, positions.shape)
+    expected, found = (bsm.compare((scale * positions, faces), (scale * moved, faces)) for scale in (1.0, size))
+    assert found.theta_deg == pytest.approx(expected.theta_deg)
+    assert found.nmsve == pytest.approx(expected.nmsve)
+    assert found.max_error_relative == pytest.approx(expected.max_error_relative)
+    for beyond in (size**1.1, size**2):
+        with pytest.raises(bsm.MeshError, match="can be compared"):
+            bsm.compare((beyond * positions, faces), (beyond * moved, faces))
