@@ -14,7 +14,7 @@ from bsm.gltf.document import read_document
 from tests.bsm.files.test_doors import SHOWN, collada
 from tests.bsm.files.test_file_attributes import attribute
 from tests.bsm.program import python
-from tests.gltf import Built, scene
+from tests.gltf import Built, glb, scene
 from tests.shapes import torus
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
@@ -468,3 +468,38 @@ def test_images_that_share_bytes_are_counted():
     ]
     with pytest.raises(bsm.LimitError, match="memory"):
         built.read()
+
+
+def test_each_value_of_another_kind_is_named_by_its_place():
+    """A text, number, list, object or null in place of each value, and each value missing."""
+    built = scene()
+    assert built.read().mesh.faces.size
+    told = r"'\w+' object|\w+Error\b|\bint\(\)|NoneType|subscriptable|reshape|broadcast|argument|iterable"
+
+    def places(tree):
+        for key in [*tree] if isinstance(tree, dict) else range(len(tree)):
+            yield tree, key
+            if isinstance(tree[key], (dict, list)):
+                yield from places(tree[key])
+
+    refused = 0
+    for tree, key in [*places(built.tree)]:
+        kept = tree[key]
+        for wrong in ("x", 7, 1.5, [], {}, None):
+            tree[key] = wrong
+            try:
+                read_mesh(glb(built.tree, built.data), "glb")
+            except bsm.BsmError as error:
+                refused += 1
+                assert not re.search(told, str(error)), (key, wrong, str(error))
+        tree[key] = kept
+    assert refused > 200
+    for part, wrong, expected in (
+        ("meshes", {"primitives": ["x"]}, r'meshes\[0\]\.primitives\[0\] must be an object, not "x"'),
+        ("nodes", {"rotation": [1]}, r"nodes\[0\]\.rotation must have 4 values, not 1"),
+        ("meshes", {}, "'primitives' is missing"),
+    ):
+        built = scene()
+        built.tree[part][0] = wrong
+        with pytest.raises(bsm.FormatError, match=expected):
+            built.read()

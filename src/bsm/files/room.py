@@ -169,6 +169,22 @@ def require_inflated(size: int, compressed: int, limits: Limits, vertices: int =
         )
 
 
+_OF_PYTHON = re.compile(r"reshap|broadcast|\bint\(\)|to integer|inhomogeneous|' object\b|NoneType|__|\bargument")
+
+
+def in_words(error: Exception) -> str:
+    """What is wrong with a file, of what Python or a library says: not the names of their errors and types."""
+    if isinstance(error, UnicodeDecodeError):
+        return f"byte {error.start} of its text is not {error.encoding.upper()}"
+    if isinstance(error, KeyError):
+        return f"{error} is missing"
+    words = re.sub(r"^\w*(Error|Exception)( \d+)?: *", "", " ".join(str(error).split()))[-200:]
+    ours = isinstance(error, LookupError | TypeError | AttributeError | ArithmeticError | AssertionError) or not words
+    if ours or _OF_PYTHON.search(words):
+        return "a value does not fit the others, or is of another kind than it must be"
+    return words
+
+
 @contextmanager
 def as_format_error(kind: str) -> Iterator[None]:
     """Raise `FormatError` in place of the errors that malformed content causes."""
@@ -177,8 +193,7 @@ def as_format_error(kind: str) -> Iterator[None]:
     except BsmError:
         raise
     except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError, BadZipFile) as error:
-        words = " ".join(str(error).split())
-        raise FormatError(f"this {kind} makes no sense: {type(error).__name__}: {words}") from error
+        raise FormatError(f"this {kind} makes no sense: {in_words(error)}") from error
 
 
 @contextmanager
@@ -189,8 +204,7 @@ def as_library_error(library: str, what: str = "this file") -> Iterator[None]:
     except (BsmError, MemoryError):
         raise
     except Exception as error:
-        words = " ".join(str(error).split())[-200:]
-        raise FormatError(f"{library} cannot read {what}: {type(error).__name__}: {words}") from error
+        raise FormatError(f"{library} cannot read {what}: {in_words(error)}") from error
 
 
 def gunzipped(data: bytes, limits: Limits) -> bytes:

@@ -23,7 +23,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
 from bsm.files.pipes import Input, file_beside, is_url
-from bsm.files.room import require_count
+from bsm.files.room import in_words, require_count
 from bsm.gltf import coding
 from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, STRIP, TRIANGLES, Array, Tree
 
@@ -37,6 +37,58 @@ WEBP, TRANSFORM = "EXT_texture_webp", "KHR_texture_transform"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
+_TEXTURE: Tree = {"index": float, "extensions": {TRANSFORM: {"scale": [float] * 2, "offset": [float] * 2}}}
+_SHAPE: Tree = {
+    "accessors": [{"type": str, "componentType": float, "sparse": {"indices": {"componentType": float}, "values": {}}}],
+    "animations": [
+        {
+            "channels": [{"sampler": float, "target": {"path": str}}],
+            "samplers": [{"input": float, "output": float, "interpolation": str}],
+        }
+    ],
+    **{kind: [{}] for kind in ("buffers", "cameras", "samplers")},
+    "bufferViews": [{"extensions": {EXTENSION: {"stream": float}} | {name: {"mode": str} for name in MESHOPT}}],
+    "extensionsUsed": [str],
+    "extensionsRequired": [str],
+    "images": [{"uri": str}],
+    "materials": [
+        {"pbrMetallicRoughness": dict.fromkeys(("baseColorTexture", "metallicRoughnessTexture"), _TEXTURE)}
+        | dict.fromkeys(("normalTexture", "emissiveTexture", "occlusionTexture"), _TEXTURE)
+    ],
+    "meshes": [
+        {
+            "primitives": [
+                {
+                    "attributes": {...: float},
+                    "indices": float,
+                    "material": float,
+                    "targets": [{...: float}],
+                    "extensions": {DRACO: {"bufferView": float, "attributes": {...: float}}},
+                }
+            ],
+            "weights": [float],
+            "extensions": {EXTENSION: {"stream": float}},
+        }
+    ],
+    "nodes": [
+        {
+            "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {...: float}}},
+            "matrix": [float] * 16,
+            "rotation": [float] * 4,
+            "scale": [float] * 3,
+            "translation": [float] * 3,
+            "children": [float],
+            "weights": [float],
+            "mesh": float,
+            "skin": float,
+        }
+    ],
+    "scenes": [{"nodes": [float]}],
+    "skins": [{"joints": [float]}],
+    "textures": [{"source": float, "extensions": {...: {"source": float}}}],
+}
+"""What readers take for granted of a tree: the kinds of its values, and how many a list of several has."""
+_KINDS = {dict: "an object", list: "a list", str: "a text", float: "a number"}
 
 
 class Document:
@@ -48,11 +100,13 @@ class Document:
         try:
             tree = json.loads(text)
         except (ValueError, RecursionError) as error:
-            raise FormatError(f"not a glTF: {error}") from error
+            raise FormatError(f"not a glTF: {in_words(error)}") from error
         if not isinstance(tree, dict) or not isinstance(tree.get("asset"), dict):
             raise FormatError("not a glTF: it has no asset")
         if not str(version := tree["asset"].get("version", "2.0")).startswith("2"):
             raise FormatError(f"this is glTF {str(version)[:20]}, and only glTF 2.0 is read; convert it first")
+        if wrong := _misfit(tree, _SHAPE):
+            raise FormatError(f"in this glTF, {wrong.removeprefix('.')}")
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
         self._sides: dict[object, int] = {}
@@ -83,18 +137,14 @@ class Document:
         return next((self.view(int(how["stream"])) for how in held if how), None)
 
     def items(self, name: str) -> list[Tree]:
-        found = self.tree.get(name, [])
-        if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
-            raise FormatError(f"the {name} of this glTF must be a list of objects")
+        found: list[Tree] = self.tree.get(name, [])
         return found
 
     def item(self, name: str, index: object) -> Tree:
-        found = self.tree.get(name, [])
-        if not isinstance(found, list) or not isinstance(index, int) or not 0 <= index < len(found):
-            raise FormatError(f"this glTF refers to number {index!r} of {len(self.items(name))} {name}")
-        if not isinstance(entry := found[index], dict):
-            raise FormatError(f"number {index} of the {name} of this glTF must be an object")
-        return entry
+        found = self.items(name)
+        if not isinstance(index, int) or not 0 <= index < len(found):
+            raise FormatError(f"this glTF refers to number {json.dumps(index)} of {len(found)} {name}")
+        return found[index]
 
     def primitives(self) -> Iterator[Tree]:
         for mesh in self.items("meshes"):
@@ -314,6 +364,20 @@ class Document:
         if self._folder is None:
             raise FormatError("the mesh did not come from a file")
         return file_beside(self._folder, unquote(uri))
+
+
+def _misfit(value: Any, shape: Any) -> str:
+    """The place of the first value that is not as in `_SHAPE`, and what it must be; empty if there is none."""
+    kind = type(shape) if isinstance(shape, dict | list) else shape
+    if not isinstance(value, int | float if kind is float else kind) or isinstance(value, bool):
+        return f" must be {_KINDS[kind]}, not {json.dumps(value)[:40]}"
+    if kind is list and 1 < len(shape) != len(value):
+        return f" must have {len(shape)} values, not {len(value)}"
+    parts: Any = ((f"[{place}]", item, shape[0]) for place, item in enumerate(value)) if kind is list else ()
+    if kind is dict:
+        every, within = shape.get(...), {"extensions": {...: {}}} | shape
+        parts = ((f".{name}", item, within.get(name, every)) for name, item in value.items())
+    return next((f"{at}{wrong}" for at, item, how in parts if how is not None and (wrong := _misfit(item, how))), "")
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:

@@ -179,7 +179,7 @@ def test_a_3mf_file_is_read_as_a_whole_or_not_at_all(tmp_path):
     assert len(read_mesh(path).mesh.faces) == 9
     loop = '<object id="1"><components><component objectid="1"/></components></object>'
     path.write_bytes(three_mf(loop, '<item objectid="1"/>'))
-    with pytest.raises(FormatError, match="lib3mf cannot read"):
+    with pytest.raises(FormatError, match=r"lib3mf cannot read this 3MF file: (?!.*(Error|Exception))"):
         read_mesh(path)
     path.write_bytes(three_mf(chained_objects(1), ""))
     with pytest.raises(MeshError, match="places no object"):

@@ -17,7 +17,7 @@ from bsm.codec.geometry.attributes import Semantic
 from bsm.files.conventions import unit_named
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
-from bsm.files.room import Doubles, Ints, as_library_error
+from bsm.files.room import Doubles, Ints, as_library_error, in_words
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
 _MOST_ERRORS = 8  # of pycollada that notes name
@@ -51,7 +51,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
         metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
         metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
         metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
-        errors = [f"unreadable elements ({error.msg[:80]})" for error in document.errors[:_MOST_ERRORS]]
+        errors = [f"unreadable elements ({in_words(error)[:80]})" for error in document.errors[:_MOST_ERRORS]]
         dropped = (*dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT), *errors, *scene.absent)
         return replace(found, metadata={**metadata, **found.metadata}, dropped=dropped)
 
