@@ -26,7 +26,6 @@ stable; `bsm.codec` and `bsm.bitstream` are internal.
 from __future__ import annotations
 
 import importlib
-from typing import Any
 
 # The finder of an editable install would add the root of the checkout, and with it tools, tests and spec.
 __path__ = [__file__.removesuffix("__init__.py")]
@@ -51,7 +50,7 @@ _HOMES = {name: module for _, module, _, name, *_ in _imports}
 __all__ = ["__version__", *_HOMES]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module 'bsm' has no attribute {name!r}")
     value = globals()[name] = getattr(importlib.import_module(_HOMES[name]), name)

@@ -1,15 +1,35 @@
 """`python -m bsm` is the command `bsm`."""
 
+from __future__ import annotations
+
 import gc
 import os
-import signal
+import signal  # before it there is no handler: modules that take long to load, such as typing, are not for here
 import sys
 import warnings
-from typing import NoReturn
+
+_interrupts: list[int] = []
 
 
-def run() -> NoReturn:
+def _interrupt(number: int, _: object) -> None:
+    """End as Python's own handler does, and remember it: extension modules make other errors of it while they load."""
+    _interrupts.append(number)
+    raise KeyboardInterrupt
+
+
+def _interrupt_again(lost: sys.UnraisableHookArgs) -> None:
+    """Repeat an interrupt that came where Python drops errors, such as in the callback of a lock of imports."""
+    if lost.exc_type is KeyboardInterrupt and hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, 1e-3)
+    else:
+        sys.__unraisablehook__(lost)
+
+
+def run() -> None:
     """Run as a program; an interrupt is one from the first moment on, whatever is being imported."""
+    for signum in {signal.SIGINT, getattr(signal, "SIGALRM", signal.SIGINT)}:
+        signal.signal(signum, _interrupt)
+    sys.unraisablehook = _interrupt_again
     # Looking for cycles among the objects of all modules, while they load and again at the end, would take longer than
     # decoding a small mesh.
     gc.set_threshold(100_000)
@@ -25,7 +45,9 @@ def run() -> NoReturn:
         from bsm.cli import main
 
         code = main()
-    except KeyboardInterrupt:
+    except BaseException:
+        if not _interrupts:
+            raise
         print("bsm: interrupted", file=sys.stderr)
         code = 130
     # What is left is the interpreter's own end.

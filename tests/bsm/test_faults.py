@@ -112,3 +112,37 @@ def test_verify_says_what_is_wrong_and_where(name, code, places, capsys):
     assert main(["verify", str(VECTORS / f"{name}.bsm")]) == code
     message = capsys.readouterr().err
     assert all(place in message for place in places), message
+
+
+STOPS = """
+import signal, sys
+
+class Lost:
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)
+
+class Finder:
+    def find_spec(self, name, *_):
+        if name == "numpy" and {dropped}:
+            Lost()
+        elif name == "numpy":
+            try:
+                signal.raise_signal(signal.SIGINT)
+            except KeyboardInterrupt:
+                pass
+            raise ImportError("a module that a signal has stopped")
+
+sys.meta_path.insert(0, Finder())
+sys.argv = ["bsm", "encode", {mesh!r}]
+from bsm.__main__ import run
+run()
+"""
+
+
+@pytest.mark.parametrize("dropped", [False, True])
+def test_an_interrupt_is_one_whatever_an_import_makes_of_it(dropped, tmp_path):
+    """Extension modules raise an ImportError in its place; where Python drops errors, it is repeated."""
+    write_mesh(tmp_path / "a.ply", knot(900))
+    code = STOPS.format(dropped=dropped, mesh=str(tmp_path / "a.ply"))
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (130, "bsm: interrupted\n")
