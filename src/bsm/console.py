@@ -73,6 +73,7 @@ class Progress:
         self._begun = self._said_at = time.monotonic()
         self._said_at += 0.0 if lines else _PATIENCE - _OFTEN
         self._share, self._when = 0.0, 0.0  # as reported, and after how many seconds
+        self._most = 0.0  # of what was said
         self._reported = 0
         self.stopped: BaseException | None = None
         self._over = threading.Event()
@@ -110,7 +111,7 @@ class Progress:
         _, low, high = self._parts[-1]
         self._parts[-1] = name, low, high
         if share is not None:
-            self._at(max(low + share * (high - low), self._share))
+            self._at(low + share * (high - low))
 
     def __call__(self, done: float, total: float) -> None:
         """Report how much of the innermost part is done."""
@@ -118,8 +119,8 @@ class Progress:
         self._at(low + (high - low) * done / max(total, 1))
 
     def _at(self, share: float) -> None:
-        self._share, self._when = share, time.monotonic() - self._begun
-        self._tell_listener(share)
+        self._share, self._when = max(share, self._share), time.monotonic() - self._begun
+        self._tell_listener(self._share)
         self._say(_SECOND if self._lines else _OFTEN)
 
     def _tell_listener(self, share: float) -> None:
@@ -143,7 +144,8 @@ class Progress:
         rest = max(self._parts[-1][2] - self._share, 1e-3)
         share = min(self._share + rest * (1.0 - math.exp(-passed / rest)), 1.0)
         left = since / share * (1.0 - share)
-        return min(share, _MOST_SHARE), since, max(left, _LEAST_LEFT)
+        self._most = max(self._most, min(share, _MOST_SHARE))
+        return self._most, since, max(left, _LEAST_LEFT)
 
     def _say(self, interval: float) -> None:
         """Say what goes on, unless that was said less than so many seconds ago."""

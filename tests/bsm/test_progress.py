@@ -221,6 +221,21 @@ def test_time_is_reported_where_nothing_else_is(lines):
     assert 0 == shares[0] < 0.1 <= shares[-1] < 1 and shares == sorted(shares)
 
 
+def test_the_share_never_falls(monkeypatch, capsys):
+    """Where work goes on faster than it did, and where a later report of it is lower."""
+    monkeypatch.setattr("bsm.console._SECOND", 0.0)
+    console = Console(json=True)
+    with console.progress("encoding") as progress:
+        for done in (10, 60, 40):
+            progress(done, 100)
+            progress._when *= 0.5  # as if time had passed since
+            progress._say(0.0)
+        with console.progress("checking", 0.5):
+            progress(1, 10)
+    shares = [json.loads(line)["share"] for line in capsys.readouterr().err.splitlines()]
+    assert shares == sorted(shares) and len(shares) > 6
+
+
 def test_programs_are_reported_in_lines_of_json(monkeypatch, capsys):
     monkeypatch.setattr("bsm.console._SECOND", 0.0)
     monkeypatch.setattr("bsm.console._LEAST_LEFT", 0.0)
