@@ -18,7 +18,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.metadata import plain_fields, without_materials
+from bsm.files.formats.metadata import plain_fields, without_materials, without_names
 from bsm.files.formats.om import of_openmesh
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact, named_column
 from bsm.files.formats.with_trimesh import joined, polygons_of
@@ -101,10 +101,11 @@ def without_provenance(mesh: TriangleMesh) -> TriangleMesh:
 
 
 def with_metadata(mesh: TriangleMesh, options: EncodeOptions | None, metadata: Metadata) -> TriangleMesh:
-    """The mesh with more metadata; without materials and images where all of its attributes are left out."""
+    """The mesh with more metadata; without names of attributes that are left out, and materials if all are."""
     qualities = dict(options.attributes) if options else {}
+    left = {a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"} - {"material"}
     bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
-    known = without_materials(mesh.metadata) if bare else mesh.metadata
+    known = without_names(without_materials(mesh.metadata) if bare else mesh.metadata, left)
     return replace(mesh, metadata={**known, **metadata})
 
 

@@ -75,6 +75,18 @@ def test_the_shape_alone_brings_no_images():
     assert some.metadata["image.0.data"] == png()
 
 
+@pytest.mark.parametrize("count", [2, 20])
+def test_names_of_values_leave_with_their_attribute(count, tmp_path):
+    path, mesh = tmp_path / "a.obj", tetrahedron()
+    corners = "".join(f"v {x} {y} {z}\n" for x, y, z in mesh.positions)
+    faces = "".join(f"g g{k}\nusemtl m{k}\nf 1 2 3\nf 1 3 4\n" for k in range(count))
+    path.write_text(corners + faces)
+    assert {name.split(".")[0] for name in bsm.load(path).metadata} == {"group", "material"}
+    assert not bsm.decode(bsm.encode(path, attributes={"*": "none"}, grid=12)).metadata
+    some = bsm.decode(bsm.encode(path, attributes={"group": "none"}, grid=12))
+    assert {name.split(".")[0] for name in some.metadata} == {"material"}
+
+
 @pytest.mark.parametrize("text", ["name", "=x", ""])
 def test_metadata_that_say_nothing(tmp_path, text, capsys):
     write_mesh(tmp_path / "a.ply", tetrahedron())

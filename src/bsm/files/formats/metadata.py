@@ -30,6 +30,7 @@ Value: TypeAlias = "str | int | float | bytes"
 Material: TypeAlias = dict[str, "str | int | float"]
 
 _ENTRY = re.compile(r"(material|image)\.(\d{1,9})\.(.+)", re.DOTALL)
+_NAMES = re.compile(r"(.+?)\.(?:names|\d{1,9}\.name)")
 _MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl", re.IGNORECASE)
 _MTL_OPTIONS = re.compile(
     r"((?:-(?:type|colorspace)\s+\w+\s+|-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)",
@@ -59,7 +60,14 @@ _SIGNATURES = {
 
 def without_materials(metadata: Metadata) -> Metadata:
     """What does not say how the mesh looks."""
-    return {name: value for name, value in metadata.items() if not _ENTRY.fullmatch(name)}
+    known = without_names(metadata, ("material",))
+    return {name: value for name, value in known.items() if not _ENTRY.fullmatch(name)}
+
+
+def without_names(metadata: Metadata, attributes: Collection[str]) -> Metadata:
+    """Metadata without the names of the values of attributes."""
+    found = {name: _NAMES.fullmatch(name) for name in metadata}
+    return {name: metadata[name] for name, match in found.items() if match is None or match[1] not in attributes}
 
 
 def kind_of_image(data: bytes) -> str | None:
