@@ -6,6 +6,7 @@ import argparse
 import importlib
 import os
 import re
+import shlex
 import sys
 from collections.abc import Iterator, Sequence
 from typing import Any, NoReturn
@@ -167,7 +168,9 @@ class Parser(argparse.ArgumentParser):
         return " COMMAND ..." if commands else f"{names} [options]"
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
-        for word in words:
+        for word in words[: words.index("--") if "--" in words else None]:
+            if word.startswith("-") and word[:2] not in self._option_string_actions and os.path.exists(word):
+                self.error(f"{word} looks like an option; name the file as {shlex.quote(f'./{word}')}")
             if word in OPTIONS and word not in self._option_string_actions:
                 self.error(f"unknown option {word}; instead: {OPTIONS[word]}")
         # argparse forgets a "--" between the two passes that mixed words take it.

@@ -96,6 +96,15 @@ def test_options_between_inputs(tmp_path, capsys):
     assert capsys.readouterr().err == "bsm: -a: No such file or directory\n"
 
 
+def test_files_may_begin_with_a_minus(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    bsm.save(torus(6, 5), "-a b.stl")
+    with pytest.raises(SystemExit):
+        main(["encode", "-a b.stl"])
+    assert "name the file as './-a b.stl'" in capsys.readouterr().err
+    assert main(["encode", "./-a b.stl", "-q"]) == main(["info", "--", "-a b.bsm"]) == 0
+
+
 def test_points_may_begin_with_a_minus(tmp_path):
     write_mesh(tmp_path / "a.ply", torus())
     words = ["encode", str(tmp_path / "a.ply"), "--grid-cell", "0.01", "--grid-origin", "-1,-.5,-1e-3"]
