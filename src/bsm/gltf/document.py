@@ -369,7 +369,8 @@ class Document:
 def _misfit(value: Any, shape: Any) -> str:
     """The place of the first value that is not as in `_SHAPE`, and what it must be; empty if there is none."""
     kind = type(shape) if isinstance(shape, dict | list) else shape
-    if not isinstance(value, int | float if kind is float else kind) or isinstance(value, bool):
+    fits: bool = isinstance(value, int | float if kind is float else kind) and not isinstance(value, bool)
+    if not fits:
         return f" must be {_KINDS[kind]}, not {json.dumps(value)[:40]}"
     if kind is list and 1 < len(shape) != len(value):
         return f" must have {len(shape)} values, not {len(value)}"
