@@ -173,7 +173,7 @@ _OF_PYTHON = re.compile(r"reshap|broadcast|\bint\(\)|to integer|inhomogeneous|' 
 
 
 def in_words(error: Exception) -> str:
-    """What is wrong with a file, of what Python or a library says: not the names of their errors and types."""
+    """The fault of a file as Python or a library tells it, without the names of their errors and types."""
     if isinstance(error, UnicodeDecodeError):
         return f"byte {error.start} of its text is not {error.encoding.upper()}"
     if isinstance(error, KeyError):

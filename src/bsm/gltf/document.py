@@ -367,7 +367,7 @@ class Document:
 
 
 def _misfit(value: Any, shape: Any) -> str:
-    """The place of the first value that is not as in `_SHAPE`, and what it must be; empty if there is none."""
+    """The place of the first value that is not as in `_SHAPE`, and its kind there; empty if there is none."""
     kind = type(shape) if isinstance(shape, dict | list) else shape
     fits: bool = isinstance(value, int | float if kind is float else kind) and not isinstance(value, bool)
     if not fits:
