@@ -22,7 +22,7 @@ from bsm.codec.static.choice.attributes import Input, smallest
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.choice.bounds import MARGIN
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
 from bsm.codec.static.verification import Original, require, verify
@@ -60,6 +60,8 @@ class Attempt:
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
+LOOKS = [Contract(WIDEST, look=kept.look) for preset in reversed(PRESETS.values()) if (kept := preset.promise)]
+"""The coarseness of attributes if only a size is promised: that of the first look with which the shape fits."""
 ONE_BLOCK = "the mesh fits in one block: its basis is exact, and no orthogonal iterations follow"
 
 
@@ -247,16 +249,23 @@ class Encoder:
 
         if (found := best(given)) is not None:
             return self._judged(found)
-        self._input, smaller = smallest(given, promise or anything, near)  # with attributes as the look needs them
-        if smaller.size <= most:
-            return self._judged(best(self._input) or smaller)
+        for contract in [promise] if promise else LOOKS * bool(given.carried):  # attributes as coarse as that
+            self._input, smaller = smallest(given, contract, near)
+            if smaller.size <= most:
+                fitting = filter(None, (best(self._input), smaller))
+                return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, contract)[1] or 0.0))
+        if promise is None:
+            if (found := best(self._input)) is not None:
+                return self._judged(found)
+            smaller = self._input.dressed(self._input.search.smallest(anything))
         asked, least = f"{target.worded(target.value)} at most cannot be", self._judged(smaller)
         had = target.worded(target.reached(least))
         if promise is None:
             error = TargetError(f"{asked} reached; the least possible is {had}")
         else:
-            other = given.search.best(anything, most)
-            advice = "does not reach it either" if other is None else f"reaches it with {given.search.seen(other)}"
+            loose, other = smallest(given, LOOKS[-1], near) if given.carried else (given, smaller)
+            seen = other if other.size <= most else loose.search.best(anything, most)
+            advice = "does not reach it either" if seen is None else f"reaches it with {loose.search.seen(seen)}"
             error = TargetError(f"{asked} reached with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
         raise error

@@ -105,7 +105,12 @@ def test_a_size_makes_attributes_as_coarse_as_the_promised_look_allows() -> None
     with pytest.raises(TargetError, match=f"that takes {len(usual)} bytes; preset none does not") as smaller:
         encode(mesh, options)
     assert smaller.value.best == len(usual)
-    assert len(encode(mesh, replace(options, target=Target("size", len(usual))))) <= len(usual)
+    for preset in (options, PRESETS["none"]):
+        result = Encoder(mesh, replace(preset, target=Target("size", len(usual)))).result()
+        assert result.size <= len(usual) and bsm.look(mesh, b"".join(result.frames)).distance <= 1.0
+    with pytest.raises(TargetError, match="the least possible is") as smaller:
+        encode(mesh, replace(PRESETS["none"], target=Target("size", 1.0)))
+    assert smaller.value.best < len(usual)
 
 
 def test_no_face_gets_an_area_where_errors_are_stated() -> None:
