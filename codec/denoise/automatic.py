@@ -81,7 +81,6 @@ LEARNT = 0.4  # share of learnt normals in the mean
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 UNPROMISED = 1.2  # rehearsed error over that which the roughness tells, from which on thin parts became worse
-DETAIL = 1.65  # error that may come over the expected one where detail is lost: twice on an armadillo, at most
 
 
 @dataclass(frozen=True)
@@ -107,9 +106,9 @@ class AutomaticChoice:
 
     @property
     def at_most(self) -> float:
-        """The error to expect where detail is as fine as the noise, which a rehearsal does not see."""
-        unsure = self.forecast is not None and not self.forecast.sure
-        return max(min(DETAIL * self.expected, self.untreated), self.expected) if unsure else self.expected
+        """The error to expect where detail is as fine as the noise."""
+        most = self.forecast.most if self.forecast else 1.0
+        return max(min(most * self.expected, self.untreated), self.expected)
 
     def seen(
         self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology
@@ -213,7 +212,7 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
             detailed = bool(more) and finding.bound.thin > DETAILED * flat
             steps = (*steps, Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS[detailed]))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
-    unknown = Forecast(0.0, 0.0, sure=False, known=False)
+    unknown = Forecast(0.0, 0.0, most=1.0, known=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 

@@ -28,9 +28,10 @@ ROUND = 0.1  # of all work, what the recipes of a round take, more or less
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
-UNSURE, LEAST = {"correlated": 0.87, "grid": 0.87, "axis": 0.7}, 0.87
+UNSURE, LEAST, DETAIL = {"correlated": 0.87, "grid": 0.87, "axis": 0.7}, 0.87, 1.44
 """Kinds whose rehearsal does not show whether detail is lost, as on meshes of few vertices; and the least error there,
-over the rehearsed one."""
+and that where detail is lost, over the rehearsed one."""
+DETAIL_SEEN = 1.65  # the same in scans of one view: an armadillo ends at 2.2 times the rehearsed error, others below
 MOST_DROWNED = 0.1  # share of faces lower than the noise is high, from which on angles cannot be estimated
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
 
@@ -66,11 +67,12 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Forecast:
-    """Angles to expect where there is noise, without and with the filter; whether they are sure, and known at all."""
+    """Angles to expect where there is noise, without and with the filter; the error with detail as fine as the noise,
+    which a rehearsal does not see, over the expected one; and whether they are known at all."""
 
     untreated: float
     expected: float
-    sure: bool
+    most: float
     known: bool
 
 
@@ -130,9 +132,10 @@ class Rehearsal:
         few = int(self._patient.probe.windows.valid.sum()) < MANY_WINDOWS
         sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
         least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
+        most = 1.0 if sure else (DETAIL_SEEN if scanned else DETAIL) / least
         expected = float(after) * winner.error / noisy * least
         known = self._finding.clear and self._drowned < MOST_DROWNED
-        return Forecast(before * self.untreated / noisy, expected, sure, known)
+        return Forecast(before * self.untreated / noisy, expected, most, known)
 
     @property
     def _drowned(self) -> float:
