@@ -8,18 +8,17 @@ enum {
     CELL_BITS = 4,      /* of space, by which known vertices are found */
     MOST_VISITS = 8,   /* of one chain */
     REACH = 29,         /* in 1/16: how far an image may be from its vertex */
-    NEAR_CELL_BITS = 7, /* in 1/16: of `near`; at least twice REACH */
+    NEAR_CELL_BITS = 6, /* in 1/16: of `near`; at least twice REACH */
     MATCH = 26,         /* in 1/16, on each axis */
     MOST_ADDED = 24,   /* corners around twins of neighbors */
     MOST_AROUND = 12,  /* corners around the twin of an edge */
     MOST_BEYOND = 96,  /* of all such */
     LOOKED_UP = 16,     /* images by which a vertex with a twin is sought among the known ones, too */
-    ECHO_VISITS = 4,
     ECHO_BITS = 14,
     PROBES = 8,
     MOST_ECHO = 256, /* distances of flaps, in 1/64 of what they may differ by */
     NEAREST_ECHOES = 4,
-    NOT_ALIKE = 1 << 20,
+    FAR = INT32_MAX / 32 * 32, /* more than any difference */
     UNIT_BITS = 16,
     SURE = ONE / 8 * 7, /* trust from which on an image is enough */
     LANES = 8,
@@ -30,13 +29,15 @@ enum {
 typedef __attribute__((vector_size(64), __aligned__(8), may_alias)) double Reals;
 typedef __attribute__((vector_size(32), __aligned__(4), may_alias)) int32_t Numbers;
 typedef __attribute__((vector_size(32), __aligned__(4), may_alias)) uint32_t Wholes;
+/* Numbers of the echoes of one chain. */
+typedef __attribute__((vector_size(16), __aligned__(4), may_alias)) int32_t Chain;
+typedef __attribute__((vector_size(16))) float ChainSingles;
+typedef __attribute__((vector_size(32))) double ChainReals;
 
 /* The greatest number whose square is at most x < 2^62: exact, however a processor rounds. */
 INLINE int64_t root_of(int64_t x) {
     int64_t root = (int64_t)__builtin_sqrt((double)x);
-    while (root * root > x) root--;
-    while ((root + 1) * (root + 1) <= x) root++;
-    return root;
+    return root - (root * root > x) + ((root + 1) * (root + 1) <= x);
 }
 
 INLINE int32_t most_of(ConstInts values) {
@@ -223,15 +224,16 @@ static void add_candidate(Twins *t, const Ints2 *values, int32_t image, int32_t 
 /* Third vertices of the faces of u that have an edge to w; returns how many corners were looked at. */
 static int add_beyond(Twins *t, const Corners *corners, const Ints2 *values, int32_t image, int32_t u, int32_t w,
     int32_t now) {
-    const int32_t *vertex = corners->faces.data;
     int32_t first = corners->starts.data[u], end = (int32_t)least(corners->starts.data[u + 1], first + MOST_AROUND);
-    for (int32_t k = first; k < end; k++) {
-        int32_t after = vertex[next_corner(corners->corners.data[k])];
-        int32_t before = vertex[previous_corner(corners->corners.data[k])];
-        if ((after != w) & (before != w)) continue;
-        if (after == w && corners->rank.data[before] < now) add_candidate(t, values, image, before, 2);
-        if (before == w && corners->rank.data[after] < now) add_candidate(t, values, image, after, 2);
+    uint32_t ends = (uint32_t)u + (uint32_t)w;
+    int32_t third[2 * MOST_AROUND + 1], count = 0;
+    for (int32_t k = first; k < end; k++) { /* faces at u: how often w is there, too, and what else is */
+        const int32_t *face = corners->faces.data + (uint32_t)corners->corners.data[k] / 3 * 3;
+        third[count] = third[count + 1] = (int32_t)((uint32_t)face[0] + (uint32_t)face[1] + (uint32_t)face[2] - ends);
+        count += (face[0] == w) + (face[1] == w) + (face[2] == w) - (u == w);
     }
+    for (int32_t i = 0; i < count; i++)
+        if (corners->rank.data[third[i]] < now) add_candidate(t, values, image, third[i], 2);
     return end - first;
 }
 
@@ -275,12 +277,11 @@ static void seek_images(Twins *t, const Corners *corners, const Ints2 *values, c
         Candidate found = t->candidate[i];
         int64_t away = 0;
         for (int j = 0; j < AXES; j++) away += size_of(found.place[j] - base[j]);
-        bool same = faces_at(corners, found.vertex) == faces_at(corners, v);
-        found.score = (int32_t)(48 * least(found.support, 4) + 48 * same - least(32 * away / unit, 1 << 16)
+        found.same_degree = faces_at(corners, found.vertex) == faces_at(corners, v);
+        found.score = (int32_t)(48 * least(found.support, 4) + 48 * found.same_degree - least(32 * away / unit, 1 << 16)
             + (t->image[found.image].trust >> 10));
         int at = i;
         for (; at > 0 && t->candidate[at - 1].score < found.score; at--) t->candidate[at] = t->candidate[at - 1];
-        found.same_degree = same;
         t->candidate[at] = found;
     }
 }
@@ -331,62 +332,72 @@ static void set_frame(const Corners *corners, const Ints2 *values, Flap flap, in
         f->unit[1][j] = (int32_t)(ey[j] >> UNIT_BITS);
         f->unit[2][j] = (int32_t)ez[j];
     }
-    f->degrees = (uint32_t)(least(faces_at(corners, v), 12) << 16 | least(faces_at(corners, flap.a), 12) << 8
+    f->degrees = (int32_t)(least(faces_at(corners, v), 12) << 16 | least(faces_at(corners, flap.a), 12) << 8
         | least(faces_at(corners, flap.b), 12));
 }
 
 /* Classes of lengths (1/16): sixteen to the octave, and half a class. */
 INLINE int32_t length_class(int32_t length) {
-    int32_t x = length / 8 + 128, exponent = bit_length((uint32_t)x) - 8;
+    int32_t x = (length >> 3) + 128, exponent = 24 - __builtin_clz((uint32_t)x);
     return 32 * exponent + (x >> (exponent + 2)) - 32;
 }
 
-/* How far two flaps are from being congruent; NOT_ALIKE beyond what counts. Without branches, which are a toss-up. */
-INLINE uint32_t difference(const Echo *echo, const Frame *f, uint32_t may, uint64_t inverse, int32_t age) {
-    uint32_t sum = 0, other = echo->degrees ^ f->degrees;
-    for (int i = 0; i < 3; i++) sum += (uint32_t)size_of(echo->length[i] - f->length[i]);
+INLINE Chain sizes_of(Chain x) { return (x ^ (x >> 31)) - (x >> 31); }
+
+/* How far a flap is from being congruent with the echoes of a chain, << 5; FAR beyond what counts. */
+INLINE Chain differences(const Twins *t, const Frame *f, const int32_t *number) {
+    int32_t oldest = (int32_t)largest(t->echoes - MOST_ECHOES, 0), may = (f->length[0] >> 5) + 24;
+    const int32_t *echo[ECHO_VISITS];
+    for (int i = 0; i < ECHO_VISITS; i++) echo[i] = t->echo[number[i] & (MOST_ECHOES - 1)].shape;
+    Chain sum = {0}, own = *(const Chain *)number;
+    for (int k = 0; k < 3; k++) sum += sizes_of((Chain){echo[0][k], echo[1][k], echo[2][k], echo[3][k]} - f->length[k]);
+    Chain other = (Chain){echo[0][3], echo[1][3], echo[2][3], echo[3][3]} ^ f->degrees;
     other = (other + 0x0f0f0f) >> 4 & 0x010101; /* a bit for each that differs */
-    uint32_t away = (uint32_t)(64 * sum * inverse >> 48) + 19 * (2 * (other >> 16) + (other >> 8 & 1) + (other & 1))
-        + 3 * (uint32_t)bit_length((uint32_t)age);
-    uint32_t beyond = 0u - (sum > MOST_ECHO / 64 * may);
-    return (away & ~beyond) | (NOT_ALIKE & beyond);
+    /* 64 sum / may: a half below is more than doubles round. */
+    Chain away = __builtin_convertvector((__builtin_convertvector(sum, ChainReals) + 1.0 / 128) * (64.0 / may), Chain);
+    Chain age = 2 * ((t->echoes - own) & (MOST_ECHOES - 1)) + 1; /* the exponent of which is the bits of half of it */
+    away += 3 * (((Chain)__builtin_convertvector(age, ChainSingles) >> 23) - 127);
+    away += 19 * ((other + (other >> 8) + (other >> 15)) & 7);
+    Chain alike = (own > oldest) & (sum <= MOST_ECHO / 64 * may);
+    return (away & alike) << 5 | (~alike & FAR);
 }
 
-/* The nearest echoes, in order: how far each is << 40, when it was visited << 32, its number. */
-KERNEL void find_alike(const Twins *t, Frame *f, uint64_t *near) {
-    int32_t oldest = (int32_t)largest(t->echoes - MOST_ECHOES, 0), number[PROBES], class[2][3];
-    uint32_t may = (uint32_t)(f->length[0] >> 5) + 24;
-    uint64_t order[PROBES], inverse = (UINT64_C(1) << 48) / may + 1; /* of which quotients that count are exact */
+/* The chains of echoes that may be alike, and how many. */
+static int list_chains(const Twins *t, Frame *f, int32_t *number) {
+    int32_t oldest = (int32_t)largest(t->echoes - MOST_ECHOES, 0), class[2][3];
     int open = 0;
     for (int k = 0; k < 3; k++) {
         int32_t fine = length_class(f->length[k]);
         class[0][k] = fine >> 1;
         class[1][k] = class[0][k] + 2 * (fine & 1) - 1;
     }
-    f->chain = chain_of(class[0][0], class[0][1], class[0][2], ECHO_BITS);
+    for (int turned = 0; turned < 2; turned++)
+        f->chain[turned] = chain_of(class[0][0], class[0][1 + turned], class[0][2 - turned], ECHO_BITS);
+    __builtin_prefetch(t->echo_head + f->chain[1]);
     for (int i = 0; i < PROBES; i++) {
-        number[open] = t->echo_head[chain_of(class[i & 1][0], class[i >> 1 & 1][1], class[i >> 2][2], ECHO_BITS)];
-        order[open] = (uint64_t)i * ECHO_VISITS;
-        __builtin_prefetch(t->echo + (number[open] & (MOST_ECHOES - 1)));
-        open += number[open] > oldest;
+        int32_t head = t->echo_head[chain_of(class[i & 1][0], class[i >> 1 & 1][1], class[i >> 2][2], ECHO_BITS)];
+        number[ECHO_VISITS * open] = head;
+        __builtin_prefetch(t->echo + (head & (MOST_ECHOES - 1)));
+        open += head > oldest;
     }
-    for (int i = 0; i < NEAREST_ECHOES; i++) near[i] = (uint64_t)NOT_ALIKE << 40;
-    for (int visits = 0; visits < ECHO_VISITS && open > 0; visits++) { /* of all chains in turn */
-        int left = 0;
-        for (int i = 0; i < open; i++) {
-            const Echo *echo = t->echo + (number[i] & (MOST_ECHOES - 1));
-            uint64_t own = (uint64_t)difference(echo, f, may, inverse, t->echoes - number[i]) << 40 | order[i] << 32
-                | (uint64_t)number[i];
-            for (int k = 0; k < NEAREST_ECHOES; k++) {
-                uint64_t nearer = own < near[k] ? own : near[k];
-                own = own < near[k] ? near[k] : own;
-                near[k] = nearer;
-            }
-            number[left] = echo->below;
-            order[left] = order[i] + 1;
-            left += echo->below > oldest;
+    return open;
+}
+
+/* The nearest echoes, in order: how far each is << 5, and where it is in `number`. */
+static void find_alike(const Twins *t, const Frame *f, int open, int32_t *number, int32_t *near) {
+    int32_t away[PROBES * ECHO_VISITS];
+    for (int i = 0; i < NEAREST_ECHOES; i++) near[i] = FAR;
+    for (int32_t *to = number; to < number + ECHO_VISITS * open; to += ECHO_VISITS) {
+        *(Chain *)to = *(const Chain *)t->echo[*to & (MOST_ECHOES - 1)].chain;
+        *(Chain *)(away + (to - number)) = differences(t, f, to);
+    }
+    for (int i = 0; i < ECHO_VISITS * open; i++) { /* without branches, which are a toss-up */
+        int32_t own = away[i] | i;
+        for (int k = 0; k < NEAREST_ECHOES; k++) {
+            int32_t nearer = own < near[k] ? own : near[k];
+            own = own < near[k] ? near[k] : own;
+            near[k] = nearer;
         }
-        open = left;
     }
 }
 
@@ -394,16 +405,20 @@ KERNEL void find_alike(const Twins *t, Frame *f, uint64_t *near) {
 static void seek_echoes(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v) {
     int64_t sum[AXES] = {0, 0, 0}, weights = 0;
     int32_t best = INT32_MAX;
+    int32_t number[2][PROBES * ECHO_VISITS + 1];
+    int open[2] = {0, 0};
     for (int i = 0; i < around->flaps && i < 2; i++) {
-        Frame *f = t->frame + i;
-        uint64_t near[NEAREST_ECHOES];
-        set_frame(corners, values, around->flap[i], v, f);
-        if (!f->is_there) continue;
-        find_alike(t, f, near);
-        for (int k = 0; k < NEAREST_ECHOES && near[k] >> 40 < NOT_ALIKE; k++) {
-            int32_t away = (int32_t)(near[k] >> 40);
+        set_frame(corners, values, around->flap[i], v, t->frame + i);
+        if (t->frame[i].is_there) open[i] = list_chains(t, t->frame + i, number[i]);
+    }
+    for (int i = 0; i < 2; i++) {
+        const Frame *f = t->frame + i;
+        int32_t near[NEAREST_ECHOES];
+        find_alike(t, f, open[i], number[i], near);
+        for (int k = 0; k < NEAREST_ECHOES && near[k] < FAR; k++) {
+            int32_t away = near[k] >> 5;
             int64_t weight = 65536 >> least(away >> 5, 16);
-            const int32_t *in_frame = t->echo[near[k] & (MOST_ECHOES - 1)].place;
+            const int32_t *in_frame = t->echo[number[i][near[k] & 31] & (MOST_ECHOES - 1)].place;
             for (int j = 0; j < AXES; j++) {
                 int64_t off = 0;
                 for (int axis = 0; axis < AXES; axis++) off += (int64_t)in_frame[axis] * f->unit[axis][j];
@@ -465,30 +480,41 @@ static void remember_flap(Twins *t, const Frame *f, const int32_t *place, bool t
     if (t->echoes == 1 << 30) return;
     int32_t number = ++t->echoes;
     Echo *echo = t->echo + (number & (MOST_ECHOES - 1));
-    int32_t class[3];
-    *echo = (Echo){.length = {f->length[0], f->length[1 + turned], f->length[2 - turned]},
+    int32_t *head = t->echo_head + f->chain[turned];
+    const int32_t *chain = t->echo[*head & (MOST_ECHOES - 1)].chain;
+    bool known = *head > largest(number - MOST_ECHOES, 0);
+    int32_t degrees = f->degrees, back = (degrees & 0xff0000) | (degrees & 255) << 8 | (degrees >> 8 & 255);
+    *echo = (Echo){.shape = {f->length[0], f->length[1 + turned], f->length[2 - turned], turned ? back : degrees},
         .place = {turned ? -place[0] : place[0], place[1], place[2]},
-        .degrees = turned ? (f->degrees & 0xff0000) | (f->degrees & 255) << 8 | (f->degrees >> 8 & 255) : f->degrees};
-    for (int k = 0; k < 3; k++) class[k] = length_class(echo->length[k]) >> 1;
-    int32_t *head = t->echo_head + (turned ? chain_of(class[0], class[1], class[2], ECHO_BITS) : f->chain);
-    echo->below = *head;
+        .chain = {number, *head, known ? chain[1] : 0, known ? chain[2] : 0}};
     *head = number;
 }
 
 /* Twins of v among the known vertices, by images in turn. */
 static void look_up(Twins *t, const Ints2 *values, int32_t v) {
-    const int32_t images = t->images;
+    const int32_t images = t->images, *x = values->data + AXES * (int64_t)v;
     const uint32_t has = t->has[v];
     int32_t place[AXES][MOST_IMAGES], sought[MOST_IMAGES + 1];
     uint32_t bits[MOST_IMAGES];
     int lookups = has != 0 ? (int)least(LOOKED_UP, images) : images, count = 0, image = t->turn;
-    move_back(t, values->data + AXES * (int64_t)v, place, bits);
+    move_back(t, x, place, bits);
     for (int k = 0; k < lookups; k++) {
         image = image + 1 < images ? image + 1 : 0;
         sought[count] = image;
         count += (int)(t->near[bits[image] >> 6] >> (bits[image] & 63) & ~has >> image & 1);
     }
     t->turn = image;
+    for (int k = 0; k < count; k++) {
+        int32_t i = sought[k], cell[AXES];
+        for (int j = 0; j < AXES; j++) cell[j] = (place[j][i] - REACH) >> (4 + CELL_BITS);
+        __builtin_prefetch(t->head + chain_of(cell[0], cell[1], cell[2], t->head_bits));
+    }
+    for (int i = 0; i < 8; i++) { /* where an image is within reach of v */
+        int32_t at[AXES];
+        for (int j = 0; j < AXES; j++) at[j] = (FINE * x[j] + (i >> j & 1 ? REACH : -REACH)) >> NEAR_CELL_BITS;
+        uint32_t bit = chain_of(at[0], at[1], at[2], NEAR_BITS);
+        t->near[bit >> 6] |= UINT64_C(1) << (bit & 63);
+    }
     for (int k = 0; k < count; k++) {
         int32_t i = sought[k], at[AXES] = {place[0][i], place[1][i], place[2][i]};
         int32_t u = nearest_free(t, values->data, t->image[i].inverse, at);
@@ -498,30 +524,20 @@ static void look_up(Twins *t, const Ints2 *values, int32_t v) {
 
 void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t v) {
     const int32_t *x = values->data + AXES * (int64_t)v;
-    if (t->candidates > 0) {
-        Image *image = t->image + t->candidate[0].image;
-        bool right = true;
-        for (int j = 0; j < AXES; j++)
-            right = right && size_of(t->candidate[0].place[j] - FINE * x[j]) <= MATCH;
-        image->trust += ((right ? ONE : 0) - image->trust) >> 4;
-    }
     for (int i = 0; i < t->candidates; i++) {
         const Candidate *c = t->candidate + i;
+        int32_t *trust = &t->image[c->image].trust;
         bool near = true;
         for (int j = 0; j < AXES; j++) near = near && size_of(c->place[j] - FINE * x[j]) <= MATCH;
+        if (i == 0) *trust += ((near ? ONE : 0) - *trust) >> 4;
         if (near) join(t, v, c->vertex, c->image);
     }
     if (t->images > 0) {
-        look_up(t, values, v);
         uint32_t chain = chain_of(x[0] >> CELL_BITS, x[1] >> CELL_BITS, x[2] >> CELL_BITS, t->head_bits);
+        __builtin_prefetch(t->head + chain);
+        look_up(t, values, v);
         t->next[v] = t->head[chain];
         t->head[chain] = v;
-        for (int i = 0; i < 8; i++) {
-            int32_t at[AXES];
-            for (int j = 0; j < AXES; j++) at[j] = (FINE * x[j] + (i >> j & 1 ? REACH : -REACH)) >> NEAR_CELL_BITS;
-            uint32_t bit = chain_of(at[0], at[1], at[2], NEAR_BITS);
-            t->near[bit >> 6] |= UINT64_C(1) << (bit & 63);
-        }
     }
     for (int i = 0; i < around->flaps && i < 2; i++) {
         const Frame *f = t->frame + i;

@@ -11,6 +11,7 @@ enum {
     MOST_CANDIDATES = 12,
     MOST_ECHOES = 1 << 13, /* flaps that are remembered, a power of two */
     ECHO_HEADS = 1 << 14,
+    ECHO_VISITS = 4, /* of one chain */
     TWIN_BYTES = 32, /* more than a transform takes in a payload */
     NEAR_BITS = 19, /* bits of `near`, as a power of two */
 };
@@ -26,14 +27,14 @@ typedef struct { /* a transform, or the inverse of one */
  * (2^-16), and how many faces are at the vertex and at the ends of the edge. */
 typedef struct {
     bool is_there;
-    uint32_t chain; /* of echoes alike */
+    uint32_t chain[2]; /* of echoes alike, and of those of the flap turned round */
     int32_t length[3], middle[3], unit[3][3];
-    uint32_t degrees; /* a byte each, at most 12 */
+    int32_t degrees; /* a byte each, at most 12 */
 } Frame;
 
 typedef struct { /* a flap, and where its vertex was in the frame of its coded edge, in 1/16 */
-    int32_t length[3], place[3], below;
-    uint32_t degrees;
+    int32_t shape[4]; /* lengths, and degrees */
+    int32_t place[3], chain[ECHO_VISITS]; /* its number, and those of what came before in its chain */
 } Echo;
 
 typedef struct {

@@ -76,6 +76,7 @@ static bool begin_twins(GridField *field, Arena *arena) {
         || !zero_ints2(arena, transforms, TRANSFORM_ROW, &field->transforms))
         return false;
     field->twins = field->grid.twins = twins;
+    twins->echo[0] = (Echo){.chain = {0}}; /* the end of chains */
     if (images == 0) return true;
     twins->head_bits = 2; /* four times as many as vertices: few hold more than one cell */
     while (INT64_C(1) << (twins->head_bits - 2) < n && twins->head_bits < 26) twins->head_bits++;
