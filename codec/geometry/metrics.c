@@ -88,7 +88,7 @@ INLINE double arc_sine(double x) {
 }
 
 /* Sum over faces of weight times angle (radians) between a unit normal and the decoded face's; `lost` for a decoded
- * face so flat that its normal is rounding alone: two edges whose angle has a sine below 1e-9. */
+ * face so flat that its normal is rounding alone: the angle of its two longest edges has a sine below 1e-9. */
 KERNEL double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                              double lost) {
     double total = 0.0;
@@ -108,8 +108,10 @@ KERNEL double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstD
             double u0 = u[0][l], u1 = u[1][l], u2 = u[2][l], v0 = v[0][l], v1 = v[1][l], v2 = v[2][l];
             double n0 = u1 * v2 - u2 * v1, n1 = u2 * v0 - u0 * v2, n2 = u0 * v1 - u1 * v0;
             double length = __builtin_sqrt(n0 * n0 + n1 * n1 + n2 * n2);
-            double sides = __builtin_sqrt((u0 * u0 + u1 * u1 + u2 * u2) * (v0 * v0 + v1 * v1 + v2 * v2));
-            bool whole = length > 1e-9 * sides;
+            double w0 = v0 - u0, w1 = v1 - u1, w2 = v2 - u2;
+            double uu = u0 * u0 + u1 * u1 + u2 * u2, vv = v0 * v0 + v1 * v1 + v2 * v2, ww = w0 * w0 + w1 * w1 + w2 * w2;
+            double sides = (uu > vv ? uu : vv) * ww > uu * vv ? (uu > vv ? uu : vv) * ww : uu * vv;
+            bool whole = length > 1e-9 * __builtin_sqrt(sides);
             double by = whole ? length : 1.0;
             double d0 = n0 / by - normal[0][l], d1 = n1 / by - normal[1][l], d2 = n2 / by - normal[2][l];
             double half = 0.5 * __builtin_sqrt(d0 * d0 + d1 * d1 + d2 * d2);

@@ -78,8 +78,8 @@ class Reference:
         self._neighbors = vertex_neighbors(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbors)
         _, areas, self._normals = face_geometry(self.positions, self.faces)
-        self._areas: Floats = areas / (areas.sum() or 1.0)
-        counted = self._normals.any(axis=1)
+        counted = have_normals(self.positions, self.faces, areas)
+        self._areas: Floats = counted * areas / ((counted * areas).sum() or 1.0)
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
     def nmsve(self, decoded: Positions) -> float:
@@ -166,6 +166,13 @@ def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
     return geometry
 
 
+def have_normals(positions: Positions, faces: Faces, areas: Floats) -> Mask:
+    """Which faces, shape (m,), have a normal that is not rounding alone, as `weighted_angle` tells."""
+    a, b, c = (positions[corner] for corner in faces.T)
+    squares = np.sort([np.square(side).sum(axis=1) for side in (b - a, c - b, a - c)], axis=0)
+    return np.asarray(2.0 * areas > 1e-9 * np.sqrt(squares[1] * squares[2]))
+
+
 def face_normals(positions: Positions, faces: Faces) -> Floats:
     return face_geometry(positions, faces).normals
 
@@ -212,7 +219,8 @@ class Original:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
         _, areas, self.normals = face_geometry(self.positions, self.faces)
-        counts = areas if by_area else (areas > 0.0).astype(np.float64)
+        whole = have_normals(self.positions, self.faces, areas)
+        counts = areas * whole if by_area else whole.astype(np.float64)
         self.weights: Floats = counts / (counts.sum() or 1.0)
 
     def angle(self, decoded: Positions) -> float:

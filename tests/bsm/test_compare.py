@@ -230,3 +230,21 @@ def test_meshes_of_any_size_are_compared_alike_or_not_at_all(size):
     for beyond in (size**1.1, size**2):
         with pytest.raises(bsm.MeshError, match="can be compared"):
             bsm.compare((beyond * positions, faces), (beyond * moved, faces))
+
+
+@pytest.mark.parametrize("turn", [0, 1, 2])
+def test_faces_whose_normals_are_rounding_count_nowhere(turn):
+    """Needles of 1e-11, whichever corner of theirs comes first."""
+    mesh = torus(12, 8)
+    far = len(mesh.positions) + np.arange(30).reshape(-1, 3)
+    needles = np.tile([(3.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 1e-11, 0.0)], (10, 1)) + np.repeat(
+        np.eye(10)[:, :1], 3, 0
+    )
+    positions, faces = np.concatenate([mesh.positions, needles]), np.concatenate([mesh.faces, far]).astype(np.int32)
+    turned = np.roll(faces, turn, axis=1)
+    assert bsm.compare((positions, turned), (positions, faces)).theta_deg == 0.0
+    moved = positions + 1e-3 * np.sin(9.0 * positions)
+    moved[far] = positions[far]
+    found, bare = bsm.compare((positions, turned), (moved, faces)), bsm.compare(mesh, (moved[: far[0, 0]], mesh.faces))
+    assert found.theta_deg == pytest.approx(bare.theta_deg)
+    assert found.angle_deg == pytest.approx(bare.angle_deg)
