@@ -195,7 +195,7 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             merged = False
     if merged:
         # An encoder makes vertices at one position one, and a file may need them split.
-        whole = join(original, keep=False)
+        given, whole = original, join(original, keep=False)
         original, kept[0] = whole.mesh, whole.kept
         if len(original.positions) != len(decoded.positions):
             if before := unsplit(original, decoded):
@@ -203,6 +203,9 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             else:
                 whole = join(decoded, keep=False)
                 decoded, kept[1] = whole.mesh, whole.kept
+            if len(original.positions) > len(decoded.positions):  # it may have merged others in single precision
+                whole = join(replace(given, positions=given.positions.astype(np.float32)), keep=False)
+                original, kept[0] = replace(whole.mesh, positions=given.positions[whole.first]), whole.kept
     if by_place and merged and len(original.positions) == len(decoded.positions):
         from scipy.spatial import cKDTree
 

@@ -248,3 +248,15 @@ def test_faces_whose_normals_are_rounding_count_nowhere(turn):
     found, bare = bsm.compare((positions, turned), (moved, faces)), bsm.compare(mesh, (moved[: far[0, 0]], mesh.faces))
     assert found.theta_deg == pytest.approx(bare.theta_deg)
     assert found.angle_deg == pytest.approx(bare.angle_deg)
+
+
+def test_vertices_that_single_precision_makes_one_are_compared():
+    mesh = torus(12, 8)
+    apart = np.concatenate([mesh.positions, mesh.positions[:1] * (1 + 1e-9)])
+    faces = mesh.faces.copy()
+    faces[np.unravel_index(np.argmax(faces == 0), faces.shape)] = len(mesh.positions)
+    color = Attribute("color", np.arange(3 * len(apart)).reshape(-1, 3).astype(np.uint16), "vertex", "color")
+    given = TriangleMesh(apart, faces, (color,))
+    found = bsm.compare(given, bsm.encode(given, preset="lossless"))
+    assert 0.0 < found.max_error_relative < 1e-7
+    assert found.attributes["color"].max_error == 0
