@@ -86,6 +86,16 @@ def test_vertices_that_the_grid_joins_are_counted(near, mesh, tmp_path):
     assert again["vertices"] - len(np.unique(Lattice(CELL).places(points), axis=0)) == near + 5
 
 
+def test_joined_vertices_are_counted_where_only_signs_tell_them_apart(tmp_path):
+    ring = torus(16, 8)
+    points = np.concatenate([ring.positions, 1e-3 * ring.positions])
+    faces = np.concatenate([ring.faces, ring.faces + len(ring.positions)])
+    write_mesh(tmp_path / "a.ply", bsm.TriangleMesh(points.astype(np.float32), faces))
+    done = tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 2.0**-6)
+    places = np.unique(Lattice(2.0**-6).places(points), axis=0)
+    assert f"are joined: {len(points) - len(places)} (" in done.stderr
+
+
 def test_vertices_that_no_face_uses_say_nothing_of_the_grid(mesh, tmp_path):
     far = 1e4 + np.random.default_rng(0).random((20_000, 3))
     write_mesh(tmp_path / "mesh.ply", bsm.TriangleMesh(np.concatenate([mesh.positions, far]), mesh.faces))

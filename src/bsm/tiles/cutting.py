@@ -226,7 +226,8 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
 
 def _hashes(positions: npt.NDArray[Any]) -> npt.NDArray[np.uint32]:
     """A number for each position, which tells two at one place apart."""
-    words = (positions.astype(np.float64) + 0.0).view(np.uint64) * np.array(_ODD, np.uint64)
+    words = (positions.astype(np.float64) + 0.0).view(np.uint64)
+    words = (words ^ words >> np.uint64(32)) * np.array(_ODD, np.uint64)  # two signs alone would cancel each other
     return np.asarray((words[:, 0] ^ words[:, 1] ^ words[:, 2]) >> np.uint64(32), np.uint32)
 
 
