@@ -352,7 +352,9 @@ def test_draco(tmp_path, monkeypatch, capsys):
     assert attribute(mesh, "texcoord").values.shape == (count, 2)
     (tmp_path / "a.glb").write_bytes(built.bytes)
     assert main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb")]) == 0
-    assert "1 of 1 primitives coded" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "1 of 1 primitives coded" in said
+    assert "a.glb: compressed already, by KHR_draco_mesh_compression: errors add up" in said
     assert read_document(str(tmp_path / "b.glb")).compressed == ["EXT_bsm_compression"]
     monkeypatch.setitem(sys.modules, "DracoPy", None)
     assert main(["encode", str(tmp_path / "a.glb"), "-o", str(tmp_path / "a.bsm")]) == 8

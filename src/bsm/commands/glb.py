@@ -100,7 +100,10 @@ def _document(path: str, console: Console) -> tuple[Document, int | None]:
         mesh = decode_whole(read_chunks(path))
         console.note(f"{path}: compressed already: errors add up")
     elif Path(path).suffix[1:].lower() in GLTF:
-        return read_document(path), None
+        document = read_document(path)
+        for name in document.compressed:
+            console.note(f"{path}: compressed already, by {name}: errors add up")
+        return document, None
     else:
         if open_sequence(path) is not None:
             stream = shlex.quote(f"{Path(path).stem}.bsm")
