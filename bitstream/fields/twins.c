@@ -384,7 +384,7 @@ static int list_chains(const Twins *t, Frame *f, int32_t *number) {
 }
 
 /* The nearest echoes, in order: how far each is << 5, and where it is in `number`. */
-static void find_alike(const Twins *t, const Frame *f, int open, int32_t *number, int32_t *near) {
+KERNEL void find_alike(const Twins *t, const Frame *f, int open, int32_t *number, int32_t *near) {
     int32_t away[PROBES * ECHO_VISITS];
     for (int i = 0; i < NEAREST_ECHOES; i++) near[i] = FAR;
     for (int32_t *to = number; to < number + ECHO_VISITS * open; to += ECHO_VISITS) {

@@ -67,7 +67,7 @@ class SequenceOptions:
     limits : str
         Limits of the target decoder: "default", "service" or "wide". A stream that exceeds them is an error.
     threads : int, optional
-        None: one per core.
+        None: one per core. BLAS, by which numpy multiplies, has threads of its own (`OPENBLAS_NUM_THREADS`).
     runs : bool
         Let the faces change from frame to frame, as in volumetric capture; each change begins a run.
     target : Target, optional
