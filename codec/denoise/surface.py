@@ -35,6 +35,10 @@ class Topology:
         starts, members = self.around
         return sparse.csr_matrix((np.ones(len(members)), members, starts), (self.n, len(self.faces)))
 
+    def vertex_normals(self, positions: Positions) -> Floats:
+        """Sums of the normals of the faces around each vertex, shape (n, 3)."""
+        return np.asarray(self.incidence @ face_normals(positions, self.faces))
+
     @cached_property
     def neighbors(self) -> Rows:
         return vertex_neighbors(self.faces, self.n)
@@ -102,13 +106,13 @@ def surroundings(positions: Positions, topology: Topology, radius: float) -> Row
 
 def unit(vectors: Floats) -> Floats:
     """Rows of length one in the directions of those of `vectors`; zero where they are."""
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.where(lengths > 0.0, lengths, 1.0))
+    lengths = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    return np.asarray(vectors / np.where(lengths > 0.0, lengths, 1.0)[:, None])
 
 
 def surface_normals(positions: Positions, topology: Topology) -> Floats:
     """Unit vertex normals, shape (n, 3): the plain mean of those of the faces around."""
-    return unit(topology.incidence @ face_normals(positions, topology.faces))
+    return unit(topology.vertex_normals(positions))
 
 
 def pair_distances(values: Floats, pairs: Indices) -> Floats:

@@ -66,10 +66,10 @@ void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids
         const double *c = positions.data + 3 * (int64_t)face[2];
         double cross[3];
         cross3(a, b, c, cross);
-        double length = __builtin_sqrt(dot3(cross, cross));
+        double length = __builtin_sqrt(dot3(cross, cross)), by = length > 0.0 ? length : 1.0;
         areas.data[f] = 0.5 * length;
         for (int64_t j = 0; j < 3; j++) {
-            normals.data[3 * f + j] = length > 0.0 ? cross[j] / length : 0.0;
+            normals.data[3 * f + j] = cross[j] / by;
             centroids.data[3 * f + j] = (a[j] + b[j] + c[j]) / 3.0;
         }
     }

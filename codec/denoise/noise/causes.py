@@ -15,7 +15,7 @@ from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Floats, Indices, Positions
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.surface import Topology, surface_normals
+from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.welding import weld
 
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
@@ -127,7 +127,7 @@ class Reach:
     slides: bool
 
     def within(self, given: Positions, moved: Positions) -> Positions:
-        normals = np.zeros((0, 3)) if self.slides else surface_normals(moved, self.topology)
+        normals = np.zeros((0, 3)) if self.slides else self.topology.vertex_normals(moved)
         held = np.empty_like(moved)
         _kernels.pull_in(given, moved, normals, self.levels, ASIDE, FARTHEST, held)
         return held

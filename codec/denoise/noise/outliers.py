@@ -13,7 +13,7 @@ from bsm.codec.arrays import Floats, Mask, Positions
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe, grouped_quantiles
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.geometry.metrics import face_normals, mean_edge_length
+from bsm.codec.geometry.metrics import mean_edge_length
 
 CLEAR = 0.7
 """Share of the energy around it that a clear outlier explains by itself: no clean mesh tried has more than a few."""
@@ -79,7 +79,7 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
 
 def _spiky(positions: Positions, probe: Probe) -> Mask:
     """Vertices, shape (n,), around which the normals point all ways."""
-    together = probe.topology.incidence @ face_normals(positions, probe.topology.faces)
+    together = probe.topology.vertex_normals(positions)
     sizes = np.diff(probe.topology.around.starts)
     return np.asarray(probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes))
 
