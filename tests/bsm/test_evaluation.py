@@ -133,6 +133,16 @@ class TestCodecs:
         with pytest.raises(MeshError, match="different triangles"):
             align(flipped)
 
+    def test_faces_without_area_stop_no_curve(self):
+        """Copies of a vertex, as poles have them, with faces between them."""
+        pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
+        mesh = torus()
+        copies = np.concatenate([mesh.positions, np.repeat(mesh.positions[:1], 2, axis=0)])
+        flat = np.array([[0, len(copies) - 2, len(copies) - 1], [len(copies) - 1, 0, 1]])
+        given = TriangleMesh(copies, np.concatenate([mesh.faces, flat]).astype(np.int32))
+        result = run_curve(Curve("draco", "Draco", (Draco(11),)), given, "a")
+        assert result["mesh"]["faces"] == len(mesh.faces) and result["points"][0]["max_error_relative"] < 1e-3
+
 
 class TestResults:
     def test_schema(self):

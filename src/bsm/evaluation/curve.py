@@ -25,6 +25,7 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
+from bsm.codec.static.preamble_encoding import join
 from bsm.codec.static.targets import Target
 from bsm.console import finite
 from bsm.evaluation.sample import knot
@@ -236,7 +237,7 @@ def run_curve(
     note: Callable[[str], None] | None = None,
 ) -> Result:
     """Measure a curve; before that, note about how long it will take."""
-    mesh = mesh.without_isolated_vertices()[0]
+    mesh = join(mesh, keep=False).mesh  # Draco drops faces without area
     reference = Reference(mesh.positions, mesh.faces)
     # Loads the compiled kernels, so that no time contains that.
     sample = knot(SAMPLE)
