@@ -81,7 +81,8 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
     if len(original.positions) != count or len(original.faces) != len(other.faces):
         raise MeshError(
             f"the meshes have different faces: {len(original.positions)} and {count} vertices in faces, "
-            f"{len(original.faces)} and {len(other.faces)} faces; bsm compare --look --surface compares such meshes"
+            f"{len(original.faces)} and {len(other.faces)} faces{_collapsed(original, other)}; "
+            "bsm compare --look --surface compares such meshes"
         )
     if order is not None and len(order) != count:
         raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {count}")
@@ -101,6 +102,16 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
         if np.array_equal(by_decoder.faces, encoded.faces):
             return encoded.vertex_order[np.argsort(by_decoder.vertex_order)].astype(np.int64)
     raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
+
+
+def _collapsed(original: TriangleMesh, other: TriangleMesh) -> str:
+    """Say so if `other` lacks only faces that lost their area when vertices merged."""
+    from scipy.spatial import cKDTree
+
+    faces = cKDTree(other.positions).query(original.positions)[1][original.faces].astype(np.int32)
+    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+    same = faces.shape == other.faces.shape and np.array_equal(canonical(faces), canonical(other.faces))
+    return ", which are the same but for those that collapsed where vertices merged" if same else ""
 
 
 def paired_frames(

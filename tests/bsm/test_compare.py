@@ -154,6 +154,16 @@ def test_other_faces_are_refused(order):
         reorder(SAMPLE, order[1:])
 
 
+def test_faces_that_collapsed_are_told_apart():
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 0.001], [0, 1, 0]])
+    before = TriangleMesh(square, np.array([[0, 1, 2], [1, 3, 2], [2, 3, 4], [0, 2, 4]], np.int32))
+    for faces, told in (([[0, 1, 2], [0, 2, 3]], True), ([[0, 1, 2], [1, 2, 3]], False)):
+        after = TriangleMesh(square[[0, 1, 2, 4]] + 1e-4, np.array(faces, np.int32))
+        with pytest.raises(MeshError, match="different faces") as caught:
+            in_order_of(before, after)
+        assert ("collapsed where vertices merged" in str(caught.value)) == told
+
+
 def test_files(tmp_path, order):
     path = tmp_path / "order.npy"
     write_permutation(path, order, overwrite=False)

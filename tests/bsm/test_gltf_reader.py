@@ -312,6 +312,13 @@ def test_primitives_that_share_vertices_take_those_that_they_use():
     np.testing.assert_array_equal(mesh.positions[mesh.faces], POINTS[CORNERS.reshape(2, 3)])
 
 
+def test_values_of_another_kind_are_told_with_the_place_of_the_reader():
+    built = one(material=0)
+    built.tree["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1.0]}}]
+    with pytest.raises(bsm.FormatError, match=r"does not fit the others.* \(scene\.py, line \d+\)$"):
+        built.read()
+
+
 def test_images_that_are_elsewhere_are_named(tmp_path):
     built = one({"TEXCOORD_0": (POINTS[:, :2].copy(),)}, material=0)
     names = ("https://example.org/a.png", "lost.png", "../secret.png")
@@ -355,6 +362,8 @@ def test_draco(tmp_path, monkeypatch, capsys):
     said = capsys.readouterr().err
     assert "1 of 1 primitives coded" in said
     assert "a.glb: compressed already, by KHR_draco_mesh_compression: errors add up" in said
+    grew = (tmp_path / "b.glb").stat().st_size > (tmp_path / "a.glb").stat().st_size
+    assert grew == ("larger than the input, as KHR_draco_mesh_compression had made that small" in said)
     assert read_document(str(tmp_path / "b.glb")).compressed == ["EXT_bsm_compression"]
     monkeypatch.setitem(sys.modules, "DracoPy", None)
     assert main(["encode", str(tmp_path / "a.glb"), "-o", str(tmp_path / "a.bsm")]) == 8

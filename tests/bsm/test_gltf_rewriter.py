@@ -391,6 +391,15 @@ def test_a_scene_is_restored(tmp_path):
     assert after.view(built.tree["extensions"]["EXT_whatever"]["view"]) == b"keep"
     assert main(["decode", small, "-f", "-o", str(tmp_path / "d.ply")]) == 0
     assert len(bsm.load(tmp_path / "d.ply").faces) == 768
+    for refused in (
+        ["d.usdc"],
+        ["d"],
+        ["e.ply", "--frames", "0:1"],
+        ["e.ply", "--layers", "1"],
+        ["e.ply", "--tolerant"],
+    ):
+        assert main(["decode", small, "-o", str(tmp_path / refused[0]), *refused[1:]]) == 2
+        assert not (tmp_path / refused[0]).exists()
 
 
 def test_scenes_are_compared_primitive_by_primitive(tmp_path, capsys):

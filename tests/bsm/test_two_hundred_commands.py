@@ -236,7 +236,10 @@ decode ring.ply | bsm encode ring.ply
 decode ring.glb -o ring.glb | -o
 decode streams | bsm decode -r streams
 decode none.bsm | No such file
-decode old.bsm -o a.fbx | unknown format
+decode old.bsm -o a.fbx | not written as fbx
+decode old.bsm -o a.usdc | single meshes are not written as usdc; use one of .3mf, .glb
+decode old.bsm -o a.ply --format usdc | not written as usdc
+decode moving.bsm --layers 1 -o a.npz | single meshes
 decode old.bsm -o old.bsm | -o
 decode moving.bsm -o a.obj | --frames 0:1
 decode moving.bsm --frame 1 -o a.obj | --frames

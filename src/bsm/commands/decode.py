@@ -93,19 +93,19 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
         if (moving := document.moving) is not None:
             return _decode_sequence(args, console, iter([moving]))
+        if args.tolerant or any(
+            given is not None for given in (args.blocks, args.layers, args.permutation, args.frames)
+        ):
+            raise OptionError(
+                "--blocks, --layers, --tolerant, --permutation and --frames are for streams, not for scenes"
+            )
         return _restore(args, console, document)
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
     if args.frames is not None:
         raise OptionError("--frames is for sequences; this is a single mesh")
-    output = args.output
-    if Path(output).is_dir():
-        output = output_inside(output, args.input, f".{args.format or 'ply'}")
-    kind = args.format or ("ply" if output == "-" else format_of_name(output))
-    if kind not in WRITTEN_FORMATS:
-        raise unknown_suffix(output)
-    refuse_to_overwrite(output, args.may_replace(output))
+    output, kind = _mesh_output(args)
     begin = time.perf_counter()
     limits = limits_of(args.limits)
     with console.progress("decoding", until=0.6) as progress:
@@ -127,18 +127,29 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
 
 
+def _mesh_output(args: DecodeJob) -> tuple[str, str]:
+    """The file that a mesh goes to, and its format."""
+    output = args.output
+    if Path(output).is_dir():
+        output = output_inside(output, args.input, f".{args.format or 'ply'}")
+    kind = args.format or ("ply" if output == "-" else format_of_name(output))
+    if kind not in WRITTEN_FORMATS:
+        raise unknown_suffix(output, kind=kind)
+    refuse_to_overwrite(output, args.may_replace(output))
+    return output, kind
+
+
 def _restore(args: DecodeJob, console: Console, document: Any) -> Facts:
     """Write a glTF scene without compressed geometry, or its rest pose as a mesh."""
-    kind, begin = args.format or format_of_name(args.output) or "ply", time.perf_counter()
-    refuse_to_overwrite(args.output, args.may_replace(args.output))
+    (output, kind), begin = _mesh_output(args), time.perf_counter()
     if kind == "glb":
         file = Written(by_name("bsm.gltf.compress", "restore")(document))
     else:
         source = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         for note in source.notes:
             console.note(f"{args.input}: {note}")
-        file = written_mesh(source.mesh, kind, args.output)
-    return _saved(args, console, args.output, kind, file, "", time.perf_counter() - begin)
+        file = written_mesh(source.mesh, kind, output)
+    return _saved(args, console, output, kind, file, "", time.perf_counter() - begin)
 
 
 def _saved(
@@ -157,8 +168,8 @@ def _saved(
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
     """Decode one sequence; write each frame as soon as it is decoded."""
-    if args.blocks is not None:
-        raise OptionError("--blocks is for single meshes; this is a sequence")
+    if args.blocks is not None or args.layers is not None:
+        raise OptionError("--blocks and --layers are for single meshes; this is a sequence")
     # The output by default: an npz, or a folder if the format is one of meshes.
     suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
     output = default_output(args.input, suffix) if args.given is None else str(args.output)

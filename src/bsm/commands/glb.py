@@ -77,6 +77,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
         f"{taken or document.received} -> {len(found.data)} bytes; largest vertex error {found.error[0]:.3g}, at most "
         f"{100 * found.error[1]:.3g} % of the diagonal of its component"
     )
+    if len(found.data) > (taken or document.received):
+        because = "".join(f", as {name} had made that small: keep it" for name in document.compressed[:1])
+        console.note(f"{args.input}: the result is larger than the input{because}")
     if found.error[1] > VISIBLE:
         console.note(f"{args.input}: small components are coarse; use --preset fine or near-lossless")
     for note, count in found.notes.items():

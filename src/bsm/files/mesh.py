@@ -176,9 +176,11 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
     return save_written(path, written, overwrite=overwrite)
 
 
-def unknown_suffix(path: str | os.PathLike[str], *more: str) -> OptionError:
+def unknown_suffix(path: str | os.PathLike[str], *more: str, kind: str | None = None) -> OptionError:
     """Return an error that lists the suffixes that can be written."""
-    return OptionError(f"{path}: unknown format; use one of .{', .'.join((*more, *WRITTEN_FORMATS))}")
+    suffix = kind or Path(path).suffix[1:]
+    fault = f"single meshes are not written as {suffix}" if suffix else "its name has no suffix"
+    return OptionError(f"{path}: {fault}; use one of .{', .'.join((*more, *WRITTEN_FORMATS))}")
 
 
 def size_with_parts(path: str, metadata: Metadata) -> int | None:

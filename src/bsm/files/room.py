@@ -10,6 +10,8 @@ import re
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
+from traceback import walk_tb
 from typing import Any
 from zipfile import BadZipFile
 
@@ -169,6 +171,7 @@ def require_inflated(size: int, compressed: int, limits: Limits, vertices: int =
         )
 
 
+_PACKAGE = str(Path(__file__).parents[1])
 _OF_PYTHON = re.compile(r"reshap|broadcast|\bint\(\)|to integer|inhomogeneous|' object\b|NoneType|__|\bargument")
 
 
@@ -181,7 +184,9 @@ def in_words(error: Exception) -> str:
     words = re.sub(r"^\w*(Error|Exception)( \d+)?: *", "", " ".join(str(error).split()))[-200:]
     ours = isinstance(error, LookupError | TypeError | AttributeError | ArithmeticError | AssertionError) or not words
     if ours or _OF_PYTHON.search(words):
-        return "a value does not fit the others, or is of another kind than it must be"
+        own = [at for at in walk_tb(error.__traceback__) if at[0].f_code.co_filename.startswith(_PACKAGE)]
+        place = "".join(f" ({Path(frame.f_code.co_filename).name}, line {line})" for frame, line in own[-1:])
+        return f"a value does not fit the others, or is of another kind than it must be{place}"
     return words
 
 
