@@ -3,6 +3,7 @@
 import math
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -61,7 +62,7 @@ SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
 LOOKS = [Contract(WIDEST, look=kept.look) for preset in reversed(PRESETS.values()) if (kept := preset.promise)]
-"""The coarseness of attributes if only a size is promised: that of the first look with which the shape fits."""
+"""The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
 ONE_BLOCK = "the mesh fits in one block: its basis is exact, and no orthogonal iterations follow"
 
 
@@ -249,24 +250,32 @@ class Encoder:
 
         if (found := best(given)) is not None:
             return self._judged(found)
-        for contract in [promise] if promise else LOOKS * bool(given.carried):  # attributes as coarse as that
-            self._input, smaller = smallest(given, contract, near)
-            if smaller.size <= most:
-                fitting = filter(None, (best(self._input), smaller))
-                return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, contract)[1] or 0.0))
+        asked, kept = promise or anything, None
+        finer = [replace(asked, look=finer.look) for finer in reversed(LOOKS) if finer.look < asked.look]
+        for contract in [*filter(None, [promise]), *finer * bool(given.carried)]:
+            with suppress(TargetError) if kept else nullcontext():  # attributes as fine as leave room for the shape
+                sent, draft = smallest(given, contract, near)
+                if kept is None or draft.size <= most:
+                    self._input, smaller = sent, draft
+                if draft.size > most:
+                    break
+                kept = contract
+        if kept is not None:
+            fitting = filter(None, (best(self._input), smaller))
+            return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, kept)[1] or 0.0))
         if promise is None:
             if (found := best(self._input)) is not None:
                 return self._judged(found)
             smaller = self._input.dressed(self._input.search.smallest(anything))
-        asked, least = f"{target.worded(target.value)} at most cannot be", self._judged(smaller)
+        text, least = f"{target.worded(target.value)} at most cannot be", self._judged(smaller)
         had = target.worded(target.reached(least))
         if promise is None:
-            error = TargetError(f"{asked} reached; the least possible is {had}")
+            error = TargetError(f"{text} reached; the least possible is {had}")
         else:
             loose, other = smallest(given, LOOKS[-1], near) if given.carried else (given, smaller)
             seen = other if other.size <= most else loose.search.best(anything, most)
             advice = "does not reach it either" if seen is None else f"reaches it with {loose.search.seen(seen)}"
-            error = TargetError(f"{asked} reached with {promise}: that takes {had}; preset none {advice}")
+            error = TargetError(f"{text} reached with {promise}: that takes {had}; preset none {advice}")
         error.best = target.reached(least)
         raise error
 

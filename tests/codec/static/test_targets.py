@@ -102,12 +102,21 @@ def test_a_size_makes_attributes_as_coarse_as_the_promised_look_allows() -> None
     values = np.sin(mesh.positions * (3.0, 7.0, 5.0)) + np.cos(7.0 * mesh.positions[:, ::-1])
     mesh = replace(mesh, attributes=(Attribute("texcoord", values[:, :2].astype(np.float32), "vertex", "texcoord"),))
     usual, options = encode(mesh), EncodeOptions(target=Target("size", 1.0))
+
+    def error(data: bytes) -> float:
+        errors = bsm.compare(mesh, data).attributes["texcoord"]
+        assert errors is not None
+        return errors.max_error
+
     with pytest.raises(TargetError, match=f"that takes {len(usual)} bytes; preset none does not") as smaller:
         encode(mesh, options)
     assert smaller.value.best == len(usual)
     for preset in (options, PRESETS["none"]):
         result = Encoder(mesh, replace(preset, target=Target("size", len(usual)))).result()
         assert result.size <= len(usual) and bsm.look(mesh, b"".join(result.frames)).distance <= 1.0
+    room = len(encode(mesh, PRESETS["fine"])) + 8
+    finer = Encoder(mesh, replace(options, target=Target("size", room))).result()
+    assert len(usual) < finer.size <= room and error(b"".join(finer.frames)) < 0.7 * error(usual)
     with pytest.raises(TargetError, match="the least possible is") as smaller:
         encode(mesh, replace(PRESETS["none"], target=Target("size", 1.0)))
     assert smaller.value.best < len(usual)
