@@ -150,6 +150,15 @@ def test_beside_a_pipe_nothing_lies(tmp_path, capfdbinary):
     assert [path.name for path in tmp_path.iterdir()] == ["a.bsm"]
 
 
+def test_a_stream_does_not_stand_beside_the_permutation_of_another(tmp_path):
+    bsm.save(torus(8, 6), tmp_path / "a.ply")
+    np.savez(tmp_path / "walk.npz", positions=[torus(8, 6).positions] * 2, faces=torus(8, 6).faces)
+    for name in ("a.ply", "walk.npz"):
+        words = ["encode", str(tmp_path / name), "--permutation", str(tmp_path / "none" / "p.npy")]
+        assert main([*words, "-o", str(tmp_path / "a.bsm")]) == 9
+        assert not (tmp_path / "a.bsm").exists()
+
+
 def test_a_permutation_takes_attributes_along(tmp_path):
     mesh = torus(12, 9)
     numbered = TriangleMesh(mesh.positions, mesh.faces, [Attribute("number", np.arange(len(mesh.positions)))])

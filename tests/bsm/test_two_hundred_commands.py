@@ -255,6 +255,7 @@ verify streams | verify -r
 verify ring.glb | no streams
 verify cut.bsm | ends
 compare ring.ply none.ply | No such file
+compare moving.bsm none.usda | No such file
 compare ring.ply moving.bsm | sequence
 compare ring.ply old.bsm walk.npz | one input too many
 glb walk -o a.glb | bsm encode walk

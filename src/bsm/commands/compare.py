@@ -311,6 +311,7 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
         original, decoded = sides
         if original is None or decoded is None:
             moving, still = reversed(paths) if original is None else paths
+            _load(still, args, console)  # what cannot be read says so
             raise MeshError(f"{moving} is a sequence, but {still} is a single mesh")
         if args.map:
             raise OptionError("--map is for single meshes; for sequences, --picture draws the error of each frame")

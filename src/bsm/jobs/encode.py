@@ -101,6 +101,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         found = encode_source(mesh, chosen, progress, simplify=job.simplify)
         encoder, result = found.encoder, found.attempt
         file.writelines(result.frames)
+        _write_order(job, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
     smaller = "" if job.images or 2 * images < result.size else "; --images webp:85 makes them smaller"
@@ -125,7 +126,6 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         job,
         console,
         notes,
-        encoder.vertex_order,
         f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, size)}, "
         f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{binds}{errors}; "
         f"{seconds:.2f} s",
@@ -184,6 +184,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         for chunk in encoder.chunks(given, progress):
             size += file.write(chunk)
             file.flush()
+        _write_order(job, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
     notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else [])]
@@ -199,7 +200,6 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         job,
         console,
         notes,
-        encoder.vertex_order,
         f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
         f"KG error {encoder.kg:.3g} %; {seconds:.2f} s",
@@ -210,11 +210,15 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     return {**names, **counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
 
 
-def _finish(job: EncodeJob, console: Console, notes: list[str], order: Order, summary: str) -> None:
-    for note in notes:
-        console.note(f"{job.input}: {note}")
+def _write_order(job: EncodeJob, order: Order) -> None:
+    """Write what `--permutation` asks for before the stream has its name, so that no stream stands beside another's."""
     if job.permutation:
         write_permutation(job.permutation, order, overwrite=job.force)
+
+
+def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str) -> None:
+    for note in notes:
+        console.note(f"{job.input}: {note}")
     console.note(f"{job.input} -> {job.output}: {summary}")
 
 
