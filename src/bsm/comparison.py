@@ -167,7 +167,8 @@ class MeshComparison(Comparison):
     Attributes
     ----------
     attributes : mapping of str to AttributeComparison or None
-        Errors of the original's attributes by name, at the corners of faces; None: the attribute is missing.
+        Errors of the original's attributes by name, at the corners of faces; where the name is missing, an attribute
+        of the same meaning counts, as three.js says uv for texcoord. None: the attribute is missing.
     flattened : int
         Faces that have an area in the original but not in the decoded mesh.
     merged : int
@@ -241,8 +242,11 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
     found: dict[str, AttributeComparison | None] = {}
     areas = np.repeat(face_geometry(original.positions, original.faces).areas, 3)[paired.corners]
     after = {attribute.name: attribute for attribute in decoded.attributes}
+    own = {attribute.name for attribute in original.attributes}
+    named = (other for other in reversed(decoded.attributes) if other.name not in own and other.semantic != "generic")
+    renamed = {other.semantic: other for other in named}
     for attribute in original.attributes:
-        other = after.get(attribute.name)
+        other = after[attribute.name] if attribute.name in after else renamed.pop(attribute.semantic, None)
         found[attribute.name] = None
         if other is not None and other.components == attribute.components:
             values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[paired.corners]

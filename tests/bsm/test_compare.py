@@ -164,6 +164,15 @@ def test_faces_that_collapsed_are_told_apart():
         assert ("collapsed where vertices merged" in str(caught.value)) == told
 
 
+def test_an_attribute_of_another_name_is_found_by_its_meaning():
+    shape, values = torus(8, 6), np.linspace(0.0, 1.0, 96, dtype=np.float32).reshape(48, 2)
+    given = replace(shape, attributes=(Attribute("texcoord", values, semantic="texcoord"), Attribute("heat", values)))
+    uv, heat = Attribute("uv", values + np.float32(0.5), semantic="texcoord"), Attribute("warmth", values)
+    errors = bsm.compare(given, replace(shape, attributes=(heat, uv))).attributes
+    assert errors["texcoord"] is not None and errors["texcoord"].max_error == pytest.approx(0.5, abs=1e-6)
+    assert errors["heat"] is None
+
+
 def test_files(tmp_path, order):
     path = tmp_path / "order.npy"
     write_permutation(path, order, overwrite=False)
