@@ -165,7 +165,8 @@ def choose(
         patient.part = lambda: Learnt(*(every[some] for every, some in zip(whole.learnt(given), rows, strict=True)))
         patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
     candidates = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
-    share = LEARNT if candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white") else 0.0
+    taught = candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white")
+    share = LEARNT if taught and finding.kind != "unsteady" else 0.0  # what is left in time, networks have not seen
     patient.expect(max((recipe.keep for recipe in candidates if recipe.needs_coarse), default=0.0))
     goals = named("goal", GOALS, goal)
     rehearsal = Rehearsal(positions, finding.on(members), patient, candidates[0], goals, progress)
