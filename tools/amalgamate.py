@@ -7,8 +7,8 @@ library's interface is static.
 
 from __future__ import annotations
 
+import argparse
 import re
-import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -193,7 +193,9 @@ def interface(*, encodes: bool = False) -> str:
 
 def main() -> None:
     """Write all files."""
-    folder = Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder", metavar="FOLDER", type=Path)
+    folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "bsmdec.c").write_text(amalgamated())
     (folder / "bsmdec.h").write_text(interface())

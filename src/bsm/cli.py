@@ -169,7 +169,8 @@ class Parser(argparse.ArgumentParser):
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
         for word in words[: words.index("--") if "--" in words else None]:
-            if word.startswith("-") and word[:2] not in self._option_string_actions and os.path.exists(word):
+            known = {word[:2], word.partition("=")[0]} & self._option_string_actions.keys()
+            if word.startswith("-") and not known and os.path.exists(word):
                 self.error(f"{word} looks like an option; name the file as {shlex.quote(f'./{word}')}")
             if word in OPTIONS and word not in self._option_string_actions:
                 self.error(f"unknown option {word}; instead: {OPTIONS[word]}")

@@ -103,6 +103,8 @@ def test_files_may_begin_with_a_minus(tmp_path, capsys, monkeypatch):
         main(["encode", "-a b.stl"])
     assert "name the file as './-a b.stl'" in capsys.readouterr().err
     assert main(["encode", "./-a b.stl", "-q"]) == main(["info", "--", "-a b.bsm"]) == 0
+    (tmp_path / "--json").touch()  # an option is one, whatever files there are
+    assert main(["info", "./-a b.bsm", "--json"]) == 0
 
 
 def test_points_may_begin_with_a_minus(tmp_path):
