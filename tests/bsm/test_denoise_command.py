@@ -208,7 +208,7 @@ def test_no_more_than_a_few_frames_are_held():
         (("--keep", "2"), "keep"),
         (("--iterations", "-1"), "iterations"),
         (("--for", "beauty"), "beauty"),
-        (("-o", "out.xyz"), "format"),
+        (("-o", "out.xyz"), "not written as xyz"),
         (("-o", "-", "--json"), "standard output"),
     ],
 )
