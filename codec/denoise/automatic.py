@@ -166,7 +166,8 @@ def choose(
         patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
     candidates = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
     taught = candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white")
-    share = LEARNT if taught and finding.kind != "unsteady" else 0.0  # what is left in time, networks have not seen
+    # The networks were not trained on the noise that the temporal filter leaves, and would take shape away with it.
+    share = LEARNT if taught and finding.kind != "unsteady" else 0.0
     patient.expect(max((recipe.keep for recipe in candidates if recipe.needs_coarse), default=0.0))
     goals = named("goal", GOALS, goal)
     rehearsal = Rehearsal(positions, finding.on(members), patient, candidates[0], goals, progress)

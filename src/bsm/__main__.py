@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
-import signal  # before it there is no handler: modules that take long to load, such as typing, are not for here
+import signal  # an interrupt before `run` prints a traceback, so no module that loads slowly is imported up here
 import sys
 import warnings
 

@@ -73,7 +73,7 @@ class Progress:
         self._begun = self._said_at = time.monotonic()
         self._said_at += 0.0 if lines else _PATIENCE - _OFTEN
         self._share, self._when = 0.0, 0.0  # as reported, and after how many seconds
-        self._most = 0.0  # of what was said
+        self._most = 0.0  # the largest share that was shown, which never falls
         self._reported = 0
         self.stopped: BaseException | None = None
         self._over = threading.Event()
