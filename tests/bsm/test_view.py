@@ -112,6 +112,29 @@ def test_meshes_are_encoded_and_shown_beside_their_original(tmp_path, capsys):
     assert f"{len(stream)} bytes as a stream" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("scale", "offset"),
+    [(1.0, (500123.0, 4649776.0, 1600.0)), (1e-3, (2e7, 0.0, -3e7)), (1e29, (0.0, 0.0, 0.0)), (1e-41, (0.0, 0.0, 0.0))],
+)
+def test_what_encode_takes_is_shown_beside_an_original_finer_than_single_precision(scale, offset, tmp_path):
+    mesh = torus()
+    mesh = replace(mesh, positions=mesh.positions * scale + offset)
+    content = compared("far", bsm.encode(mesh), mesh)
+    original = bsm.decode(content.layers[0].stream)
+    apart = np.abs(np.sort(original.positions, axis=0) - np.sort(mesh.positions, axis=0)).max()
+    assert apart <= 2.0**-20 * np.ptp(mesh.positions, axis=0).max()
+    source, page = tmp_path / "far.npz", tmp_path / "page.html"
+    np.savez(source, positions=[mesh.positions, mesh.positions], faces=mesh.faces)
+    assert main(["view", str(source), "--save", str(page)]) == 0
+
+
+def test_a_stream_by_name_alone_is_refused_as_one(tmp_path, capsys):
+    path = tmp_path / "junk.bsm"
+    path.write_bytes(b"junk")
+    assert main(["view", str(path), "--save", str(tmp_path / "page.html")]) != 0
+    assert "not a BSM stream" in capsys.readouterr().err
+
+
 def test_server_has_the_page_and_its_streams():
     stream = VECTORS / "good-chain.bsm"
     with viewed(str(stream), str(stream)) as address:

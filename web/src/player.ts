@@ -1,5 +1,5 @@
 /** `<bsm-player src="horse.bsm">`: a mesh, a scene or a sequence on a page of plain HTML, drawn by three.js. */
-import { Box3, DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture } from "three";
+import { DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
@@ -17,6 +17,8 @@ p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-ali
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
 /** How far outside of the window a player is drawn already. */
 const NEAR = "20%";
+/** From where it is looked at first, in front and a little above, and how much farther away than would do. */
+const [FRONT, ROOM] = [new Vector3(0.4, 0.3, 1).normalize(), 1.02];
 /** Where there are no pages the class can be named, too. */
 const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
 
@@ -36,6 +38,11 @@ export class BSMPlayer extends Base {
     /** What is played, once its first frame is there. */
     sequence?: BSMSequence;
     private content?: Group;
+    /** What the mesh fills, of a sequence in all of `fitted` frames. */
+    private readonly ball = new Sphere(new Vector3(), 1);
+    private fitted = 0;
+    /** Whether the reader has moved the camera. */
+    private touched = false;
     private controls?: OrbitControls;
     private resizes?: ResizeObserver;
     private scrolls?: IntersectionObserver;
@@ -106,6 +113,7 @@ export class BSMPlayer extends Base {
         (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(style, canvas, poster, note);
         this.controls = new OrbitControls(camera, canvas);
         this.controls.addEventListener("change", () => this.redraw());
+        this.controls.addEventListener("start", () => (this.touched = true));
         canvas.onkeydown = (event) => this.act(event);
         const sun = new DirectionalLight(0xffffff, 2);
         sun.position.set(1, 1, 1);
@@ -154,6 +162,7 @@ export class BSMPlayer extends Base {
     private act(event: KeyboardEvent): void {
         if (event.key === " " && this.sequence) this.paused ? this.play() : this.pause();
         else if (!this.controls || !turnBy(event.key, this.camera, this.controls.target)) return;
+        else this.touched = true;
         event.preventDefault();
         this.controls?.update();
         this.redraw();
@@ -172,9 +181,11 @@ export class BSMPlayer extends Base {
     }
 
     private open(): void {
-        if (!this.controls || !this.src) return;
+        if (!this.controls) return;
         this.empty();
         this.hold();
+        this.note.textContent = "";
+        if (!this.src) return;
         const { signal } = (this.loading = new AbortController());
         const mine = (): boolean => !signal.aborted;
         const failed = (error: unknown): void => {
@@ -188,16 +199,24 @@ export class BSMPlayer extends Base {
         let first: Promise<void> | undefined;
         let moving: BSMSequence | undefined;
         const onFrame = (index: number, geometry: BSMGeometry): void => {
+            if (mine() && this.content && geometry.frames.length >= 2 * this.fitted) this.measure(geometry);
             if (index > 0 || !mine()) return;
             first = this.show(geometry, mine, (moving = new BSMSequence(geometry, false))).catch(failed);
         };
         const onLoad = (geometry: BSMGeometry): void => {
             if (moving) moving.complete = true;
-            (first ?? this.show(geometry, mine)).then(() => mine() && this.say("load"), failed);
+            (first ?? this.show(geometry, mine)).then(() => {
+                if (!mine()) return;
+                if (moving) this.measure(geometry);
+                this.say("load");
+            }, failed);
         };
         const onError = (error: unknown): void => {
             if (moving) moving.complete = true;
-            void Promise.resolve(first).then(() => failed(error));
+            void Promise.resolve(first).then(() => {
+                if (moving && this.content && mine()) this.measure(moving.geometry);
+                failed(error);
+            });
         };
         this.loader.load(this.src, onLoad, onProgress, onError, { onFrame, signal });
     }
@@ -207,7 +226,7 @@ export class BSMPlayer extends Base {
         if (!mine()) return;
         content.traverse((mesh) => (mesh.frustumCulled = !sequence)); // bounds are those of the first frame
         this.scene.add((this.content = content));
-        this.look(content);
+        this.measure(geometry);
         this.hold();
         this.note.textContent = "";
         this.say("loadeddata");
@@ -218,14 +237,32 @@ export class BSMPlayer extends Base {
         if (this.hasAttribute("autoplay")) sequence.play();
     }
 
-    /** Look at all of it, from in front and a little above. */
-    private look(content: Group): void {
-        const { center, radius } = new Box3().setFromObject(content).getBoundingSphere(new Sphere());
-        const far = radius / Math.sin((Math.PI / 360) * this.camera.fov) || 1;
-        [this.camera.near, this.camera.far] = [far / 100, 10 * far];
-        this.camera.position.set(0.4, 0.3, 1).normalize().multiplyScalar(far).add(center);
-        this.controls?.target.copy(center);
+    /** Look at all of it, in all frames that are there. */
+    private measure({ frames, attributes: { position } }: BSMGeometry): void {
+        const clouds = frames.length > 0 ? frames.map(({ positions }) => positions) : [position.array];
+        const [low, high, point] = [Infinity, -Infinity, 0].map((far) => new Vector3(far, far, far));
+        const over = (act: (point: Vector3) => void): void => clouds.forEach((cloud) => {
+            for (let i = 0; i < cloud.length; i += 3) act(point.fromArray(cloud, i));
+        });
+        over(() => (low.min(point), high.max(point)));
+        const { ball, content } = this;
+        [this.fitted, ball.radius] = [clouds.length, 0];
+        ball.center.addVectors(low, high).divideScalar(2);
+        over(() => (ball.radius = Math.max(ball.radius, point.distanceToSquared(ball.center))));
+        ball.radius = Math.sqrt(ball.radius) || 1;
+        ball.center.applyEuler(content!.rotation);
         this.fit();
+    }
+
+    /** Have the ball fill the shorter side, until the reader chooses another place. */
+    private aim(): void {
+        const { ball: { center, radius }, camera, controls } = this;
+        const half = Math.atan(Math.tan((Math.PI / 360) * camera.fov) * Math.min(camera.aspect, 1));
+        const far = (ROOM * radius) / Math.sin(half);
+        [camera.near, camera.far] = [far / 100, 10 * far];
+        camera.position.copy(FRONT).multiplyScalar(far).add(center);
+        controls?.target.copy(center);
+        controls?.update();
     }
 
     private fit(): void {
@@ -233,6 +270,7 @@ export class BSMPlayer extends Base {
         this.canvas.width = Math.max(1, Math.round(width * devicePixelRatio));
         this.canvas.height = Math.max(1, Math.round(height * devicePixelRatio));
         this.camera.aspect = width / height;
+        if (!this.touched) this.aim();
         this.camera.updateProjectionMatrix();
         this.redraw();
     }
@@ -249,7 +287,7 @@ export class BSMPlayer extends Base {
                 material.dispose();
             }
         });
-        [this.content, this.sequence] = [undefined, undefined];
+        [this.content, this.sequence, this.touched] = [undefined, undefined, false];
         this.redraw();
     }
 

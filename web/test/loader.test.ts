@@ -457,6 +457,46 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         t.diagnostic(`100 players removed in ${Number(seen.removed).toFixed()} ms`);
     });
 
+    test("is an element that shows all of its mesh, in all frames, at any size, until another one is asked for", async () => {
+        const seen = await found(`
+            await import("/bsm/player.js");
+            const { Vector3 } = await import("three");
+            const inside = (player) => {
+                const [inside, all, point] = [new Set(), new Set(), new Vector3()];
+                player.scene.updateMatrixWorld(true);
+                player.scene.traverse(({ isMesh, geometry, matrixWorld }) => {
+                    const { array, count } = isMesh ? geometry.getAttribute("position") : { count: 0 };
+                    for (let i = 0; i < count; i++) {
+                        const { x, y, z } = point.fromArray(array, 3 * i).applyMatrix4(matrixWorld).project(player.camera);
+                        all.add(i);
+                        if (Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) <= 1) inside.add(i);
+                    }
+                });
+                return inside.size / all.size;
+            };
+            const shares = [];
+            for (const src of ["${STREAM}", "good-sequence-learnt", "good-sequence-runs"]) {
+                for (const [width, height] of [[300, 150], [60, 400], [200, 200]]) {
+                    const player = Object.assign(document.createElement("bsm-player"), { src: "/stream/" + src + ".bsm" });
+                    player.style.cssText = "width: " + width + "px; height: " + height + "px";
+                    const loaded = new Promise((keep) => player.addEventListener("load", keep, { once: true }));
+                    document.body.append(player);
+                    await loaded;
+                    for (let frame = 0; frame < (player.sequence?.length ?? 1); frame++) {
+                        player.sequence?.seek(frame);
+                        shares.push(inside(player));
+                    }
+                    player.canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+                    shares.push(inside(player));
+                    player.removeAttribute("src");
+                    if (player.scene.children.length !== 2) shares.push("still drawn");
+                    player.remove();
+                }
+            }
+            return [...new Set(shares)];`, {});
+        assert.deepEqual(seen, [1]);
+    });
+
     test("is an element that plays", async () => {
         const seen = await found(`
             await import("/bsm/player.js");

@@ -17,7 +17,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import canonical
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.geometry.welding import degenerate
 from bsm.codec.sequence.encoder import SequenceEncoder
@@ -35,6 +35,7 @@ from bsm.files.output import open_output, write_output
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int, **more: Any) -> bytes:
     draco, settings = _draco(), {"quantization_bits": position_bits, "compression_level": level, **more}
+    require_sizes(mesh.positions, 1e-30, done="encoded by Draco")  # it crashes with smaller ones
     try:
         return bytes(draco.encode(mesh.positions.astype(np.float32), mesh.faces, **settings))
     except draco.EncodingFailedException as error:

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.api import decode_sequence, encode, encode_sequence
+from bsm.api import decode_sequence, encode_sequence
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshError
+from bsm.bitstream.errors import BsmError, DependencyError, FormatError, MeshError, TargetError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import compare, distances_to_surface, farthest_from_surface, surface_distance
 from bsm.codec.static.targets import Contract
@@ -43,6 +43,7 @@ NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o 
 PRESETS = ("small", "balanced", "fine", "near-lossless")
 _EVERY = 0.1  # seconds between two reports of a process
 _ENCODING = 0.7  # of the time that a mesh takes
+_FINEST = 20  # bits of a grid along the longest side
 _FINE = 1e-4  # step of an original sequence that is drawn, of the diagonal
 _MOST_COLORS = 1 << 23  # errors of vertices in frames that a page gets
 
@@ -73,12 +74,26 @@ def alone(name: str, stream: bytes) -> Content:
 
 
 def carried(source: TriangleMesh | Frames) -> bytes:
-    """Return a mesh as a lossless stream, or a sequence as one that is nearly exact."""
+    """Return a stream that is drawn as the original: see `_carrier` for meshes; sequences are nearly exact."""
     if isinstance(source, TriangleMesh):
-        return encode(source, preset="lossless")
+        return _carrier(source)[0]
     frames = np.array(list(source.frames))
     object.__setattr__(source, "frames", iter(frames))  # they are read again
     return encode_sequence(frames, source.faces, frame_rate=source.frame_rate, metadata=source.metadata, step=_FINE)
+
+
+def _carrier(mesh: TriangleMesh) -> tuple[bytes, Order]:
+    """Return a stream to the bit, or on the finest grid where single precision is coarser; and its order."""
+    from bsm.codec.static.encoder import Encoder
+    from bsm.codec.static.options import PRESETS as ALL
+    from bsm.codec.static.options import EncodeOptions
+
+    try:
+        encoder = Encoder(mesh, ALL["lossless"])
+        return b"".join(encoder.chunks()), encoder.vertex_order
+    except (MeshError, TargetError):
+        encoder = Encoder(mesh, EncodeOptions(grid=_FINEST, attributes={"*": "exact"}))
+        return b"".join(encoder.chunks()), encoder.vertex_order
 
 
 def compared(
@@ -187,8 +202,6 @@ def _over_time(
 def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Layer], dict[str, int] | None]:
     """Return Draco's finest file of at most `size` bytes, and the size of its smallest file of at most this look."""
     from bsm.codec.look.measure import look
-    from bsm.codec.static.encoder import Encoder
-    from bsm.codec.static.options import PRESETS as ALL
     from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
 
     @cache
@@ -201,9 +214,8 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
 
     small = DRACO_BITS[max(bisect_left(DRACO_BITS, True, key=lambda bits: len(file(bits)) > size) - 1, 0)]
     good = bisect_left(DRACO_BITS, True, key=lambda bits: look(source, mesh(bits)).distance <= distance)
-    carrier = Encoder(mesh(small), ALL["lossless"])  # joins vertices that Draco merged
-    stream = b"".join(carrier.chunks())
-    off = np.linalg.norm(mesh(small).positions - source.positions, axis=1)[carrier.vertex_order]
+    stream, order = _carrier(mesh(small))  # joins vertices that Draco merged
+    off = np.linalg.norm(mesh(small).positions - source.positions, axis=1)[order]
     layer = Layer("Draco", f"{small} bits", len(file(small)), stream, off.astype(np.float32))
     if good == len(DRACO_BITS):
         return (layer,), None
@@ -266,6 +278,8 @@ def given_at(path: str) -> Given:
         return Given(path, data, len(data))
     if path == "-":
         raise FormatError(NO_STREAM)
+    if PurePath(path).suffix.lower() == ".bsm":
+        decode_whole(iter([data]))  # says what is wrong with it
     found = read_mesh(path)
     return Given(path, found, size_with_parts(path, found.mesh.metadata))
 
