@@ -8,10 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Faces, Levels, Matrix
-from bsm.codec.geometry.turns import Turn, cross_of, quaternion_of, turned_by
+from bsm.codec.arrays import Faces, Levels, Matrix, Order
+from bsm.codec.geometry.turns import UNTURNED, Turn, cross_of, quaternion_of, turned_by
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.ways.grid import Grid
+from bsm.codec.static.ways.grid import SAMPLE, Grid
 
 MOST_FINENESS, AXIS_KINDS = 19, 48
 """Bits of a component of a quaternion, and transforms that are parallel to the axes (V 17.2)."""
@@ -36,6 +36,25 @@ def mirrored_origin(prepared: Prepared, origin: Matrix, step: float, turn: Turn)
         halves = (shifts[back[:, axis].argmax(), axis] - 2.0 * origin[axis]) / step
         moved[axis] -= (math.ceil(halves) - halves) * step / 2.0
     return moved
+
+
+def covered(prepared: Prepared, step: float) -> float:
+    """The share of some vertices that a transform takes to others, or others to them, within a step or so."""
+    turns, shifts = _motions(prepared, step, UNTURNED)
+    positions = prepared.mesh.positions
+    some, hit = positions[:: 1 + len(positions) // SAMPLE], False
+    cells = np.sort(_cells(positions / (2.0 * step)))
+    for images in (some @ turns.transpose(0, 2, 1) + shifts[:, None], (some - shifts[:, None]) @ turns):
+        for corner in np.ndindex(2, 2, 2):
+            sought = _cells(images / (2.0 * step) + np.array(corner) - 0.5)
+            at = cells.searchsorted(sought).clip(max=len(cells) - 1)
+            hit |= (cells[at] == sought).any(axis=0)
+    return float(np.mean(hit))
+
+
+def _cells(places: Matrix) -> Order:
+    """One number for all three of each place, which hardly any other has, rounded down."""
+    return np.asarray(np.floor(places).astype(np.int64) @ np.array([1 << 42, 1 << 21, 1]))
 
 
 def _motions(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix]:

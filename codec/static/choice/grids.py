@@ -14,7 +14,7 @@ from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
-from bsm.codec.static.choice.congruence import MOST, mirrored_origin, transforms_of
+from bsm.codec.static.choice.congruence import MOST, covered, mirrored_origin, transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
@@ -202,6 +202,10 @@ class Gridded:
         other = Gridded(self._prepared, self._bounds, turn=turn)
         own, others = (grid.at(self.first).congruent.size for grid in (self, other))
         return other if others < (1.0 - LEAST_SAVED) * own else self
+
+    def covered(self, step: float) -> float:
+        """The share of vertices that congruent parts may predict at a step."""
+        return covered(self._prepared, step * self._prepared.units.scale)
 
     def made(self) -> Iterator[Candidate]:
         """The grids that the mesh was made on, or about, in single precision; and exactly, where one holds all."""

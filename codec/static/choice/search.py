@@ -50,16 +50,16 @@ class Search:
         grid = Gridded(self._prepared, bounds)
         kept = list(filter(bounds.keeps, grid.made()))
         grid = grid.in_frame()
-        first = grid.at(grid.first)
-        if any(map(len, self._prepared.motions.values())):
-            self._crew.map(first.like, (-1, 1))
+        first, refined = grid.at(grid.first), Refined(self._prepared, self._options, bounds)
         saved, share, parts = self._saved(first), 1.0, -1
-        if may_repeat(self._prepared):
+        if may_repeat(self._prepared) and not self._outdone(first, grid, refined):
+            if any(map(len, self._prepared.motions.values())):
+                self._crew.map(first.like, (-1, 1))
             share, parts = first.congruent.size / first.draft.size, first.congruent.header.transforms
             grid.transforms = parts if share < 1.0 - LEAST_SAVED else -1
         least, seen = min((candidate.size for candidate in kept), default=math.inf) - saved, contract.look < math.inf
         near = 1.0 if seen or contract.visual == math.inf else ALIKE
-        ways = self._ways(bounds, grid, share)
+        ways = self._ways(bounds, grid, refined, share)
         for way in ways:  # which may lead to others
             leaning, gain = 0, 1.0
             if isinstance(way, Gridded):
@@ -80,13 +80,23 @@ class Search:
                 ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
-        if share < 1.0 or 8 * first.size < self._prepared.graph.size:
+        if share < 1.0 - LEAST_SAVED or 8 * first.size < self._prepared.graph.size:
             kept += self._at_rungs(grid, bounds, kept)
         most = near * min(self._size(candidate.congruent) for candidate in kept)
         alike = [candidate for candidate in kept if self._size(candidate.congruent) <= most]
         bent = self._measures.original.angle
         best = min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0)
         return paying(self._prepared, best.congruent)
+
+    def _outdone(self, first: Candidate, grid: Gridded, refined: Refined) -> bool:
+        """Whether blocks take fewer bytes than a grid if congruent parts predicted all that they may."""
+        prepared = self._prepared
+        if self._options.effort != "normal" or prepared.graph.size <= SAMPLE or not prepared.has_low_frequencies:
+            return False
+        with suppress(LimitError):  # blocks that decoders would refuse
+            least = ALIKE * refined.at(max(refined.first, refined.least)).size
+            return least < first.size and least < first.size * (1.0 - grid.covered(first.step))
+        return False
 
     def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
         """Grids of steps that are the same for all promises, each smaller than those before it."""
@@ -158,7 +168,7 @@ class Search:
         grid = Gridded(self._prepared, bounds)
         found = [made for made in grid.made() if self._size(made.draft) <= most_bytes + saved]
         grid = grid.in_frame()
-        for way in self._ways(bounds, grid):
+        for way in self._ways(bounds, grid, Refined(self._prepared, self._options, bounds)):
             fitting: dict[float, Candidate] = {}
 
             def excess(fineness: float, way: Way = way, fitting: dict[float, Candidate] = fitting) -> float:
@@ -179,7 +189,7 @@ class Search:
             return "nothing is visible"
         return f"look {metric.distance(draft.decoded):.3g}"
 
-    def _ways(self, bounds: Bounds, grid: Gridded, share: float = 1.0) -> list[Way]:
+    def _ways(self, bounds: Bounds, grid: Gridded, refined: Refined, share: float = 1.0) -> list[Way]:
         """Ways that may be smallest, first those that are smaller at their first step; `share`: what parts leave."""
         prepared, options = self._prepared, self._options
         few = prepared.graph.size < FEW_VERTICES and self._measures.normals is None
@@ -188,7 +198,6 @@ class Search:
             return grids[:1]
         if not prepared.has_low_frequencies:
             return grids
-        refined = Refined(prepared, options, bounds)
         blocks: list[Way] = [refined]
         if bounds.contract.angle < ANY_ANGLE:
             blocks.append(Refined(prepared, options, bounds, settled=False))

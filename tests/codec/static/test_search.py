@@ -9,6 +9,7 @@ import pytest
 
 from bsm import Contract, EncodeOptions, Encoder, TriangleMesh
 from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.static.choice.blocks import Refined
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.search import Search, Way
@@ -60,8 +61,10 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(everything(*_asked(mesh, options)))):
 
-        def size(search: Search, bounds: Bounds, grid: Gridded, _: float = 1.0, alone: int = alone) -> list[Way]:
-            return [everything(search, bounds, grid)[alone]]
+        def size(
+            search: Search, bounds: Bounds, grid: Gridded, refined: Refined, *_: float, alone: int = alone
+        ) -> list[Way]:
+            return [everything(search, bounds, grid, refined)[alone]]
 
         monkeypatch.setattr(Search, "_ways", size)
         found.append(Encoder(mesh, options).draft().size)
@@ -69,11 +72,11 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
     return found[0], found[1:]
 
 
-def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, Gridded]:
+def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, Gridded, Refined]:
     encoder, contract = Encoder(mesh, options), options.promise
     search = encoder._input.search
     bounds = Bounds(search._measures, contract)
-    return search, bounds, Gridded(search._prepared, bounds)
+    return search, bounds, Gridded(search._prepared, bounds), Refined(search._prepared, options, bounds)
 
 
 @pytest.mark.parametrize(("mesh", "rough"), [(torus(40, 24), 0.0), (patch(24, 24), 0.002)], ids=["torus", "patch"])
@@ -107,7 +110,7 @@ def test_looks_that_do_not_decide_end_at_one_grid() -> None:
 
 def test_the_bytes_of_a_grid_are_about_what_is_expected() -> None:
     mesh = torus(100, 60)
-    _, _, grid = _asked(mesh, EncodeOptions())
+    _, _, grid, _ = _asked(mesh, EncodeOptions())
     made = grid.at(grid.first)
     assert made.size == pytest.approx(made.draft.size, rel=0.1)
     assert made.size != made.draft.size, "it is an estimate"
