@@ -54,5 +54,5 @@ void bind_bitstream(nb::module_ &m) {
         int64_t count = least(levels.rows * levels.columns, points.rows * points.columns);
         values_of_levels(levels.data, count, 1.0, points.data);
     }, "levels"_a, "points"_a, Unlocked());
-    CHECKED(code_block) CHECKED(search_levels) CHECKED(code_matrix) CHECKED(price_matrix)
+    CHECKED(code_block) CHECKED(nearest_levels) CHECKED(code_matrix) CHECKED(price_matrix)
 }

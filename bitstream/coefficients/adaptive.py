@@ -24,19 +24,14 @@ COSTS = np.rint(_BIT * -np.log2(np.minimum(_PROBABILITIES, 1.0))).astype(np.int6
 """Cost of a decision by its probability, in 1 / 256 bit."""
 
 
-def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weight: float) -> tuple[Levels, int]:
-    """Choose the levels that `encode_coefficients` should code next, and how many rows; `model` stays as it is."""
-    if len(targets) > model.width or np.abs(targets).max(initial=0) > MAX_LEVEL * TARGET_UNIT:
-        raise OptionError(f"targets must be at most {model.width} rows of levels up to {MAX_LEVEL}")
-    price = weight * TARGET_UNIT**2 / _BIT
-    rows, targets = len(targets), np.ascontiguousarray(targets, np.int64)
-    levels, kept = np.empty((rows, 3), np.int32), np.empty(rows)
-    ways, origins = np.empty((3 * rows, STATES), np.int32), np.empty((3 * rows, STATES), np.uint8)
-    _kernels.search_levels(
-        model.bank, model.past, model.expectations, targets, price, COSTS, ways, origins, levels, kept
-    )
-    dropped = np.square(targets[::-1].astype(np.float64)).sum(axis=1).cumsum()[::-1]
-    return levels, 1 + int(np.argmin(kept + np.append(dropped[1:], 0.0))) if len(targets) else 0
+def nearest_levels(targets: npt.NDArray[np.int64]) -> Levels:
+    """Return the levels nearest to targets, shape (c, 3), on the trellis's two grids."""
+    if np.abs(targets).max(initial=0) > MAX_LEVEL * TARGET_UNIT:
+        raise OptionError(f"targets must be levels up to {MAX_LEVEL}")
+    levels = np.empty(targets.shape, np.int32)
+    ways, origins = np.empty((levels.size, STATES), np.int32), np.empty((levels.size, STATES), np.uint8)
+    _kernels.nearest_levels(np.ascontiguousarray(targets, np.int64).reshape(-1), ways, origins, levels.reshape(-1))
+    return levels
 
 
 Magnitudes = npt.NDArray[np.int32]

@@ -157,11 +157,10 @@ int64_t code_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, 
 int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow, ConstLongs costs, Shorts prices);
 
-/* Choosing levels by what they cost. See rate_distortion.c. */
+/* Choosing levels. See nearest.c. */
 enum { TARGET_UNIT = 256 }; /* targets are in 1 / TARGET_UNIT of a step */
 
-int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
-    ConstLongs costs, Ints2 ways, Bytes2 origins, Ints2 levels, Doubles kept);
+int64_t nearest_levels(ConstLongs targets, Ints2 ways, Bytes2 origins, Ints levels);
 
 /* The learned numbers that adaptive coefficients start from: the bytes of spec/priors.bin, which the build turns into
  * C. */

@@ -45,13 +45,6 @@ def reconstruct(subspace: Basis, coefficients: Matrix) -> Matrix:
 
 
 LARGEST_LEVEL = (1 << 23) - 1
-BIT_WORTH = 0.13
-"""Squared steps of error that a bit is worth.
-
-A finely quantized coefficient has a mean squared error of step^2 / 12, which a bit more divides by four: the slope is
-step^2 ln(2) / 6 = 0.1155 step^2 per bit. Measured on real meshes, angles between normals ask for slightly more:
-half of it costs 1.8 %, twice 2.5 %.
-"""
 
 
 def smallest_step(block_size: int) -> float:

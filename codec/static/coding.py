@@ -53,7 +53,7 @@ class Packed:
 
 @dataclass(eq=False)
 class Adaptive:
-    """Levels on two grids, chosen by rate and distortion and coded with the statistics of the chain."""
+    """Levels on two grids, coded with the statistics of the chain."""
 
     bits: ClassVar[int] = 0
     coarser: ClassVar[int] = 0
@@ -69,12 +69,9 @@ class Adaptive:
         return replace(self)
 
     def choose(self, coefficients: Matrix, sized: bool) -> Integers:
-        levels, rows = adaptive.choose_levels(
-            self.model,
-            transform.targets(coefficients, self.step, adaptive.TARGET_UNIT, adaptive.MAX_LEVEL),
-            transform.BIT_WORTH,
-        )
-        return levels if sized else levels[:rows]
+        targets = transform.targets(coefficients, self.step, adaptive.TARGET_UNIT, adaptive.MAX_LEVEL)
+        levels = adaptive.nearest_levels(targets)
+        return levels if sized else levels[: 1 + int(np.flatnonzero(levels.any(axis=1)).max(initial=0))]
 
     def write(self, levels: Integers) -> bytes:
         return adaptive.encode_coefficients(self.model, np.asarray(levels, np.int32))

@@ -23,7 +23,6 @@ from bsm.bitstream.errors import BsmError
 from bsm.codec.decoding import decode
 from bsm.codec.sequence import gop, step_search
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.signal import transform
 from bsm.codec.static.choice import blocks, grids, search
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.encoder import Encoder
@@ -98,7 +97,6 @@ TOOLS: dict[str, Tool] = {
     "choice of grid places by rate": Tool(
         {}, [(search.Search, "_ways", _ways(lambda way: not (isinstance(way, Gridded) and way._worth > 0)))]
     ),
-    "choice of coefficients by rate": Tool({}, [(transform, "BIT_WORTH", 1e-9)]),
     "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
     "frames along normals": Tool({}, [(blocks, "local_frames", _upright)], decodes=False),
     "unfolding of faces": Tool({}, [(blocks, "turned", lambda _: None), (grids, "turned", lambda _: None)]),

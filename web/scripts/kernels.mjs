@@ -15,7 +15,7 @@ function sourcesIn(folder) {
 }
 
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
-const SOURCES = ["bitstream", "codec", "library"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)|rate_distortion/.test(path));
+const SOURCES = ["bitstream", "codec", "library"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)|coefficients.nearest/.test(path));
 
 /** Functions for the page (library/wasm/page.c, library/bsmdec.h). */
 const PAGE = [

@@ -60,7 +60,7 @@ def test_quick_draws_few_pictures() -> None:
 def test_folds_do_not_leave_the_look_unused(meshes: Path) -> None:
     cloth = read_mesh(str(meshes / "assets/cloth.obj")).mesh.bare
     size = Encoder(cloth, EncodeOptions(threads=1)).draft().size
-    assert size < 3500  # 3800 with the usual steps along tangents
+    assert size < 3700  # 3800 with the usual steps along tangents
 
 
 @pytest.mark.parametrize("scale", [0.7, 1.1, 3.0])
