@@ -151,7 +151,8 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
         Mark mark = mark_of(scratch);
         attribute->rows = expected_rows(attributes, attribute, numbering);
         double rows = (double)attribute->rows;
-        bool done = reserve(context, 16.0 * d->components * rows + 12 * rows + 12 * m, 0)
+        double numbers = 2.0 * (double)kind_size(d->kind) * d->components, own = attribute->joins ? 12 * m : 0;
+        bool done = reserve(context, (numbers + 12) * rows + own, 0)
             && (d->coding != RECOMPUTED || fits_memory(context, 200 * m + 100 * rows))
             && charge(context, ATTRIBUTE_WORK + 150 * rows + 60 * m, 0)
             && lay_out(attributes, attribute, numbering, scratch);

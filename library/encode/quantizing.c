@@ -196,31 +196,35 @@ static double spacing_of(double number, int kind) {
     return next - number;
 }
 
-/* Floats in steps. */
-static bool round_floats(Context *context, const Table *t, bsmenc_quality quality, double amount, Quantized *q) {
+/* Floats in steps; to the bit, if the bound leaves their rounding no room. */
+static bool round_floats(Context *context, const Table *t, bsmenc_quality quality, double amount, Arena *arena,
+    Quantized *q) {
     double low[MOST_COMPONENTS], high[MOST_COMPONENTS], extent = range_of(t, low, high), bound, step, most = 0.0;
     if (!(extent - extent == 0.0))
         return FAIL(context, MISUSED, "the range of values is beyond that of numbers; keep them exact");
+    for (int j = 0; j < t->components; j++) {
+        if (-low[j] > most) most = -low[j];
+        if (high[j] > most) most = high[j];
+    }
     if (quality == BSMENC_BITS) {
         double levels = (double)((INT64_C(1) << (int)amount) - 1);
         bool unit = q->declaration.semantic == BSMDEC_COLOR && none_below(low, t->components, 0.0)
             && greatest(high, t->components) <= 1.0;
         step = unit ? 1.0 / levels : extent / levels;
         if (unit) memset(low, 0, sizeof low);
-        bound = step / 2;
+        if (!(step > 0.0)) step = 1.0;
+        bound = step / 2 * (1.0 + 1e-6) + spacing_of(most, t->kind);
     } else {
         bound = quality == BSMENC_BOUND ? amount : amount / 100.0 * extent;
-        step = 2.0 * bound * SLACK;
+        double rounded = spacing_of(most + bound, t->kind) / 2;
+        step = 2.0 * (bound - rounded) * SLACK;
+        if (step < rounded) return keep_floats(t, arena, q);
     }
-    if (!(step > 0.0)) step = bound = 1.0;
     if (!(step >= 1e-300 && step <= 1e300))
         return FAIL(context, MISUSED, "the step of values is beyond the range of numbers; keep them exact");
-    for (int j = 0; j < t->components; j++) {
+    for (int j = 0; j < t->components; j++)
         if ((high[j] - low[j]) / step > MOST_LEVEL)
             return FAIL(context, MISUSED, "the bound is too fine for the range of values; keep them exact");
-        if (-low[j] > most) most = -low[j];
-        if (high[j] > most) most = high[j];
-    }
     for (int64_t i = 0; i < t->rows * t->components; i++) {
         int j = (int)(i % t->components);
         double number = number_at(t, i), level = __builtin_rint((number - low[j]) / step), product = step * level;
@@ -230,7 +234,6 @@ static bool round_floats(Context *context, const Table *t, bsmenc_quality qualit
         note_error(q, back - number);
     }
     declare_levels(q, LEVELS, low, step);
-    if (quality == BSMENC_BITS) bound = bound * (1.0 + 1e-6) + spacing_of(most, t->kind);
     return q->outcome.error <= bound
         || FAIL(context, UNREACHABLE, "numbers of this kind cannot be kept within the bound");
 }
@@ -349,7 +352,7 @@ bool quantize(Context *context, const void *values, int64_t rows, bsmenc_quality
     }
     if (quality == BSMENC_EXACT || (quality == BSMENC_BITS && amount > MOST_ROUNDED_BITS))
         return keep_floats(&t, arena, q);
-    return round_floats(context, &t, quality, amount, q);
+    return round_floats(context, &t, quality, amount, arena, q);
 }
 
 #endif

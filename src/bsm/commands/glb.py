@@ -4,7 +4,7 @@ import argparse
 import shlex
 from pathlib import Path
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import HarmError, OptionError
 from bsm.commands.flags import IMAGES, adder, within
 from bsm.console import Console
 from bsm.files.images import ImageRule
@@ -69,6 +69,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with console.progress("encoding") as progress:
         name = beside.name if beside else None
         found = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)
+    if not (found.coded or rule or args.force):
+        why = "; ".join(found.left) or "the scene has no primitives"
+        raise HarmError(f"{args.input}: nothing was coded: {why}; --force writes the scene anyway")
     if beside and found.fallback:
         write_output(str(beside), found.fallback, overwrite=args.force, follow=False)
     write_output(args.output, found.data, overwrite=args.force)

@@ -182,6 +182,33 @@ def test_bounds_are_kept(name, quality, most):
     assert 0.0 < errors[name] <= most
 
 
+@pytest.mark.parametrize("least", [-30.0, 0.0, 20.0, 3e38])
+def test_bounds_leave_room_for_rounding_to_single_precision(least):
+    """Each bound from one that rounding leaves no room to one that leaves plenty."""
+    count, random = 4000, np.random.default_rng(6)
+    spacing = float(np.spacing(np.float32(max(abs(least), least + 80.0))))
+    heat = (least + 80.0 * max(spacing, 1.0) * random.random(count)).astype(np.float32)
+    strip = np.arange(count - 2)[:, None] + np.arange(3)
+    positions = np.column_stack([np.arange(count) // 2, np.arange(count) % 2, np.zeros(count)]).astype(float)
+    mesh = bsm.TriangleMesh(positions, strip.astype(np.int32), (bsm.Attribute("heat", heat),), {})
+    for bound in (1e-9, 0.4 * spacing, 0.6 * spacing, spacing, 3.1 * spacing, 1000.0 * spacing):
+        encoder = bsm.Encoder(mesh, bsm.EncodeOptions(grid=16, effort="quick", attributes={"heat": repr(bound)}))
+        decoded = bsm.decode(encoder.encode())
+        own = heat[encoder.vertex_order].astype(float)
+        assert np.abs(decoded.attributes[0].values[:, 0].astype(float) - own).max() <= bound
+
+
+@pytest.mark.real
+@pytest.mark.parametrize("name", ["BoxTextured.glb", "Duck.glb", "cortex_sulc.ply", "cubevc.glb", "fuze_uv.obj"])
+def test_each_spelling_of_a_quality_is_kept_for_files(meshes, name):
+    mesh = bsm.load(meshes / "assets" / name)
+    floats = [a for a in mesh.attributes if a.values.dtype.kind == "f" and a.semantic != "normal"]
+    for spelled in ("exact", "12bits", "0.01", "1%", "0.1%", "0.0001"):
+        options = replace(QUICK, effort="quick", attributes={attribute.name: spelled for attribute in floats})
+        decoded = bsm.decode(bsm.encode(mesh, options))
+        assert len(decoded.attributes) == len(mesh.attributes), spelled
+
+
 @pytest.mark.parametrize("degrees", [10.0, 1.0, 0.05])
 def test_angles_of_normals_are_kept(degrees):
     mesh = dressed(torus())
@@ -300,7 +327,7 @@ def test_texture_coordinates_in_whole_numbers_are_kept():
         ({"uv": "2deg"}, bsm.OptionError),
         ({"uv": "recompute"}, bsm.OptionError),
         ({"nothing": "exact"}, bsm.OptionError),
-        ({"wild": "1e-12"}, bsm.BsmError),
+        ({"heat": "1e-12"}, bsm.OptionError),
         ({"normal": "1e-9deg"}, bsm.TargetError),
     ],
 )
