@@ -3,11 +3,13 @@
 import hashlib
 import json
 import math
+import os
 import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info
 
 from bsm import TriangleMesh, research
 from bsm.codec.basis.laplacian import dense_laplacian
@@ -100,7 +102,10 @@ class TestPhotographs:
         assert outside.missing({"default": points["default"]} | files) == []
 
 
-def row(name="m", scale=0.5, group="unseen"):
+RUN = {"commit": "a", "processor": "p", "date": "d", "seconds": 1.0, "threads": 1}
+
+
+def row(name="m", scale=0.5, group="unseen", commit="a"):
     """A mesh on which ours takes `scale` of Draco's bytes by every measure."""
     points = {
         f"Draco {bits}": {"bytes": 1000.0 * bits, **dict.fromkeys(report.MEASURES, 2.0**-bits)}
@@ -108,7 +113,14 @@ def row(name="m", scale=0.5, group="unseen"):
     }
     for preset, bits in zip(rates.CURVE, (8, 9, 10, 12), strict=True):
         points[preset] = {"bytes": scale * 1000.0 * bits, **dict.fromkeys(report.MEASURES, 2.0**-bits)}
-    return {"mesh": name, "group": group, "vertices": 500, "points": points, "failed": {}}
+    return {
+        "mesh": name,
+        "group": group,
+        "vertices": 500,
+        "points": points,
+        "failed": {},
+        "run": RUN | {"commit": commit},
+    }
 
 
 class TestTables:
@@ -180,14 +192,26 @@ class TestTables:
         page.write_text("# Old\n\nwords\n\n## Moving meshes\n\nCommit a.\n\n| t |\n")
         monkeypatch.setattr(report, "PAGE", page)
         for commit in ("b", "c"):
-            report.write_page({"rates": [row()]}, {"rates": {"commit": commit, "processor": "p", "date": "d"}})
+            report.write_page({"rates": [row(commit=commit)]})
         text = page.read_text()
         page.write_text(text + "\n## The paper, 9: an old table\n\n| t |\n")
-        made = published.printed("The paper, 4: new", ("x",), [("a", (1.0,), ())])
-        report.write_page({"paper": [made]}, {"paper": {"commit": "d", "processor": "p", "date": "d"}})
+        made = published.printed("The paper, 4: new", ("x",), [("a", (1.0,), ())]) | {"run": RUN | {"commit": "d"}}
+        report.write_page({"paper": [made]})
         assert "## The paper, 4: new" in page.read_text() and "an old table" not in page.read_text()
         assert text.startswith("# Measured\n") and "words" not in text and "Commit c, p, d" in text
         assert "Commit b" not in text and "## Moving meshes\n\nCommit a.\n\n| t |\n" in text and "| default" in text
+
+    def test_a_table_of_several_runs_names_each(self):
+        assert report.origin([row(commit=commit) for commit in "bab"]) == "Commit a, p, d. Commit b, p, d."
+
+    def test_tables_of_commits_that_do_not_lead_here_are_refused(self):
+        here = stages.git("rev-parse", "--short", "HEAD")
+        if not here:
+            pytest.skip("this is not a checkout")
+        report.require_commits({"rates": [row(commit=here)]})
+        for commit in (f"{here}-changed", "0123456789ab", ""):
+            with pytest.raises(SystemExit, match=f"{commit} is not an ancestor of HEAD"):
+                report.require_commits({"rates": [row(commit=here)], "paper": [row(commit=commit)]})
 
 
 def test_tools_that_save_little_are_named_and_streams_that_stay_have_no_time():
@@ -232,9 +256,9 @@ def test_only_the_file_of_the_list_is_taken_and_what_is_missing_is_named(tmp_pat
 def test_a_stage_goes_on_and_names_what_it_has_no_time_for(tmp_path):
     sources = [Source(name, tmp_path / name, "unseen", 1) for name in ("a", "b")]
     (tmp_path / "stage").mkdir()
-    (tmp_path / "stage" / "a.json").write_text('{"mesh": "a"}')
+    (tmp_path / "stage" / "a.json").write_text('[{"mesh": "a"}]')
     notes = []
-    assert stages.run_stage(print, sources, tmp_path / "stage", -1.0, notes.append) == [{"mesh": "a"}]
+    assert stages.run_stage(print, sources, tmp_path / "stage", -1.0, notes.append) == [[{"mesh": "a"}]]
     assert notes == ["stage: no time was left for 1: b"]
 
 
@@ -242,13 +266,18 @@ def fails_on_one(source):
     """Work on a mesh, and fail on another."""
     if source.name == "b":
         raise ValueError("no such mesh")
-    return {"mesh": source.name}
+    return {"mesh": source.name, "threads": [library["num_threads"] for library in threadpool_info()]}
 
 
 def test_a_mesh_that_fails_is_named_and_the_others_are_measured(tmp_path):
     sources, notes = [Source(name, tmp_path / name, "unseen", 1) for name in ("b", "c")], []
-    assert stages.run_stage(fails_on_one, sources, tmp_path, 1.0, notes.append, workers=1) == [{"mesh": "c"}]
+    begin = dict(os.environ)
+    (((found,),),) = [stages.run_stage(fails_on_one, sources, tmp_path, 1.0, notes.append, workers=1)]
+    assert found["mesh"] == "c" and json.loads((tmp_path / "c.json").read_text()) == [found]
     assert "b failed: ValueError: no such mesh" in notes[0] and [p.name for p in tmp_path.iterdir()] == ["c.json"]
+    assert found["threads"] and {*found["threads"]} == {1} == {found["run"]["threads"]}, "libraries of one thread each"
+    assert os.environ == begin and found["run"].keys() == RUN.keys()
+    assert found["run"]["commit"].partition("-")[0] == stages.git("rev-parse", "--short=8", "HEAD")
 
 
 def test_what_ablation_replaces_is_there_and_comes_back():
@@ -316,6 +345,16 @@ def test_segments_that_are_left_out_of_their_mean_are_nearest_to_it_only_where_t
     assert coherence.coherence_errors([m[:3] for m in noise]).argmin(axis=1).tolist() == [0, 1, 2, 3]  # even of noise
     assert sum(coherence.nearest_to_own(noise)) < 15
     assert coherence.nearest_to_own([own + 9 * k for k, own in enumerate(noise)]) == [5, 5, 5, 5]
+
+
+def test_r_is_the_inverse_of_a_laplacian_with_weights_by_length():
+    square = TriangleMesh(np.array([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]), np.array([(0, 1, 2), (0, 2, 3)]))
+    model = models.Model("m", "M", True, square.positions, square.positions, square.faces, 4)
+    laplacian = coherence.Weights().laplacian(model, dictionaries.in_file_order(block_of(square)))
+    assert laplacian[0] == pytest.approx([0.25 + 0.2 + 1.0, -0.25, -0.2, -1.0])
+    assert coherence.resolvent(laplacian, 0.5) @ (laplacian + 0.5 * np.eye(4)) == pytest.approx(np.eye(4))
+    printed = coherence.Weights(printed=True).laplacian(model, dictionaries.in_file_order(block_of(square)))
+    assert np.diag(printed).tolist() == [3, 2, 3, 2] and printed[0, 1] == laplacian[0, 1]
 
 
 def block_of(mesh):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from textwrap import fill
-from typing import Any
 
 from tools.replicate.rates import Row
 
@@ -22,10 +21,11 @@ PASSAGES = {
 """The document of each; its text, with the numbers of jobs, is a file in passages/. Marks in the document name it."""
 
 
-def keep(tables: dict[str, list[Row]], run: dict[str, Any]) -> None:
-    """Write the numbers that are quoted."""
+def keep(tables: dict[str, list[Row]]) -> None:
+    """Write the numbers that are quoted, and the run of each experiment."""
+    runs = {name: rows[0]["run"] for name, rows in tables.items()}
     numbers = {name: {k: v for row in rows for k, v in row["numbers"].items()} for name, rows in tables.items()}
-    text = json.dumps({"run": run, "numbers": {name: own for name, own in numbers.items() if own}}, indent=1)
+    text = json.dumps({"runs": runs, "numbers": {name: own for name, own in numbers.items() if own}}, indent=1)
     KEPT.write_text(text + "\n", encoding="utf-8")
 
 

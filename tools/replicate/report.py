@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from operator import itemgetter
 from pathlib import Path
 from textwrap import fill
 from typing import Any, NamedTuple
@@ -16,6 +17,7 @@ from tools.replicate.denoising import denoising_note, denoising_table, pairs_tab
 from tools.replicate.measures import MEASURES
 from tools.replicate.outside import PHOTOGRAPHED, SPREAD, outside_table, steadiness_table
 from tools.replicate.rates import COLUMNS, CURVE, MESHOPT_BITS, PRESETS, Row, ratios, spread, summary, time_summary
+from tools.replicate.stages import git
 
 GROUPS = {"unseen": "fetched meshes", "tuned": "meshes that were in use here before", "named": "named meshes"}
 WHAT = ("BD-rate", *PRESETS, *(f"meshoptimizer {bits}" for bits in MESHOPT_BITS))
@@ -203,17 +205,30 @@ def write(results: dict[str, list[Row]], folder: Path, note: Callable[[str], Non
     note(f"{folder}: tables, figures and results.json")
 
 
-def write_page(results: dict[str, list[Row]], facts: dict[str, dict[str, Any]]) -> None:
-    """Put the tables into docs/measured.md, with the facts of their stages; what no run in this folder made stays."""
+def require_commits(results: dict[str, list[Row]]) -> None:
+    """Refuse what was measured on changed files, or on a commit that does not lead to the one that is checked out."""
+    for commit in {row["run"]["commit"] for rows in results.values() for row in rows}:
+        known = git("rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}")
+        if not known or git("merge-base", known, "HEAD") != known:
+            raise SystemExit(f"--docs: {commit} is not an ancestor of HEAD: commit all changes, and measure again")
+
+
+def origin(rows: Sequence[Row]) -> str:
+    """The commits, machines and dates of a table."""
+    runs = {(row["run"]["commit"], row["run"]["processor"], row["run"]["date"]) for row in rows}
+    return " ".join(f"Commit {', '.join(run)}." for run in sorted(runs, key=itemgetter(2, 0)))
+
+
+def write_page(results: dict[str, list[Row]]) -> None:
+    """Put the tables into docs/measured.md, each with its origin; what no run in this folder made stays."""
     page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
     kept = {f"## {part.partition(chr(10))[0]}": part.partition("\n")[2].strip() for part in page.split("\n## ")[1:]}
-    if "paper" in facts:  # tables of earlier experiments go
+    if results.get("paper"):  # tables of earlier experiments go
         kept = {title: text for title, text in kept.items() if not title.startswith("## The paper, ")}
     for name, entry in tables(results).items():
-        if not (run := facts.get(name.split("-")[0])):
-            continue
-        origin = f"Commit {run['commit']}, {run['processor']}, {run['date']}."
-        words = fill(f"{entry.note} {origin}".strip(), 120)
+        stage, _, number = name.partition("-")
+        rows = results[stage] if stage != "paper" else [results[stage][int(number)]]
+        words = fill(f"{entry.note} {origin(rows)}".strip(), 120)
         kept[f"## {entry.title}"] = f"{words}\n\n{table(entry.columns, entry.rows)}"
     parts = [f"{title}\n\n{text}" for title, text in kept.items()]
     PAGE.write_text("\n\n".join([INTRODUCTION, *parts]) + "\n", encoding="utf-8")

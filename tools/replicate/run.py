@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import datetime
 import json
 import os
-import platform
-import subprocess
-import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
 from tools.replicate import quotes, report
 from tools.replicate.ablation import ablate_mesh
@@ -26,6 +21,7 @@ from tools.replicate.stages import run_stage
 ABLATED = {(500, 4000): 30, (8000, 12_000): 4}
 """Meshes of the ablation, by how many vertices they have."""
 TIMED, QUICK_SIZE = 24, 4000
+STAGES = ("rates", "outside", "times", "ablation", "motion", "denoising", "paper")
 NOISED, NOISY = 12, (2000, 6000)
 """Meshes that are denoised, and of how many vertices."""
 
@@ -53,8 +49,6 @@ def measure_all(
     folder: Path, minutes: dict[str, float], *, quick: bool, docs: bool, named: Sequence[Path] = ()
 ) -> None:
     """Run the stages that are asked for, and write down what came of all that were run in this folder."""
-    os.environ["OMP_NUM_THREADS"] = "1"
-    begin = time.monotonic()
     own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") else None
     own_enough = set(minutes) == {"paper"} and complete(own)
     sources = sources_of(named, "named") if named or own_enough else fetch_meshes(folder / "meshes", note)
@@ -84,39 +78,24 @@ def measure_all(
         jobs = [Job(name, own, sources, quick, folder) for name in TABLES]
         run_stage(make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers)
     results = read(folder)
-    path = folder / "results.json"
-    facts = json.loads(path.read_text(encoding="utf-8")).get("runs", {}) if path.exists() else {}
-    facts |= dict.fromkeys(minutes, describe(time.monotonic() - begin))
-    path.write_text(json.dumps({"runs": facts, **results}, indent=1), encoding="utf-8")
+    (folder / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
     report.write(results, folder, note)
     if docs:
-        report.write_page(results, facts)
+        report.require_commits(results)
+        report.write_page(results)
         if "paper" in minutes:
-            quotes.keep(read_paper(folder), facts["paper"])
+            quotes.keep(read_stage(folder / "paper", TABLES))
             quotes.rewrite()
 
 
 def read(folder: Path) -> dict[str, list[Row]]:
     """Every row of every stage."""
-    stages = ("rates", "outside", "times", "ablation", "motion", "denoising")
-    found = {
-        stage: [json.loads(path.read_text(encoding="utf-8")) for path in sorted((folder / stage).glob("*.json"))]
-        for stage in stages
-    }
-    return found | {"paper": [row for rows in read_paper(folder).values() for row in rows]}
+    names = {"paper": TABLES}
+    found = {stage: read_stage(folder / stage, names.get(stage)) for stage in STAGES}
+    return {stage: [row for rows in jobs.values() for row in rows] for stage, jobs in found.items()}
 
 
-def read_paper(folder: Path) -> dict[str, list[Row]]:
-    """The tables of the paper, by their jobs."""
-    paths = {name: folder / "paper" / f"{name}.json" for name in TABLES}
-    return {name: json.loads(path.read_text(encoding="utf-8")) for name, path in paths.items() if path.exists()}
-
-
-def describe(seconds: float) -> dict[str, Any]:
-    """The commit, the processor, the date and how long it took."""
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
-    lines = Path("/proc/cpuinfo").read_text().splitlines() if Path("/proc/cpuinfo").exists() else []
-    name = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.processor())
-    cores = len(os.sched_getaffinity(0))
-    date = datetime.date.today().isoformat()
-    return {"commit": commit, "processor": f"{name}, {cores} cores", "date": date, "minutes": round(seconds / 60, 1)}
+def read_stage(folder: Path, names: Iterable[str] | None = None) -> dict[str, list[Row]]:
+    """The rows of a stage by its jobs, all of them or those of these names, in that order."""
+    paths = sorted(folder.glob("*.json")) if names is None else [folder / f"{name}.json" for name in names]
+    return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in paths if path.exists()}

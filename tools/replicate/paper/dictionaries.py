@@ -9,7 +9,6 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-from threadpoolctl import threadpool_limits
 
 from bsm.codec.arrays import Basis, Positions
 from bsm.codec.basis.laplacian import dense_laplacian, solver_of
@@ -37,8 +36,7 @@ def in_file_order(block: Block) -> Block:
 
 def eigenvectors(block: Block, width: int) -> Floats:
     """The lowest eigenvectors, by LAPACK."""
-    with threadpool_limits(1):
-        return np.ascontiguousarray(np.linalg.eigh(dense_laplacian(block))[1][:, :width])
+    return np.ascontiguousarray(np.linalg.eigh(dense_laplacian(block))[1][:, :width])
 
 
 def iterated(block: Block, start: Floats | Basis, power: int, iterations: int = 1, shift: float = SHIFT) -> Floats:

@@ -50,16 +50,21 @@ def save_surfaces(
 
 
 def save_matrices(output: Path | None, models: Mapping[str, Sequence[Floats]]) -> None:
-    """Figure 8: three matrices of each model, each in colors between its least and its largest value."""
+    """Figure 8: three matrices of each model with color bars, from the hundredth least to the hundredth largest value.
+
+    With the extremes as ends, a few entries would leave all others in one color.
+    """
 
     def draw(figure: Any) -> None:
         grid = figure.subplots(len(models), 3, squeeze=False)
         for line, (name, matrices) in zip(grid, models.items(), strict=True):
             for number, (axes, matrix) in enumerate(zip(line, matrices, strict=True), 1):
-                axes.imshow(matrix, cmap="viridis")
+                low, high = np.quantile(matrix, (0.01, 0.99))
+                shown = axes.imshow(matrix, cmap="viridis", vmin=low, vmax=high)
                 axes.set(xticks=[], yticks=[], title=f"{name}, R[{number}]")
+                figure.colorbar(shown, ax=axes, extend="both", shrink=0.8)
 
-    save(output, "figure-8", draw, 6.6, 2.2 * len(models))
+    save(output, "figure-8", draw, 8.4, 2.2 * len(models))
 
 
 def save_boxes(output: Path | None, panels: Mapping[str, Mapping[str, tuple[Floats, Floats]]]) -> None:

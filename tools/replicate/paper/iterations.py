@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from bsm.codec.basis.laplacian import dense_laplacian
 from tools.replicate.paper.dictionaries import BITS, SHIFT, Cut, Floats, iterated
@@ -135,10 +134,9 @@ def convergence(study: Study) -> Iterator[Row]:
         for power in POWERS_TRIED:
             basis = np.linalg.qr(np.random.default_rng(width).normal(size=(block.size, width)))[0]
             errors: list[float] = []
-            with threadpool_limits(1):
-                for _ in range(LATE[1]):
-                    basis = np.linalg.qr(vectors @ (weights[:, None] ** power * (vectors.T @ basis)))[0]
-                    errors.append(subspace_error(vectors[:, :width], basis) if len(errors) + 1 in LATE else 0.0)
+            for _ in range(LATE[1]):
+                basis = np.linalg.qr(vectors @ (weights[:, None] ** power * (vectors.T @ basis)))[0]
+                errors.append(subspace_error(vectors[:, :width], basis) if len(errors) + 1 in LATE else 0.0)
             rate = (errors[-1] / errors[LATE[0] - 1]) ** (1.0 / (LATE[1] - LATE[0]))
             found[power].append((float(rate), float((weights[width] / weights[width - 1]) ** power)))
     rows: list[Line] = []

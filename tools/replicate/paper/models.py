@@ -9,8 +9,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from threadpoolctl import threadpool_limits
-
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.blocks.overlap import Blocks, block_size, grow_blocks, metis_partition
 from bsm.codec.denoise.coarse import OVERLAP, CoarseFilter
@@ -144,6 +142,5 @@ class Study:
 
 
 def fastest(work: Callable[[], object], repeats: int) -> float:
-    """CPU seconds of the fastest run, with one BLAS thread, so that what else the machine does counts for little."""
-    with threadpool_limits(1):
-        return timed(work, repeats, time.process_time)[0]
+    """Seconds of a thread of the fastest run, so that what else the machine does counts for little."""
+    return timed(work, repeats, time.thread_time)[0]
