@@ -24,7 +24,7 @@ from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.mesh import read_mesh
 from bsm.files.pipes import Input
-from bsm.files.room import Ints, ranges
+from bsm.files.room import PRECISION, Ints, is_single_and_far, ranges
 from bsm.files.stream import decode_whole, is_stream
 
 if TYPE_CHECKING:
@@ -106,7 +106,8 @@ def with_metadata(mesh: TriangleMesh, options: EncodeOptions | None, metadata: M
     left = {a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"} - {"material"}
     bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
     known = without_names(without_materials(mesh.metadata) if bare else mesh.metadata, left)
-    return replace(mesh, metadata={**known, **metadata})
+    precision = PRECISION if is_single_and_far(mesh.positions) else {}
+    return replace(mesh, metadata={**precision, **known, **metadata})
 
 
 def read_any(source: Input, **reading: Any) -> TriangleMesh:

@@ -53,6 +53,20 @@ def test_a_stream_may_have_any_name(folder, capsys):
     assert "decode it first" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("away", [40.0, 3000.0, 2e6])
+def test_single_precision_goes_back_from_any_place(folder, away, capsys):
+    bsm.save(bsm.TriangleMesh((torus(16, 12).positions + away).astype(np.float32), torus(16, 12).faces), "far.stl")
+    assert run("encode", "far.stl", "-f") == 0
+    for name in ("back.stl", "back.glb", "back.ply"):
+        assert run("decode", "-f", "far.bsm", "-o", name) == 0
+        error = np.abs(bsm.load(name).positions.mean(axis=0) - bsm.load("far.stl").positions.mean(axis=0)).max()
+        assert error < 0.02 + 1e-7 * away
+    bsm.save(bsm.TriangleMesh(torus(16, 12).positions / 3 + away, torus(16, 12).faces), "double.ply")
+    assert run("encode", "double.ply", "-f") == 0
+    assert run("decode", "double.bsm", "-o", "double.stl") == 3 and "--float32" in capsys.readouterr().err
+    assert run("decode", "double.bsm", "-o", "double.stl", "--float32") == 0
+
+
 def test_a_bare_number_is_questioned(folder, capsys):
     diagonal = f"{0.05 * bsm.load('ring.ply').diagonal:.3g} mm here"
     assert run("encode", "ring.ply", "-f", "--max-error", "0.05", "--meta", "unit=mm") == 2

@@ -5,7 +5,7 @@ import re
 import sys
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain, islice
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,7 @@ from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
+from bsm.files.room import PRECISION
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
@@ -45,6 +46,7 @@ class DecodeJob(Task):
     permutation: str | None = None
     tolerant: bool = False
     limits: str = "default"
+    float32: bool = False
     frames: str | None = None
 
 
@@ -62,6 +64,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     part("--layers", "N", "stop after N layers: 1 is the base, each refinement adds one", type=int)
     part("--tolerant", "", "continue after damage; list the lost parts and leave them out")
     add("--permutation", "FILE.npy", "restore the order of the input; the file that encode wrote with the same option")
+    add("--float32", "", "round coordinates to single precision, even where their format or place asks for double")
     add_limits_flag(parser)
     add("-r --recursive", "", "decode every stream in folders and their subfolders; OUT gets the same folders")
     numbered = "decode frames A to B - 1 only, counted from 0: 0:1 is the first, which may be written as a mesh"
@@ -118,6 +121,8 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
+    if args.float32:
+        mesh = replace(mesh, metadata={**mesh.metadata, **PRECISION})
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")

@@ -25,7 +25,7 @@ from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, file_beside, is_url
-from bsm.files.room import gunzipped, plain_text, require_counts_of_head, require_room
+from bsm.files.room import PRECISION, gunzipped, plain_text, require_counts_of_head, require_room
 
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
@@ -163,6 +163,9 @@ def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> boo
 
 def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:
     """A mesh as a file of one of `WRITTEN_FORMATS`, what that cannot hold, and what lies beside it."""
+    if mesh.metadata.items() >= PRECISION.items():
+        metadata = {name: value for name, value in mesh.metadata.items() if name not in PRECISION}
+        mesh = TriangleMesh(mesh.positions.astype("f4"), mesh.faces, mesh.attributes, metadata)
     written: Written = by_name(_ROOMS[file_format], f"write_{file_format}")(mesh, Path(path).stem)
     return written
 

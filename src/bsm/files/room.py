@@ -111,10 +111,23 @@ def require_lines(present: int, claimed: int) -> None:
         raise TruncatedError(f"the file is cut short: its header claims {claimed} vertices and faces, {present} follow")
 
 
+PRECISION = {"precision": "single"}
+"""Metadata of a mesh that comes from single precision and lies so far off that others would not fit into that."""
+NO_DOUBLES = "the coordinates need double precision, which {} does not have; write PLY, OBJ or OFF, or round them: "
+NO_DOUBLES += "--float32 (in Python, the metadata precision: single)"
+
+
 def single_suffices(positions: Doubles) -> bool:
     with np.errstate(over="ignore", invalid="ignore"):
         error = np.abs(positions.astype(np.float32) - positions).max()
         return bool(np.isfinite(error) and error <= 1e-6 * np.linalg.norm(np.ptp(positions, axis=0)))
+
+
+def is_single_and_far(positions: Doubles) -> bool:
+    """Whether coordinates are in single precision, which would not suffice for others at this place."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        single = positions.astype(np.float32)
+        return bool((single == positions).all()) and not single_suffices(positions + np.spacing(single) / 2.0)
 
 
 def text_table(row: str, columns: npt.NDArray[Any]) -> bytes:

@@ -21,7 +21,7 @@ from bsm.codec.geometry.welding import split_with_origin
 from bsm.files import conventions
 from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
-from bsm.files.room import Doubles, Ints, single_suffices
+from bsm.files.room import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
 from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn
 from bsm.gltf.document import TRANSFORM, WEBP, Growing, bounds_of, mime_of
@@ -67,7 +67,7 @@ class _Scene(Growing):
     def show(self, mesh: TriangleMesh, stem: str) -> None:
         """Place a mesh; its `primitives` come with the vertices of the mesh that theirs are."""
         if not single_suffices(mesh.positions):
-            raise MeshError("the coordinates need double precision, which GLB does not have; write PLY, OBJ or OFF")
+            raise MeshError(NO_DOUBLES.format("GLB"))
         split, origin = split_with_origin(mesh)
         material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]

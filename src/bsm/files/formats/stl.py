@@ -11,7 +11,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats.metadata import Written, face_numbers, left_out, named, text_of
 from bsm.files.formats.polygons import Column, Polygons
-from bsm.files.room import Doubles, Rows, single_suffices
+from bsm.files.room import NO_DOUBLES, Doubles, Rows, single_suffices
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 HEAD = 84  # bytes before the first record, the last four of them the number of triangles
@@ -111,7 +111,7 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str]]:
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     if not single_suffices(mesh.positions):
-        raise MeshError("the coordinates need double precision, which STL does not have; write PLY, OBJ or OFF")
+        raise MeshError(NO_DOUBLES.format("STL"))
     triangles = np.zeros(len(mesh.faces), RECORD)
     corners = mesh.positions[mesh.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

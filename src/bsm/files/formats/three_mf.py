@@ -16,7 +16,7 @@ from bsm.files import conventions
 from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
-from bsm.files.room import Doubles, Ints, as_library_error, single_suffices
+from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_library_error, single_suffices
 from bsm.lengths import metres
 
 _UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
@@ -224,7 +224,7 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     scale = size / _SIZES[1] if unit is None and size else 1.0
     model.SetUnit(library.ModelUnit(1 if unit is None else unit))
     if not single_suffices(positions := scale * mesh.positions @ place.turn.T):
-        raise MeshError(f"the coordinates need double precision, which 3MF does not have; {_ELSE}")
+        raise MeshError(NO_DOUBLES.format("3MF"))
     if repeated := int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum()):
         raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
     item = model.AddMeshObject()
