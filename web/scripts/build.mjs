@@ -29,7 +29,7 @@ const BARE = {
 };
 
 /** Modules that are files of their own beside the one that asks for them. */
-const BESIDE = { encode: "encode.js", errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
+const BESIDE = { encode: "encode.js", encoding: "encoding.js", errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
 const beside = (...names) => ({
     name: "beside",
     setup({ onResolve }) {
@@ -113,8 +113,10 @@ async function products() {
         "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
         "gltf-transform.js": await open("transform.ts", beside("encode", "errors", "index", "pool")),
         "babylon.js": await open("babylon.ts", beside("errors", "index", "pool")),
-        "encode.js": await open("encode.ts", beside("errors")),
-        "encode-worker.js": thread("encode.js"),
+        "encode.js": await open("encode.ts", beside("encoding", "errors")),
+        "reading.js": await open("reading.ts", beside("encode", "encoding", "errors")),
+        "encoding.js": await plain("encoding.ts", []),
+        "encode-worker.js": thread("encoding.js"),
         "player.js": await open("player.ts", beside("three")),
         "react.js": await open("react.ts", beside("three")),
     };

@@ -297,3 +297,24 @@ export class BSMPlayer extends Base {
 }
 
 if (globalThis.customElements && !customElements.get("bsm-player")) customElements.define("bsm-player", BSMPlayer);
+
+/** What the element takes in HTML, and in JSX beside what all elements do. */
+export interface BSMPlayerAttributes extends Partial<Pick<BSMPlayer, "src" | "loop" | "rate">> {
+    autoplay?: boolean;
+    poster?: string;
+    [other: string]: unknown;
+}
+
+declare global {
+    interface HTMLElementTagNameMap {
+        "bsm-player": BSMPlayer;
+    }
+}
+// @ts-ignore: only where React is
+declare module "react" {
+    namespace JSX {
+        interface IntrinsicElements {
+            "bsm-player": BSMPlayerAttributes;
+        }
+    }
+}

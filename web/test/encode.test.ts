@@ -7,7 +7,7 @@ import { join } from "node:path";
 import test, { describe } from "node:test";
 import { chromium } from "playwright-core";
 import { BufferAttribute, BufferGeometry, Mesh, TorusKnotGeometry } from "three";
-import { BSMExporter, encodeHere, encodeWith, meshOf, type MeshInput } from "../src/encode";
+import { BSMExporter, encodeHere, encodeWith, meshOf, type AttributeInput } from "../src/encode";
 import { decode } from "../src/index";
 import { POLICY, serveSite } from "./server";
 import { BUILDS, CHROMIUM, compile, FLAGS, PATIENCE, WEB } from "./shared";
@@ -17,11 +17,11 @@ const module = await WebAssembly.compile(wasm);
 const kernels = await compile(BUILDS[0]);
 
 /** A mesh with an attribute of each kind. */
-function dressed(): MeshInput {
+function dressed(): ReturnType<typeof meshOf> {
     const geometry = new TorusKnotGeometry(1, 0.3, 60, 8);
     const mesh = meshOf(geometry);
     const corners = mesh.faces.length;
-    const attributes = [
+    const attributes: AttributeInput[] = [
         ...(mesh.attributes ?? []),
         { name: "color", values: Uint8Array.from({ length: mesh.positions.length }, (_, i) => (7 * i) & 255), components: 3, semantic: "color" as const },
         { name: "part", values: Int32Array.from({ length: corners / 3 }, (_, i) => i & 3), components: 1, domain: "face" as const },
@@ -90,7 +90,7 @@ describe("encoding", () => {
         assert.throws(() => encodeWith(module, { ...mesh, faces: mesh.faces.map((v) => v + 1) }), /is vertex \d+ of \d+/);
         const far = Float64Array.from(mesh.positions, (x) => x + 1e7);
         assert.throws(() => encodeWith(module, { ...mesh, positions: far }, { lossless: true }), { name: "EncodeError", status: 10 });
-        await assert.rejects(new BSMExporter().parseAsync({} as Mesh), /meshes with a geometry/);
+        await assert.rejects(new BSMExporter().parseAsync({} as Mesh), /objects with meshes/);
         await assert.rejects(encodeHere({ ...mesh, positions: mesh.positions.slice(1) }, { wasm: module }), /three numbers/);
     });
 
@@ -130,7 +130,7 @@ describe("encoding", () => {
             assert.equal(decode(kernels, new Uint8Array(readFileSync(target))).faces.length, 3);
         }
         writeFileSync(source, "v 0 0 0\n");
-        assert.match(String(run(source, target).stderr), /two\.obj: no triangles/);
+        assert.match(String(run(source, target).stderr), /two\.obj: there are no meshes/);
         assert.equal(run(join(folder, "a.step"), target).status, 2);
         assert.equal(run(join(folder, "none.ply"), target).status, 1);
     });

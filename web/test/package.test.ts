@@ -1,7 +1,7 @@
 /** What `npm pack` makes: it has types, runs in Node, and is of the version that the Python package has. */
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
@@ -17,6 +17,7 @@ import { GLTFBSMExtension } from "bsm-decoder/gltf";
 import { EXTBSMCompression, loadSceneDecoder } from "bsm-decoder/gltf-transform";
 import { registerBSM } from "bsm-decoder/babylon";
 import { BSMPlayer } from "bsm-decoder/player";
+import { encode } from "bsm-decoder/encode";
 import { WebIO } from "@gltf-transform/core";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Mesh, type Group } from "three";
@@ -28,7 +29,9 @@ const scene: Promise<Group> = loader.loadScene("a.bsm");
 const sequence: Promise<BSMSequence> = loader.loadSequence("a.bsm");
 const geometry: Promise<BSMGeometry> = loader.parseAsync(new ArrayBuffer(8));
 const metadata: Metadata = new Map();
-export { BSMPlayer, registerBSM, gltf, io, decode, loadKernels, Pool, quick, scene, sequence, geometry, metadata };
+const blob: Promise<Blob> = encode({ positions: [0, 0, 0], faces: [0, 0, 0] }).then((bytes) => new Blob([bytes]));
+const playing: BSMSequence | undefined = document.querySelector("bsm-player")?.sequence;
+export { BSMPlayer, blob, playing, registerBSM, gltf, io, decode, loadKernels, Pool, quick, scene, sequence, geometry, metadata };
 `;
 const PROGRAM = `
 import { readFileSync } from "node:fs";
@@ -69,6 +72,16 @@ test("threads have names of their own, by which webpack makes files of them", ()
     const names = [...readFileSync(join(WEB, "built/pool.js"), "utf8").matchAll(/"\.\/[a-z-]*worker\.js",import\.meta\.url\),\{type:"module",name:"([^"]*)"/g)].map(([, name]) => name);
     assert.equal(new Set(names).size, 4);
     assert.equal(names.length, 4);
+});
+
+test("no file starts or imports one that leads back to it: bundlers would follow it for ever", () => {
+    const names = readdirSync(join(WEB, "built")).filter((name) => name.endsWith(".js"));
+    const next = new Map(names.map((name) => [name, [...readFileSync(join(WEB, "built", name), "utf8").matchAll(/"\.\/([\w-]+\.js)"/g)].map(([, other]) => other)]));
+    const walk = (name: string, path: string[]): void => {
+        assert.ok(!path.includes(name), `${[...path, name].join(" -> ")}`);
+        for (const other of next.get(name) ?? assert.fail(`${path.at(-1)} names ${name}, which is not there`)) walk(other, [...path, name]);
+    };
+    for (const name of names) walk(name, []);
 });
 
 describe("the package", () => {

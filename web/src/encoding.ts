@@ -1,0 +1,176 @@
+/** The encoder in C, compiled to WebAssembly: what its worker runs, and who encodes in the calling thread. */
+
+/** The quality of an attribute: "exact", a number of bits, the largest error, or of normals degrees or "recompute". */
+export type Quality = "exact" | "recompute" | { bits: number } | { bound: number } | { percent: number } | { degrees: number };
+
+/** Values of vertices, of corners or of faces, one after the other. */
+export interface AttributeInput {
+    name: string;
+    /** A typed array as it is; other numbers in single precision. */
+    values: ArrayLike<number>;
+    /** Numbers of a value, 1 to 4. */
+    components: number;
+    domain?: "vertex" | "corner" | "face";
+    semantic?: "generic" | "color" | "normal" | "texcoord";
+    /** Of corners: the value of each. */
+    indices?: ArrayLike<number>;
+    quality?: Quality;
+}
+
+export interface MeshInput {
+    positions: ArrayLike<number>;
+    /** Three vertices of each face. */
+    faces: ArrayLike<number>;
+    attributes?: readonly AttributeInput[];
+    metadata?: Record<string, string | number | Uint8Array>;
+}
+
+export interface EncodeOptions {
+    /** Bits of positions along the longest side, 1 to 20; 14 by default. */
+    bits?: number;
+    /** Positions at `origin` + k * `cell`, in place of bits. */
+    cell?: number;
+    origin?: readonly [number, number, number];
+    /** Every position and attribute to the bit, in single precision. */
+    lossless?: boolean;
+    /** The order of vertices and faces, and copies of vertices. */
+    keepOrder?: boolean;
+    /** Quick to decode, and some more bytes. */
+    quick?: boolean;
+    /** Of attributes by name. */
+    qualities?: Record<string, Quality>;
+    /** Is told what of a geometry or an object is left out; without it, the console is. */
+    onNote?: (note: string) => void;
+    /** Is told the finished part, from 0 to 1. */
+    onProgress?: (part: number) => void;
+    signal?: AbortSignal;
+    /** Where encode.wasm is; by default beside this module. */
+    wasm?: string | URL | BufferSource | WebAssembly.Module;
+}
+
+/** The mesh cannot be encoded so: the message says why. */
+export class EncodeError extends Error {
+    override readonly name = "EncodeError";
+    constructor(message: string, readonly status: number) {
+        super(message);
+    }
+}
+
+interface Exports {
+    memory: WebAssembly.Memory;
+    page_take(size: number): number;
+    page_give(memory: number, size: number): void;
+    encode_begin(vertices: number, faces: number, positions: number, single: number, corners: number): void;
+    encode_attribute(name: number, domain: number, semantic: number, kind: number, components: number, rows: number, values: number, indices: number, quality: number, amount: number): number;
+    encode_metadata(name: number, type: number, value: number, bytes: number, size: number): number;
+    encode_run(positions: number, bits: number, cell: number, x: number, y: number, z: number, keepOrder: number, quick: number): number;
+    encode_message(): number;
+    encode_bytes(): number;
+    encode_size(): number;
+    encode_end(): void;
+}
+
+/** Arrays that C takes, by the numbers of their kinds. */
+const KINDS = ["Uint8Array", "Int8Array", "Uint16Array", "Int16Array", "Uint32Array", "Int32Array", "Float32Array", "Float64Array"];
+const DOMAINS = ["vertex", "corner", "face"];
+const SEMANTICS = ["generic", "color", "normal", "texcoord"];
+
+function qualityOf(quality: Quality | undefined): [number, number] {
+    if (quality === undefined) return [0, 0];
+    if (quality === "exact") return [1, 0];
+    if (quality === "recompute") return [6, 0];
+    if ("bits" in quality) return [2, quality.bits];
+    if ("bound" in quality) return [3, quality.bound];
+    if ("percent" in quality) return [4, quality.percent];
+    return [5, quality.degrees];
+}
+
+/** The kind of an array, of any realm; undefined where C takes no such numbers. */
+export function kindOf(values: ArrayLike<number>): string | undefined {
+    const name = (values as Float32Array)[Symbol.toStringTag]?.replace("Clamped", "");
+    return KINDS.includes(name) ? name : undefined;
+}
+
+export function refuse(what: string): never {
+    throw new EncodeError(what, 2);
+}
+
+/** Numbers of vertices or values, none of them changed on its way to C. */
+export function wholes(values: ArrayLike<number>, what: string): Uint32Array {
+    if (kindOf(values) === "Uint32Array") return values as Uint32Array;
+    for (let i = 0; i < values.length; i++) if (values[i] !== values[i] >>> 0) refuse(`${what} are whole numbers from 0 on, not ${values[i]}`);
+    return Uint32Array.from(values);
+}
+
+/** Encode in this thread. */
+export function encodeWith(module: WebAssembly.Module, mesh: MeshInput, options: EncodeOptions = {}): Uint8Array<ArrayBuffer> {
+    let wrong: unknown;
+    const progress = (part: number): number => {
+        try {
+            options.onProgress?.(part);
+        } catch (error) {
+            wrong = error;
+            return 1;
+        }
+        return options.signal?.aborted ? 1 : 0;
+    };
+    const calls = new WebAssembly.Instance(module, { page: { progress } }).exports as unknown as Exports;
+    const put = (values: ArrayBufferView, zero = false): number => {
+        const size = values.byteLength + (zero ? 1 : 0);
+        const at = calls.page_take(size);
+        if (at === 0) throw new EncodeError("out of memory", 8);
+        const to = new Uint8Array(calls.memory.buffer, at, size);
+        to.set(new Uint8Array(values.buffer, values.byteOffset, values.byteLength));
+        if (zero) to[size - 1] = 0;
+        return at;
+    };
+    const text = (value: string): number => put(new TextEncoder().encode(value), true);
+    const { positions: given, attributes = [], metadata = {} } = mesh;
+    const faces = wholes(mesh.faces, "vertices of faces");
+    const isSingle = kindOf(given) === "Float32Array";
+    const positions = isSingle || kindOf(given) === "Float64Array" ? (given as Float64Array) : Float64Array.from(given);
+    if (positions.length % 3 || faces.length % 3) refuse("positions and faces are three numbers each");
+    const places = put(positions);
+    calls.encode_begin(positions.length / 3, faces.length / 3, isSingle ? 0 : places, isSingle ? places : 0, put(faces));
+    for (const { name, values: numbers, components, domain = "vertex", semantic = "generic", indices, quality } of attributes) {
+        const values = (kindOf(numbers) ? numbers : Float32Array.from(numbers)) as Float32Array;
+        const [way, amount] = qualityOf(options.qualities?.[name] ?? quality);
+        const rows = indices && domain === "corner" ? indices.length : values.length / components;
+        if (rows !== { vertex: positions.length / 3, corner: faces.length, face: faces.length / 3 }[domain]) refuse(`the attribute ${name} has not ${components} numbers for each ${domain}`);
+        if (name.includes("\0") || !Number.isFinite(amount)) refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
+        const row = [DOMAINS.indexOf(domain), SEMANTICS.indexOf(semantic), KINDS.indexOf(kindOf(values)!), components, values.length / components] as const;
+        if (!calls.encode_attribute(text(name), ...row, put(values), indices ? put(wholes(indices, `indices of ${name}`)) : 0, way, amount)) refuse("too many attributes");
+    }
+    for (const [name, value] of Object.entries(metadata)) {
+        if (typeof value !== "number" && typeof value !== "string" && kindOf(value) !== "Uint8Array") refuse(`the metadata ${name} are neither a number nor a string nor bytes`);
+        const bytes = typeof value === "number" ? new Uint8Array() : typeof value === "string" ? new TextEncoder().encode(value) : value;
+        const type = typeof value === "number" ? (Number.isSafeInteger(value) ? 1 : 2) : typeof value === "string" ? 3 : 4;
+        if (!calls.encode_metadata(text(name), type, typeof value === "number" ? value : 0, put(bytes), bytes.length)) refuse("too much metadata");
+    }
+    const { bits = 0, cell = 0, origin = [0, 0, 0], lossless = false, keepOrder = false, quick = false } = options;
+    if (![bits, cell, ...origin].every(Number.isFinite)) refuse("bits, cell and origin are finite numbers");
+    const status = calls.encode_run(lossless ? 2 : cell > 0 ? 1 : 0, bits, cell, ...origin, Number(keepOrder), Number(quick));
+    if (wrong) throw wrong;
+    options.signal?.throwIfAborted();
+    if (status !== 0) {
+        const bytes = new Uint8Array(calls.memory.buffer, calls.encode_message());
+        throw new EncodeError(new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0))), status);
+    }
+    const at = calls.encode_bytes();
+    return new Uint8Array(calls.memory.buffer).slice(at, at + calls.encode_size());
+}
+
+export type Answer = { part: number } | { bytes: Uint8Array<ArrayBuffer> } | { message: string; status: number };
+
+/** A worker, for one mesh. */
+export function serve(): void {
+    const scope = globalThis as unknown as { onmessage: unknown; postMessage(answer: Answer, transferred?: Transferable[]): void };
+    scope.onmessage = ({ data: { module, mesh, options } }: MessageEvent<{ module: WebAssembly.Module; mesh: MeshInput; options: EncodeOptions }>) => {
+        try {
+            const bytes = encodeWith(module, mesh, { ...options, onProgress: (part) => scope.postMessage({ part }) });
+            scope.postMessage({ bytes }, [bytes.buffer]);
+        } catch (error) {
+            scope.postMessage({ message: error instanceof Error ? error.message : String(error), status: error instanceof EncodeError ? error.status : 1 });
+        }
+    };
+}

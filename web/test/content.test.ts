@@ -1,0 +1,149 @@
+/** What objects of three.js hold, row by row of the table of README.md: kept, refused or noted. */
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import test, { describe } from "node:test";
+import {
+    BoxGeometry, BufferAttribute, BufferGeometry, Float16BufferAttribute, Group, InstancedBufferAttribute, InstancedBufferGeometry, InstancedMesh, InterleavedBuffer,
+    InterleavedBufferAttribute, LOD, Mesh, MeshBasicMaterial, Points, SkinnedMesh, SphereGeometry, Texture,
+} from "three";
+import { encodeHere, EncodeError, type EncodeOptions, type GeometryInput, type MeshInput, type ObjectInput } from "../src/encode";
+import { decode, type Attribute } from "../src/index";
+import { BUILDS, compile, WEB } from "./shared";
+
+const wasm = await WebAssembly.compile(readFileSync(join(WEB, "built/encode.wasm")));
+const kernels = await compile(BUILDS[0]);
+
+interface Found {
+    low: number[];
+    high: number[];
+    faces: number;
+    attribute: (name: string) => Attribute | undefined;
+    notes: string[];
+    /** Whether faces look away from the middle of their mesh. */
+    volume: number;
+}
+
+/** What comes back of what was encoded exactly. */
+async function back(given: MeshInput | GeometryInput | ObjectInput, options: EncodeOptions = { lossless: true }): Promise<Found> {
+    const notes: string[] = [];
+    const { positions: p, faces, attributes } = decode(kernels, await encodeHere(given, { ...options, wasm, onNote: (note) => notes.push(note) }));
+    const ends = (end: (...numbers: number[]) => number): number[] => [0, 1, 2].map((d) => Math.fround(end(...p.filter((_, i) => i % 3 === d))));
+    let volume = 0;
+    for (let i = 0; i < faces.length; i += 3) {
+        const [a, b, c] = [0, 1, 2].map((k) => p.subarray(3 * faces[i + k], 3 * faces[i + k] + 3));
+        volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+    }
+    return { low: ends(Math.min), high: ends(Math.max), faces: faces.length / 3, attribute: (name) => attributes.find((each) => each.name === name), notes, volume };
+}
+
+const box = (): BufferGeometry => new BoxGeometry(2, 2, 2);
+const positions = (geometry: BufferGeometry, attribute: BufferAttribute | InterleavedBufferAttribute): BufferGeometry => geometry.setAttribute("position", attribute);
+const moved = (mesh: Mesh): Mesh => (mesh.position.set(5, 0, 0), mesh.scale.set(1, 1, -2), new Group().add(mesh), mesh);
+const CUBE = [-1, -1, -1];
+
+describe("kept", () => {
+    const half = (): number[] => [...box().getAttribute("position").array].map((x) => (x > 0 ? 0x3c00 : 0xbc00));
+    const whole = (one: number): number[] => [...box().getAttribute("position").array].map((x) => one * x);
+    const spaced = (): InterleavedBufferAttribute => {
+        const { array } = box().getAttribute("position");
+        const buffer = new InterleavedBuffer(Int16Array.from({ length: (4 * array.length) / 3 }, (_, i) => (i % 4 ? 32767 * array[3 * (i >> 2) + (i % 4) - 1] : 7)), 4);
+        return new InterleavedBufferAttribute(buffer, 3, 1, true);
+    };
+    for (const [what, geometry] of Object.entries({
+        "normalized int16": positions(box(), new BufferAttribute(Int16Array.from(whole(32767)), 3, true)),
+        "normalized int8": positions(box(), new BufferAttribute(Int8Array.from(whole(127)), 3, true)),
+        "plain int32": positions(box(), new BufferAttribute(Int32Array.from(whole(1)), 3)),
+        "half floats": positions(box(), new Float16BufferAttribute(Uint16Array.from(half()), 3)),
+        doubles: positions(box(), new BufferAttribute(Float64Array.from(whole(1)), 3)),
+        "interleaved, normalized": positions(box(), spaced()),
+        "no index": box().toNonIndexed(),
+    })) {
+        test(`positions: ${what}`, async () => {
+            const found = await back(geometry);
+            assert.deepEqual([found.low, found.high, found.faces], [CUBE, [1, 1, 1], 12]);
+        });
+    }
+
+    test("other attributes as the numbers that they stand for, colors of bytes as bytes", async () => {
+        const geometry = box();
+        const { count } = geometry.getAttribute("position");
+        geometry.setAttribute("uv", new BufferAttribute(Uint16Array.from({ length: 2 * count }, () => 65535), 2, true));
+        geometry.setAttribute("color", new BufferAttribute(Uint8Array.from({ length: 4 * count }, () => 200), 4, true));
+        geometry.setAttribute("heat", new BufferAttribute(Float32Array.from({ length: count }, (_, i) => i), 1));
+        const { attribute } = await back(geometry);
+        assert.deepEqual([attribute("uv")!.values[0], attribute("color")!.kind, attribute("color")!.values[0], attribute("heat")!.kind], [1, "uint8", 200, "float32"]);
+    });
+
+    test("the draw range, and the materials of groups", async () => {
+        const geometry = box();
+        geometry.setDrawRange(6, 12);
+        const found = await back(geometry);
+        assert.equal(found.faces, 4);
+        assert.deepEqual([...new Set(found.attribute("material")!.values)].sort(), [1, 2]);
+    });
+
+    test("where an object is, what it mirrors, its parts, and their materials", async () => {
+        const one = await back(moved(new Mesh(new SphereGeometry(1, 8, 6))));
+        assert.deepEqual([one.low[0], one.high[2]], [4, 2]);
+        assert.ok(one.volume > 0, "turned inside out");
+        const normals = one.attribute("normal")!.values;
+        assert.ok(Math.abs(Math.hypot(...normals.subarray(0, 3)) - 1) < 1e-3);
+        const group = new Group().add(new Mesh(box(), new MeshBasicMaterial({ name: "red" })), moved(new Mesh(box(), new MeshBasicMaterial({ name: "blue" }))));
+        const both = await back(group);
+        assert.deepEqual([both.low, both.high, both.faces], [[-1, -1, -2], [6, 1, 2], 24]);
+        assert.deepEqual([[...new Set(both.attribute("part")!.values)], [...new Set(both.attribute("material")!.values)]].map((each) => each.sort()), [[0, 1], [0, 1]]);
+    });
+
+    test("plain arrays, and whole numbers as positions", async () => {
+        const flat = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], faces: [0, 2, 1] };
+        for (const mesh of [flat, { ...flat, positions: Int16Array.from(flat.positions) }, { ...flat, faces: Uint16Array.from(flat.faces) }]) {
+            const found = await back(mesh);
+            assert.deepEqual([found.low, found.high, found.faces], [[0, 0, 0], [1, 1, 0], 1]);
+        }
+        const mesh = { ...flat, attributes: [{ name: "heat", values: [1, 2, 3], components: 1 }] };
+        assert.deepEqual([...(await back(mesh)).attribute("heat")!.values].sort(), [1, 2, 3]);
+    });
+});
+
+describe("refused", () => {
+    const morphed = (): BufferGeometry => {
+        const geometry = box();
+        geometry.morphAttributes.position = [geometry.getAttribute("position").clone() as BufferAttribute];
+        return geometry;
+    };
+    const instanced = (): BufferGeometry => box().setAttribute("shift", new InstancedBufferAttribute(new Float32Array(6), 3));
+    const mesh = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], faces: [0, 1, 2] };
+    const corners = { name: "uv", values: [0, 0, 1, 1], components: 2, domain: "corner" as const };
+    for (const [what, [given, said, options]] of Object.entries({
+        "morph targets": [morphed(), /morph targets/],
+        "morph targets of an object": [new Mesh(morphed()), /morph targets/],
+        skins: [new SkinnedMesh(box()), /skins/],
+        instances: [new InstancedMesh(box(), undefined, 2), /instances/],
+        "instances of a geometry": [new InstancedBufferGeometry().copy(box() as InstancedBufferGeometry), /instances/],
+        "instances of an attribute": [instanced(), /instances/],
+        "levels of detail": [new LOD().addLevel(new Mesh(box())), /levels of detail/],
+        points: [new Points(box()), /only points and lines/],
+        "nothing that can be seen": [Object.assign(new Mesh(box()), { visible: false }), /only what is invisible/],
+        "a half vertex": [{ ...mesh, faces: [0, 0.5, 2] }, /whole numbers/],
+        "a vertex below 0": [{ ...mesh, faces: [0, -1, 2] }, /whole numbers/],
+        "short indices": [{ ...mesh, attributes: [{ ...corners, indices: [0, 1] }] }, /for each corner/],
+        "short values": [{ ...mesh, attributes: [{ ...corners, domain: "vertex" as const }] }, /for each vertex/],
+        "metadata of no kind": [{ ...mesh, metadata: { on: true as unknown as string } }, /metadata on/],
+        "bits that are no number": [mesh, /finite/, { bits: NaN }],
+        "a cell that is no number": [mesh, /finite/, { cell: NaN }],
+        "a bound that is no number": [{ ...mesh, attributes: [{ name: "heat", values: [1, 2, 3], components: 1, quality: { bound: NaN } }] }, /quality/],
+    } as Record<string, [MeshInput | GeometryInput | ObjectInput, RegExp, EncodeOptions?]>)) {
+        test(what, async () => {
+            await assert.rejects(back(given, options), (error: Error) => error instanceof EncodeError && said.test(error.message) || assert.fail(`${error}`));
+        });
+    }
+});
+
+test("noted: points beside meshes, what is invisible, what some parts lack, wide attributes, textures", async () => {
+    const wide = box().setAttribute("wide", new BufferAttribute(new Float32Array(24 * 16), 16));
+    const group = new Group().add(new Mesh(wide, new MeshBasicMaterial({ map: new Texture() })), new Mesh(box().deleteAttribute("uv")), new Points(box()), Object.assign(new Mesh(box()), { visible: false }));
+    const { notes, faces } = await back(group);
+    assert.equal(faces, 24);
+    assert.deepEqual(notes, ["Left out: points and lines, what is invisible, uv, wide, textures."]);
+});
