@@ -29,7 +29,7 @@ const BARE = {
 };
 
 /** Modules that are files of their own beside the one that asks for them. */
-const BESIDE = { encode: "encode.js", encoding: "encoding.js", errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
+const BESIDE = { content: "content.js", encode: "encode.js", encoding: "encoding.js", errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
 const beside = (...names) => ({
     name: "beside",
     setup({ onResolve }) {
@@ -113,8 +113,9 @@ async function products() {
         "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
         "gltf-transform.js": await open("transform.ts", beside("encode", "errors", "index", "pool")),
         "babylon.js": await open("babylon.ts", beside("errors", "index", "pool")),
-        "encode.js": await open("encode.ts", beside("encoding", "errors")),
-        "reading.js": await open("reading.ts", beside("encode", "encoding", "errors")),
+        "encode.js": await open("encode.ts", beside("content", "encoding", "errors")),
+        "reading.js": await open("reading.ts", beside("content", "encode", "encoding", "errors")),
+        "content.js": await open("content.ts", beside("encoding")),
         "encoding.js": await plain("encoding.ts", []),
         "encode-worker.js": thread("encoding.js"),
         "player.js": await open("player.ts", beside("three")),

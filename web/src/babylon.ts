@@ -2,7 +2,7 @@
 import type { AbstractMesh } from "@babylonjs/core/Meshes/abstractMesh.js";
 import type { GLTFLoader, IBufferView, IGLTFLoaderExtension, IMesh, IMeshPrimitive, INode } from "@babylonjs/loaders/glTF/2.0/index.js";
 import { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
-import type { FramePicture, Shape } from "./index";
+import type { FramePicture, Picture, Shape } from "./index";
 import { Playback } from "./playback";
 import { Pool, type StreamDecoding } from "./pool";
 import { CodedViews, EXTENSION, placeOf, type Coded } from "./views";
@@ -118,41 +118,19 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
 
     private async decode(context: string, view: IBufferView): Promise<Shape> {
         const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${view.index}`, view);
-        return new Promise((resolve, fail) => {
-            let [shape, sequence, rate]: [Shape?, Played?, unknown?] = [];
-            const onError = (error: unknown): void => {
-                if (sequence) sequence.complete = true;
-                this.loader.log(`${context}: ${error}`);
-                fail(error);
-            };
-            const decoding = this.pool.open(
-                {
-                    onPicture: (picture) => {
-                        try {
-                            this.streams.drawn(picture);
-                        } catch (error) {
-                            return onError(error);
-                        }
-                        if (picture.type === "whole") ({ shape } = picture);
-                        if (picture.type === "metadata") rate = picture.entries.get("frame_rate") ?? rate;
-                        if (picture.type !== "frame" || !shape) return;
-                        if (!sequence) this.sequences.set(placeOf(view), (sequence = new Played(Number(rate ?? 0), decoding)));
-                        sequence.frames.push({ picture, shape });
-                        resolve(sequence.frames[0].shape);
-                    },
-                    onEnd: () => {
-                        if (sequence) sequence.complete = true;
-                        else if (shape) resolve(shape);
-                        else fail(new Error(`${context}: bufferView ${view.index} is a stream without a mesh`));
-                    },
-                    onError,
-                },
-                { drawing: "whole" },
-            );
-            this.streams.watch(decoding);
-            decoding.receiveData(new Uint8Array(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer));
-            decoding.receiveEof();
-        });
+        let [shape, sequence, rate]: [Shape?, Played?, unknown?] = [];
+        const take = (picture: Picture, decoding: StreamDecoding): void => {
+            if (picture.type === "whole") ({ shape } = picture);
+            if (picture.type === "metadata") rate = picture.entries.get("frame_rate") ?? rate;
+            if (picture.type !== "frame" || !shape) return;
+            if (!sequence) this.sequences.set(placeOf(view), (sequence = new Played(Number(rate ?? 0), decoding)));
+            sequence.frames.push({ picture, shape });
+        };
+        const end = (error?: unknown): void => {
+            if (sequence) sequence.complete = true;
+            if (error) this.loader.log(`${context}: ${error}`);
+        };
+        return this.streams.decode(this.pool, new Uint8Array(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer), `${context}: bufferView ${view.index}`, take, end);
     }
 }
 

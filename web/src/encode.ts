@@ -1,10 +1,12 @@
 /** Meshes to streams: `encode` runs the encoder in a worker, `encodeHere` where it is called. */
-import { meshOf, type GeometryInput, type ObjectInput } from "./content";
+import type { BufferGeometry, Object3D } from "three";
 import { EncodeError, encodeWith, type Answer, type EncodeOptions, type MeshInput } from "./encoding";
 import { compiled } from "./fetched";
 
-export { meshOf, type GeometryInput, type ObjectInput } from "./content";
 export { EncodeError, encodeWith, type AttributeInput, type EncodeOptions, type MeshInput, type Quality } from "./encoding";
+
+/** A `BufferGeometry` or an `Object3D` of three.js. */
+export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
 
 let loaded: Promise<WebAssembly.Module> | undefined;
 
@@ -17,13 +19,14 @@ export function loadEncoder(wasm: EncodeOptions["wasm"] = new URL("./encode.wasm
     return loaded;
 }
 
-function wholeOf(input: MeshInput | GeometryInput | ObjectInput, { onNote }: EncodeOptions): MeshInput {
-    return "positions" in input ? input : meshOf(input, onNote);
+/** A mesh as it is given, or as three.js draws it, which is there then. */
+async function wholeOf(input: MeshInput | Drawn, { onNote }: EncodeOptions): Promise<MeshInput> {
+    return "positions" in input ? input : (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
 }
 
 /** Encode in this thread, which waits for that. */
-export async function encodeHere(input: MeshInput | GeometryInput | ObjectInput, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
-    return encodeWith(await loadEncoder(options.wasm), wholeOf(input, options), options);
+export async function encodeHere(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
+    return encodeWith(await loadEncoder(options.wasm), await wholeOf(input, options), options);
 }
 
 /** A worker; undefined where there can be none. */
@@ -40,10 +43,10 @@ function started(): Worker | undefined {
  *
  *     const bytes = await encode(mesh.geometry, { bits: 14, onProgress: console.log });
  */
-export async function encode(input: MeshInput | GeometryInput | ObjectInput, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
+export async function encode(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
     const { onProgress, onNote: _, signal, wasm, ...plain } = options;
     signal?.throwIfAborted();
-    const [module, mesh] = [await loadEncoder(wasm), wholeOf(input, options)];
+    const [module, mesh] = await Promise.all([loadEncoder(wasm), wholeOf(input, options)]);
     const worker = started();
     if (!worker) return encodeWith(module, mesh, options);
     try {
@@ -72,12 +75,12 @@ export async function encode(input: MeshInput | GeometryInput | ObjectInput, opt
  */
 export class BSMExporter {
     /** Encode, and call `onDone` with the stream, or `onError`. */
-    parse(object: ObjectInput | GeometryInput, onDone: (bytes: Uint8Array<ArrayBuffer>) => void, onError?: (error: unknown) => void, options: EncodeOptions = {}): void {
+    parse(object: Drawn, onDone: (bytes: Uint8Array<ArrayBuffer>) => void, onError?: (error: unknown) => void, options: EncodeOptions = {}): void {
         this.parseAsync(object, options).then(onDone, onError ?? ((error: unknown) => console.error(error)));
     }
 
-    async parseAsync(object: ObjectInput | GeometryInput, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
-        if (!("attributes" in object) && !("matrixWorld" in object)) throw new EncodeError("BSMExporter writes geometries, and objects with meshes", 2);
+    async parseAsync(object: Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
+        if (!("isBufferGeometry" in object || "isObject3D" in object)) throw new EncodeError("BSMExporter writes geometries, and objects with meshes", 2);
         return encode(object, options);
     }
 }

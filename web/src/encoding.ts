@@ -1,4 +1,5 @@
 /** The encoder in C, compiled to WebAssembly: what its worker runs, and who encodes in the calling thread. */
+import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
 
 /** The quality of an attribute: "exact", a number of bits, the largest error, or of normals degrees or "recompute". */
 export type Quality = "exact" | "recompute" | { bits: number } | { bound: number } | { percent: number } | { degrees: number };
@@ -10,8 +11,8 @@ export interface AttributeInput {
     values: ArrayLike<number>;
     /** Numbers of a value, 1 to 4. */
     components: number;
-    domain?: "vertex" | "corner" | "face";
-    semantic?: "generic" | "color" | "normal" | "texcoord";
+    domain?: Attribute["domain"];
+    semantic?: Attribute["semantic"];
     /** Of corners: the value of each. */
     indices?: ArrayLike<number>;
     quality?: Quality;
@@ -56,39 +57,15 @@ export class EncodeError extends Error {
     }
 }
 
-interface Exports {
-    memory: WebAssembly.Memory;
-    page_take(size: number): number;
-    page_give(memory: number, size: number): void;
-    encode_begin(vertices: number, faces: number, positions: number, single: number, corners: number): void;
-    encode_attribute(name: number, domain: number, semantic: number, kind: number, components: number, rows: number, values: number, indices: number, quality: number, amount: number): number;
-    encode_metadata(name: number, type: number, value: number, bytes: number, size: number): number;
-    encode_run(positions: number, bits: number, cell: number, x: number, y: number, z: number, keepOrder: number, quick: number): number;
-    encode_message(): number;
-    encode_bytes(): number;
-    encode_size(): number;
-    encode_end(): void;
-}
+/** The functions of `library/wasm/encode.c`. */
+type Exports = { memory: WebAssembly.Memory } & Record<`page_${string}` | `encode_${string}`, (...numbers: number[]) => number>;
 
-/** Arrays that C takes, by the numbers of their kinds. */
-const KINDS = ["Uint8Array", "Int8Array", "Uint16Array", "Int16Array", "Uint32Array", "Int32Array", "Float32Array", "Float64Array"];
-const DOMAINS = ["vertex", "corner", "face"];
-const SEMANTICS = ["generic", "color", "normal", "texcoord"];
-
-function qualityOf(quality: Quality | undefined): [number, number] {
-    if (quality === undefined) return [0, 0];
-    if (quality === "exact") return [1, 0];
-    if (quality === "recompute") return [6, 0];
-    if ("bits" in quality) return [2, quality.bits];
-    if ("bound" in quality) return [3, quality.bound];
-    if ("percent" in quality) return [4, quality.percent];
-    return [5, quality.degrees];
-}
+/** As `bsmenc_quality` numbers them. */
+const WAYS = ["default", "exact", "bits", "bound", "percent", "degrees", "recompute"];
 
 /** The kind of an array, of any realm; undefined where C takes no such numbers. */
-export function kindOf(values: ArrayLike<number>): string | undefined {
-    const name = (values as Float32Array)[Symbol.toStringTag]?.replace("Clamped", "");
-    return KINDS.includes(name) ? name : undefined;
+export function kindOf(values: ArrayLike<number>): Attribute["kind"] | undefined {
+    return KINDS.find((kind) => (values as Float32Array)[Symbol.toStringTag]?.replace("Clamped", "").toLowerCase() === `${kind}array`);
 }
 
 export function refuse(what: string): never {
@@ -97,7 +74,7 @@ export function refuse(what: string): never {
 
 /** Numbers of vertices or values, none of them changed on its way to C. */
 export function wholes(values: ArrayLike<number>, what: string): Uint32Array {
-    if (kindOf(values) === "Uint32Array") return values as Uint32Array;
+    if (kindOf(values) === "uint32") return values as Uint32Array;
     for (let i = 0; i < values.length; i++) if (values[i] !== values[i] >>> 0) refuse(`${what} are whole numbers from 0 on, not ${values[i]}`);
     return Uint32Array.from(values);
 }
@@ -127,22 +104,23 @@ export function encodeWith(module: WebAssembly.Module, mesh: MeshInput, options:
     const text = (value: string): number => put(new TextEncoder().encode(value), true);
     const { positions: given, attributes = [], metadata = {} } = mesh;
     const faces = wholes(mesh.faces, "vertices of faces");
-    const isSingle = kindOf(given) === "Float32Array";
-    const positions = isSingle || kindOf(given) === "Float64Array" ? (given as Float64Array) : Float64Array.from(given);
+    const isSingle = kindOf(given) === "float32";
+    const positions = isSingle || kindOf(given) === "float64" ? (given as Float64Array) : Float64Array.from(given);
     if (positions.length % 3 || faces.length % 3) refuse("positions and faces are three numbers each");
     const places = put(positions);
     calls.encode_begin(positions.length / 3, faces.length / 3, isSingle ? 0 : places, isSingle ? places : 0, put(faces));
     for (const { name, values: numbers, components, domain = "vertex", semantic = "generic", indices, quality } of attributes) {
         const values = (kindOf(numbers) ? numbers : Float32Array.from(numbers)) as Float32Array;
-        const [way, amount] = qualityOf(options.qualities?.[name] ?? quality);
+        const asked = options.qualities?.[name] ?? quality ?? "default";
+        const [way, amount] = typeof asked === "string" ? [asked, 0] : Object.entries(asked)[0];
         const rows = indices && domain === "corner" ? indices.length : values.length / components;
         if (rows !== { vertex: positions.length / 3, corner: faces.length, face: faces.length / 3 }[domain]) refuse(`the attribute ${name} has not ${components} numbers for each ${domain}`);
-        if (name.includes("\0") || !Number.isFinite(amount)) refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
+        if (name.includes("\0") || !Number.isFinite(amount) || !WAYS.includes(way)) refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
         const row = [DOMAINS.indexOf(domain), SEMANTICS.indexOf(semantic), KINDS.indexOf(kindOf(values)!), components, values.length / components] as const;
-        if (!calls.encode_attribute(text(name), ...row, put(values), indices ? put(wholes(indices, `indices of ${name}`)) : 0, way, amount)) refuse("too many attributes");
+        if (!calls.encode_attribute(text(name), ...row, put(values), indices ? put(wholes(indices, `indices of ${name}`)) : 0, WAYS.indexOf(way), amount)) refuse("too many attributes");
     }
     for (const [name, value] of Object.entries(metadata)) {
-        if (typeof value !== "number" && typeof value !== "string" && kindOf(value) !== "Uint8Array") refuse(`the metadata ${name} are neither a number nor a string nor bytes`);
+        if (typeof value !== "number" && typeof value !== "string" && kindOf(value) !== "uint8") refuse(`the metadata ${name} are neither a number nor a string nor bytes`);
         const bytes = typeof value === "number" ? new Uint8Array() : typeof value === "string" ? new TextEncoder().encode(value) : value;
         const type = typeof value === "number" ? (Number.isSafeInteger(value) ? 1 : 2) : typeof value === "string" ? 3 : 4;
         if (!calls.encode_metadata(text(name), type, typeof value === "number" ? value : 0, put(bytes), bytes.length)) refuse("too much metadata");

@@ -1,9 +1,9 @@
 /** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in three.js: a plug-in of GLTFLoader. */
 import { Mesh } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
-import type { Shape } from "./index";
+import type { Picture, Shape } from "./index";
 import { BSMGeometry, BSMSequence } from "./three";
-import { Pool } from "./pool";
+import { Pool, type StreamDecoding } from "./pool";
 import { CodedViews, EXTENSION, placeOf, type Coded } from "./views";
 
 let shared: Pool | undefined;
@@ -52,39 +52,15 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
     }
 
     private async decode(stream: number): Promise<Shape> {
-        const data = new Uint8Array((await this.parser.getDependency("bufferView", stream)) as ArrayBuffer);
-        return new Promise((resolve, fail) => {
-            let shape: Shape | undefined;
-            let sequence: BSMSequence | undefined;
-            const geometry = new BSMGeometry();
-            const onError = (error: unknown): void => (sequence ? sequence.fail(error) : fail(error));
-            const decoding = this.pool.open(
-                {
-                    onPicture: (picture) => {
-                        try {
-                            this.streams.drawn(picture);
-                        } catch (error) {
-                            return onError(error);
-                        }
-                        if (picture.type === "whole") ({ shape } = picture);
-                        geometry.accept(picture);
-                        if (picture.type !== "frame" || picture.index > 0 || !shape) return;
-                        this.sequences.set(this.placeOf(stream), (sequence = new BSMSequence(geometry)));
-                        sequence.addEventListener("dispose", () => decoding.close());
-                        resolve(shape);
-                    },
-                    onEnd: () => {
-                        if (sequence) sequence.complete = true;
-                        else if (shape) resolve(shape);
-                        else fail(new Error(`bufferView ${stream} is a stream without a mesh`));
-                    },
-                    onError,
-                },
-                { drawing: "whole" },
-            );
-            this.streams.watch(decoding);
-            decoding.receiveData(data.slice());
-            decoding.receiveEof();
-        });
+        const data = new Uint8Array((await this.parser.getDependency("bufferView", stream)) as ArrayBuffer).slice();
+        const geometry = new BSMGeometry();
+        let sequence: BSMSequence | undefined;
+        const take = (picture: Picture, decoding: StreamDecoding): void => {
+            geometry.accept(picture);
+            if (picture.type !== "frame" || sequence) return;
+            this.sequences.set(this.placeOf(stream), (sequence = new BSMSequence(geometry)));
+            sequence.addEventListener("dispose", () => decoding.close());
+        };
+        return this.streams.decode(this.pool, data, `bufferView ${stream}`, take, (error) => (error ? sequence?.fail(error) : sequence && (sequence.complete = true)));
     }
 }

@@ -1,5 +1,5 @@
 /** `<bsm-player src="horse.bsm">`: a mesh, a scene or a sequence on a page of plain HTML, drawn by three.js. */
-import { DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture, Vector3 } from "three";
+import { Box3, DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { hang, redraw, takeDown } from "./easel";
 import type { BSMGeometry } from "./geometry";
@@ -39,7 +39,7 @@ export class BSMPlayer extends Base {
     sequence?: BSMSequence;
     private content?: Group;
     /** What the mesh fills, of a sequence in all of `fitted` frames. */
-    private readonly ball = new Sphere(new Vector3(), 1);
+    private ball = new Sphere(new Vector3(), 1);
     private fitted = 0;
     /** Whether the reader has moved the camera. */
     private touched = false;
@@ -203,20 +203,19 @@ export class BSMPlayer extends Base {
             if (index > 0 || !mine()) return;
             first = this.show(geometry, mine, (moving = new BSMSequence(geometry, false))).catch(failed);
         };
+        /** No more frames will come. */
+        const settle = (): void => {
+            if (!moving) return;
+            moving.complete = true;
+            void first?.then(() => mine() && this.content && this.measure(moving!.geometry));
+        };
         const onLoad = (geometry: BSMGeometry): void => {
-            if (moving) moving.complete = true;
-            (first ?? this.show(geometry, mine)).then(() => {
-                if (!mine()) return;
-                if (moving) this.measure(geometry);
-                this.say("load");
-            }, failed);
+            settle();
+            (first ?? this.show(geometry, mine)).then(() => mine() && this.say("load"), failed);
         };
         const onError = (error: unknown): void => {
-            if (moving) moving.complete = true;
-            void Promise.resolve(first).then(() => {
-                if (moving && this.content && mine()) this.measure(moving.geometry);
-                failed(error);
-            });
+            settle();
+            void Promise.resolve(first).then(() => failed(error));
         };
         this.loader.load(this.src, onLoad, onProgress, onError, { onFrame, signal });
     }
@@ -238,19 +237,12 @@ export class BSMPlayer extends Base {
     }
 
     /** Look at all of it, in all frames that are there. */
-    private measure({ frames, attributes: { position } }: BSMGeometry): void {
-        const clouds = frames.length > 0 ? frames.map(({ positions }) => positions) : [position.array];
-        const [low, high, point] = [Infinity, -Infinity, 0].map((far) => new Vector3(far, far, far));
-        const over = (act: (point: Vector3) => void): void => clouds.forEach((cloud) => {
-            for (let i = 0; i < cloud.length; i += 3) act(point.fromArray(cloud, i));
-        });
-        over(() => (low.min(point), high.max(point)));
-        const { ball, content } = this;
-        [this.fitted, ball.radius] = [clouds.length, 0];
-        ball.center.addVectors(low, high).divideScalar(2);
-        over(() => (ball.radius = Math.max(ball.radius, point.distanceToSquared(ball.center))));
-        ball.radius = Math.sqrt(ball.radius) || 1;
-        ball.center.applyEuler(content!.rotation);
+    private measure({ frames, boundingSphere }: BSMGeometry): void {
+        const [all, one] = [new Box3(), new Box3()];
+        for (const { positions } of frames) all.union(one.setFromArray(positions));
+        this.fitted = frames.length;
+        this.ball = frames.length > 0 ? all.getBoundingSphere(new Sphere()) : boundingSphere!.clone();
+        this.ball.center.applyEuler(this.content!.rotation);
         this.fit();
     }
 
@@ -258,7 +250,7 @@ export class BSMPlayer extends Base {
     private aim(): void {
         const { ball: { center, radius }, camera, controls } = this;
         const half = Math.atan(Math.tan((Math.PI / 360) * camera.fov) * Math.min(camera.aspect, 1));
-        const far = (ROOM * radius) / Math.sin(half);
+        const far = (ROOM * radius) / Math.sin(half) || 1;
         [camera.near, camera.far] = [far / 100, 10 * far];
         camera.position.copy(FRONT).multiplyScalar(far).add(center);
         controls?.target.copy(center);
@@ -298,13 +290,6 @@ export class BSMPlayer extends Base {
 
 if (globalThis.customElements && !customElements.get("bsm-player")) customElements.define("bsm-player", BSMPlayer);
 
-/** What the element takes in HTML, and in JSX beside what all elements do. */
-export interface BSMPlayerAttributes extends Partial<Pick<BSMPlayer, "src" | "loop" | "rate">> {
-    autoplay?: boolean;
-    poster?: string;
-    [other: string]: unknown;
-}
-
 declare global {
     interface HTMLElementTagNameMap {
         "bsm-player": BSMPlayer;
@@ -314,7 +299,7 @@ declare global {
 declare module "react" {
     namespace JSX {
         interface IntrinsicElements {
-            "bsm-player": BSMPlayerAttributes;
+            "bsm-player": Record<string, unknown>;
         }
     }
 }

@@ -79,11 +79,6 @@ function readPly(bytes: ArrayBuffer, lost: Set<string>): BufferGeometry {
     const fine = /^property (uchar|uint8) red$/m.test(header); // the loader would round these as linear numbers
     if (fine) loader.setCustomPropertyNameMapping({ bytes: ["red", "green", "blue"] });
     const geometry = loader.parse(bytes);
-    if (fine) {
-        const [values, color] = [Float32Array.from(geometry.attributes.bytes.array, (value) => value / 255), new Color()];
-        for (let i = 0; i < values.length; i += 3) color.fromArray(values, i).convertSRGBToLinear().toArray(values, i);
-        geometry.setAttribute("color", new BufferAttribute(values, 3)).deleteAttribute("bytes");
-    }
     if ((geometry.index?.count ?? 0) / 3 < faces) throw new Error("It has faces of more than four corners, which are not read here.");
     return geometry.index ? geometry : new BufferGeometry(); // points
 }
@@ -94,7 +89,8 @@ function plainOf(geometry: BufferGeometry, flipped: boolean, lost: Set<string>):
     plain.groups = geometry.groups;
     const color = new Color();
     for (const [name, attribute] of Object.entries(geometry.attributes)) {
-        if (name !== "position" && !NAMES[name]) lost.add(name);
+        if (name === "bytes") plain.setAttribute("color", new BufferAttribute(Uint8Array.from(attribute.array), 3, true));
+        else if (name !== "position" && !NAMES[name]) lost.add(name);
         else if (name === "color") {
             const values = Float32Array.from({ length: attribute.count * attribute.itemSize }, (_, i) => attribute.getComponent(Math.floor(i / attribute.itemSize), i % attribute.itemSize));
             for (let i = 0; i < values.length; i += attribute.itemSize) color.fromArray(values, i).convertLinearToSRGB().toArray(values, i);

@@ -1,6 +1,6 @@
 /** BufferViews of glTF whose bytes a stream holds, as `spec/EXT_bsm_compression.md` defines them. */
 import type { Picture, Shape } from "./drawing";
-import type { StreamDecoding } from "./pool";
+import type { Pool, StreamDecoding } from "./pool";
 
 export const EXTENSION = "EXT_bsm_compression";
 
@@ -39,6 +39,29 @@ export class CodedViews<T> {
         if (!this.arrays.has(key)) this.charge(byteLength);
         this.arrays.set(key, bytes);
         return bytes;
+    }
+
+    /** What is drawn of a stream, or of its first frame; `take` gets all pictures, and `end` hears that no more will come. */
+    decode(pool: Pool, data: Uint8Array, what: string, take: (picture: Picture, decoding: StreamDecoding) => void, end: (error?: unknown) => void): Promise<Shape> {
+        return new Promise((resolve, fail) => {
+            let shape: Shape | undefined;
+            const onError = (error: unknown): void => (fail(error), end(error));
+            const onPicture = (picture: Picture): void => {
+                try {
+                    this.drawn(picture);
+                } catch (error) {
+                    return onError(error);
+                }
+                if (picture.type === "whole") ({ shape } = picture);
+                take(picture, decoding);
+                if (picture.type === "frame" && shape) resolve(shape);
+            };
+            const onEnd = (): void => (end(), shape ? resolve(shape) : fail(new Error(`${what} is a stream without a mesh`)));
+            const decoding = pool.open({ onPicture, onEnd, onError }, { drawing: "whole" });
+            this.watch(decoding);
+            decoding.receiveData(data);
+            decoding.receiveEof();
+        });
     }
 
     /** Let a decoding end as soon as too much was made. */

@@ -7,7 +7,7 @@ import {
     BoxGeometry, BufferAttribute, BufferGeometry, Float16BufferAttribute, Group, InstancedBufferAttribute, InstancedBufferGeometry, InstancedMesh, InterleavedBuffer,
     InterleavedBufferAttribute, LOD, Mesh, MeshBasicMaterial, Points, SkinnedMesh, SphereGeometry, Texture,
 } from "three";
-import { encodeHere, EncodeError, type EncodeOptions, type GeometryInput, type MeshInput, type ObjectInput } from "../src/encode";
+import { encodeHere, EncodeError, type EncodeOptions, type Drawn, type MeshInput } from "../src/encode";
 import { decode, type Attribute } from "../src/index";
 import { BUILDS, compile, WEB } from "./shared";
 
@@ -25,7 +25,7 @@ interface Found {
 }
 
 /** What comes back of what was encoded exactly. */
-async function back(given: MeshInput | GeometryInput | ObjectInput, options: EncodeOptions = { lossless: true }): Promise<Found> {
+async function back(given: MeshInput | Drawn, options: EncodeOptions = { lossless: true }): Promise<Found> {
     const notes: string[] = [];
     const { positions: p, faces, attributes } = decode(kernels, await encodeHere(given, { ...options, wasm, onNote: (note) => notes.push(note) }));
     const ends = (end: (...numbers: number[]) => number): number[] => [0, 1, 2].map((d) => Math.fround(end(...p.filter((_, i) => i % 3 === d))));
@@ -133,7 +133,7 @@ describe("refused", () => {
         "bits that are no number": [mesh, /finite/, { bits: NaN }],
         "a cell that is no number": [mesh, /finite/, { cell: NaN }],
         "a bound that is no number": [{ ...mesh, attributes: [{ name: "heat", values: [1, 2, 3], components: 1, quality: { bound: NaN } }] }, /quality/],
-    } as Record<string, [MeshInput | GeometryInput | ObjectInput, RegExp, EncodeOptions?]>)) {
+    } as Record<string, [MeshInput | Drawn, RegExp, EncodeOptions?]>)) {
         test(what, async () => {
             await assert.rejects(back(given, options), (error: Error) => error instanceof EncodeError && said.test(error.message) || assert.fail(`${error}`));
         });

@@ -12,7 +12,7 @@ const LOADS: Record<string, [most: number, files: string[]]> = {
     "static meshes": [85700, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
     "sequences": [77800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     "everything": [122400, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
-    "encoding": [80000, ["encode-worker.js", "encode.js", "encode.wasm"]],
+    "encoding": [80000, ["encode-worker.js", "encoding.js", "encode.js", "encode.wasm"]],
     "the page": [8800, ["three.js", "pool.js"]],
 };
 

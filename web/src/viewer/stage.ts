@@ -11,7 +11,7 @@ const CLAY = 0xcdc6ba;
 const WHITE = 0xffffff;
 const THUMB = 44; // pixels of the handle of the wipe
 const [QUIET, SMOOTH] = [400, 2]; // milliseconds, and by how much pixels are finer then
-const AIMED = 50_000; // points that the camera makes room for
+const [AIMED, BOUNDED] = [50_000, 5_000_000]; // points that the camera makes room for, and that boxes hold
 
 export type Mode = "one" | "wipe" | "split";
 export type Shading = "smooth" | "flat" | "wire";
@@ -74,8 +74,7 @@ export class Stage {
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private readonly drawn = [new Drawn(), new Drawn(), new Drawn()];
-    /** Where meshes were placed: what is in the middle, and how far down the ground is from there. */
-    private middle = new Vector3();
+    /** How far down the ground is. */
     private depth = Infinity;
     /** Has the camera show everything again. */
     private aim: () => void = () => {};
@@ -118,37 +117,28 @@ export class Stage {
         const { turned } = this;
         turned.rotation.set(...turn);
         turned.scale.setScalar(1 / diagonal);
-        this.middle.fromArray(center);
-        this.follow(this.middle);
-    }
-
-    /** Have another point of the meshes in the middle, on the same ground. */
-    follow(middle: Vector3): void {
-        const { ground, turned } = this;
-        turned.position.copy(middle).negate().multiplyScalar(turned.scale.x).applyEuler(turned.rotation);
+        turned.position.fromArray(center).negate().multiplyScalar(turned.scale.x).applyEuler(turned.rotation);
         turned.updateWorldMatrix(true, false);
-        const rise = this.middle.clone().sub(middle).multiplyScalar(turned.scale.x).applyEuler(turned.rotation);
-        ground.position.y = this.depth + rise.y;
+        this.ground.position.y = this.depth;
         this.redraw();
     }
 
-    /** Have points of meshes in the middle, and fill the picture with them, unless the reader chose another place; moving ones around the middle of each. */
-    fill(samples: ArrayLike<number>[], turn?: [number, number, number], normals?: BufferAttribute, middles: Vector3[] = []): void {
+    /** Have points of meshes in the middle, and fill the picture with them, unless the reader chose another place. */
+    fill(samples: ArrayLike<number>[], turn?: [number, number, number], normals?: BufferAttribute): void {
         const { camera, turned } = this;
         const [low, high, point] = [Infinity, -Infinity, 0].map((far) => new Vector3(far, far, far));
-        const [base, total] = [middles[0] ?? new Vector3(), samples.reduce((sum, { length }) => sum + length / 3, 0)];
-        const over = (act: (point: Vector3) => void, step = 3): void => {
-            samples.forEach((array, k) => {
-                for (let i = 0; i < array.length; i += step) if (array[i] === array[i]) act(middles[k] ? point.fromArray(array, i).sub(middles[k]).add(base) : point.fromArray(array, i));
-            });
+        const total = samples.reduce((sum, { length }) => sum + length / 3, 0);
+        const over = (act: (point: Vector3) => void, most: number): void => {
+            const step = 3 * Math.ceil(total / most);
+            for (const array of samples) for (let i = 0; i < array.length; i += step) if (array[i] === array[i]) act(point.fromArray(array, i));
         };
-        over(() => (low.min(point), high.max(point)));
+        over(() => (low.min(point), high.max(point)), BOUNDED);
         if (!(low.x <= high.x)) return;
         if (!camera.touched) this.place(low.clone().add(high).divideScalar(2).toArray(), low.distanceTo(high) || 1, turn);
         let depth = Infinity;
-        over(() => (depth = Math.min(depth, point.applyMatrix4(turned.matrixWorld).y)));
+        over(() => (depth = Math.min(depth, point.applyMatrix4(turned.matrixWorld).y)), BOUNDED);
         [this.depth, this.ground.position.y] = [depth, depth];
-        const some: Points = (act) => over(act, 3 * Math.ceil(total / AIMED));
+        const some: Points = (act) => over(act, AIMED);
         const [matrix, front] = [turned.matrixWorld.clone(), frontOf(normals).applyEuler(turned.rotation)];
         this.aim = () => camera.aim(some, matrix, front, freeAreas(this.canvas.closest<HTMLElement>(".bsm")!, this.mode === "split" ? 2 : 1));
         if (!camera.touched) this.aim();

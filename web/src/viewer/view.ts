@@ -13,11 +13,9 @@ import { listenToKeys } from "./keys";
 import { SequenceBar } from "./sequence";
 import { Stage } from "./stage";
 import { TileSet, wholeOf } from "./tiles";
-import { Track } from "./track";
 import { Upload, type Encode } from "./upload";
 import template from "./view.html";
 
-const SAMPLED = 12; // frames that the camera makes room for
 const RULER = 120; // pixels of the longest bar
 const NARROW = 480; // pixels of a page that has no room for it
 
@@ -54,7 +52,6 @@ export class View {
     private turns = 0;
     /** Frames that the camera has made room for. */
     private fitted = 1;
-    private track?: Track;
     private readonly watch = new ResizeObserver(() => this.meshes.place());
 
     constructor(
@@ -236,7 +233,6 @@ export class View {
         this.arrival.restart();
         this.losses = [];
         this.missed = 0;
-        this.track = undefined;
         this.fitted = 1;
         this.over = false;
         this.form.say("problem", "");
@@ -264,7 +260,6 @@ export class View {
         if (this.sequence.step(now, over, this.missed)) {
             if (!over && geometry.frames.length >= 2 * this.fitted) this.fill();
             meshes.seek(geometry.shown);
-            if (this.track) stage.follow(this.track.at(geometry.shown));
             if (over) stage.shadow(geometry);
             meshes.stale = true;
         }
@@ -313,16 +308,13 @@ export class View {
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
 
-    /** Make room for the mesh: for some frames of a moving one, of those that are there. */
+    /** Make room for the mesh, in all frames that are there. */
     private fill(): void {
         const { geometry, stage } = this;
         const { frames } = geometry;
         this.fitted = Math.max(frames.length, 1);
-        this.track = frames.length > 1 ? new Track(frames.map(({ positions }) => positions), geometry.frameRate) : undefined;
-        const every = Math.ceil(frames.length / SAMPLED);
-        const some = frames.map((_, i) => i).filter((i) => i % every === 0);
-        const samples = some.length > 0 ? some.map((i) => frames[i].positions) : [geometry.getAttribute("position")?.array ?? []];
-        stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute, this.track && some.map((i) => this.track!.at(i)));
+        const samples = frames.length > 0 ? frames.map(({ positions }) => positions) : [geometry.getAttribute("position")?.array ?? []];
+        stage.fill(samples, turnOf(geometry.metadata), geometry.getAttribute("normal") as BufferAttribute);
     }
 
     /** Say how long a bar at the middle of the mesh is. */
