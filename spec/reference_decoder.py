@@ -1,8 +1,8 @@
-"""A decoder of one static mesh, written from the core of the law alone: slow, plain, easy to compare with it.
+"""A decoder of one static mesh, written from the law alone: slow, plain, easy to compare with it.
 
-The rules stand beside what follows them: F and M here, C and V in reference_integers.py. It is strict, and knows no
-extension: it skips ORDER, ATTRIBUTE and VALUES, and says that others are unsupported (README.md). numpy adds and
-multiplies; nothing is shared with the product.
+The rules stand beside what follows them: F and M of the core here, C and V in reference_integers.py, the extension
+`paper` in reference_paper.py. It is strict. It skips ORDER, ATTRIBUTE and VALUES, and says that other extensions are
+unsupported (README.md). numpy adds and multiplies; nothing is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
 
@@ -109,8 +109,8 @@ def packed_value(value, nested):
 
 HEADER, METADATA, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT, END = 1, 2, 3, 4, 5, 6, 7, 12, 13, 15
 ATTRIBUTE, VALUES = 14, 0
-PLACES = [HEADER], [CONNECTIVITY], [ORDER], [ATTRIBUTE], [BLOCK, GRID], [REFINEMENT], [VALUES], [END]  # F 3.8
-RANKS = {kind: rank for rank, kinds in enumerate(PLACES) for kind in kinds}
+PLACES = [HEADER], [CONNECTIVITY], [PARTITION], [ORDER], [ATTRIBUTE], [BLOCK, GRID], [REFINEMENT], [VALUES], [END]
+RANKS = {kind: rank for rank, kinds in enumerate(PLACES) for kind in kinds}  # F 3.8
 SKIPPED = {ORDER: "order", ATTRIBUTE: "attributes", VALUES: "attributes"}
 
 
@@ -161,9 +161,10 @@ FIELDS = {
     "lattice": (14, int, 1, COUNT, [], 0, 2),
     "corner": (15, int, -(2**31), COUNT, [], 0, 3),
     "turn": (24, float, -1.0, 1.0, [0.0, 0.0, 0.0], 3, 3),
+    "paper": (19, float, 0.0, 2.0**30, [0.0, 0.0, 0.0, 3.0, 1.0, 2.0, 2.0**-7, 1.0], 8, 8),  # F 10.1
+    "onorm": (21, int, 1, 64, 0),
 }
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
-EXTENSIONS |= {19: "extension paper", 21: "extension paper"}
 EXTENSIONS[22] = "extension congruence"
 
 
@@ -227,6 +228,8 @@ def agreeing(h, stored):
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
     else:
         require(not h["lattice"] and not h["corner"] and "turn" not in stored, "of a grid, without one")
+        if {"paper", "onorm"} & stored:
+            extension_paper().settings_of(h)
         require(h["blocks"] and h["coefficients"], "no blocks, and no grid")
         require(h["blocks"] <= h["vertices"], "more blocks than vertices")
         require(h["coefficients"] <= h["block_size"] <= h["vertices"], "too large blocks, or too many coefficients")
@@ -251,8 +254,8 @@ def read_frames(stream, packets):
         wants = {GRID: "grid", REFINEMENT: "refinement", ATTRIBUTE: "attributes", VALUES: "attributes"}.get(kind)
         if wants and not header[wants]:
             raise UnsupportedError(f"frame type {kind}")  # F 3.6
-        if kind in (PARTITION, GOP):
-            raise UnsupportedError(f"extension {'paper' if kind == PARTITION else 'sequence'}")
+        if kind == GOP:
+            raise UnsupportedError("extension sequence")
         if kind == METADATA:  # F 5.1, F 3.9
             entries = canonical_map(payload)
             plain = len(payload) - sum(len(value) for _, value in entries if type(value) is bytes)
@@ -280,7 +283,7 @@ def read_frames(stream, packets):
         rank = RANKS[kind]  # F 3.8: ascending; CONNECTIVITY is required; only what comes behind ORDER repeats
         legal = kind == HEADER if last is None else rank > last or (rank == last and rank > RANKS[ORDER])
         require(legal and (rank <= 1 or last >= 1), f"unexpected section type {kind}")
-        require(kind != BLOCK or not header["grid"], "a block where there is a grid")
+        require(kind not in (PARTITION, BLOCK) or not header["grid"], "parts or a block where there is a grid")
         if header and rank > RANKS[BLOCK]:
             require(len(packets[BLOCK]) == header["blocks"], "blocks are missing")  # F 3.10
             require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
@@ -439,13 +442,17 @@ def dot(a, b):  # M 1.3: scalar products of rows
 
 class Solver:  # M 7.5 to M 7.7: (L + S + shift I)^-1 in single precision
     def __init__(self, laplacian, springs, shift=2.0**-7):  # M 1.1
-        size, matrix = len(laplacian), laplacian.copy()
+        size, matrix, self.alone = len(laplacian), laplacian.copy(), []
         farthest = [max(np.flatnonzero(row), default=0) for row in laplacian]
         self.order = elimination_order(list(range(size)), 0, size, farthest)
+        self.springs = springs
         matrix[range(size), range(size)] += springs + shift
         self.c, self.d = matrix[np.ix_(self.order, self.order)].astype(np.float32), np.zeros(size, np.float32)
+        operations = 0
         for k in range(size):  # M 7.6
             own = self.c[k, k + 1 :].copy()
+            operations += 2 * np.count_nonzero(own) ** 2  # products and differences
+            require_limit(operations, 65536 * size, "operations of a factorization")  # M 14.4
             self.d[k] = np.float32(1) / self.c[k, k]
             self.c[k, k + 1 :] = own * self.d[k]
             self.c[k + 1 :, k + 1 :] -= self.c[k, k + 1 :, None] * own
@@ -470,8 +477,8 @@ class Solver:  # M 7.5 to M 7.7: (L + S + shift I)^-1 in single precision
     def iterate(self, start, solutions):  # M 8.4
         columns, result = start[self.order], np.zeros_like(start)
         for _ in range(solutions):
-            columns = onorm(self.solve(columns), self.order)
-        result[self.order] = onorm(columns, self.order)
+            columns = onorm(self.solve(columns), self.order, self.alone)
+        result[self.order] = onorm(columns, self.order, self.alone)
         return result
 
 
@@ -485,7 +492,7 @@ def elimination_order(rows, first, last, farthest):
     return before + [r for r in rows if r < cut <= farthest[r]]
 
 
-def onorm(columns, order):  # M 8.1
+def onorm(columns, order, alone):  # M 8.1; `alone` gets the columns that are made orthonormal one by one
     x, lengths = columns.copy(), ordered_sum(columns * columns)
     for begin in range(0, x.shape[1], 64):
         panel = x[:, begin : begin + 64]
@@ -505,6 +512,7 @@ def onorm(columns, order):  # M 8.1
                 t[j] -= c[j, i] * e[j] * t[i]
             t[j, j] = e[j]
         panel[:, :good] = product(panel[:, :good], t)
+        alone += range(good, width)
         for j in range(good, width):
             panel[:, j] = cleaned(x[:, : begin + j], panel[:, j], order)
         behind = x[:, begin + 64 :]
@@ -641,51 +649,87 @@ class CoefficientModel:  # One for each chain
 class Chain:  # M 10.1: what blocks learn from those before them
     def __init__(self, header, graph):
         self.header, self.graph, self.model = header, graph, CoefficientModel(header["coefficients"])
-        self.known, self.dictionary = Known(header["vertices"]), None
+        self.known, self.dictionary, self.alone = Known(header["vertices"]), None, 0
+
+    shift, power, iterations, key_iterations = 2.0**-7, 3, 1, 2  # M 1.1
 
     def decode(self, block, width, payload):  # M 10.2: positions of the next block
-        decoder = RangeDecoder(payload)
-        points = np.array(self.model.block(decoder, width)) * (self.header["step"] / 2)
-        decoder.finish()
-        springs, pulls = surroundings(self.graph, block, self.known)
-        solver, follows = Solver(block.laplacian, springs), self.follows(block)
-        start = cosine_columns(block.size, 0, width).astype(np.float32)  # M 8.3
-        if follows:
-            start = np.hstack([self.dictionary, start[:, self.dictionary.shape[1] :]])[:, :width]
-        if not block.connected():
-            hashes = np.array([[hash_entry(r, j) for j in range(width)] for r in range(block.size)])
-            start = start + ((2.0**-8 if follows else 0.25) * hashes).astype(np.float32)
-        self.dictionary = solver.iterate(start, 3 if follows else 6)  # M 1.1
-        positions = product(self.dictionary, points) + solver.extend(springs, pulls)
+        coefficients, (springs, pulls) = self.coefficients(width, payload), self.around(block)
+        solver = Solver(block.laplacian, springs, self.shift)
+        self.dictionary = self.improved(block, solver, self.start(block, width))
+        self.alone = len(solver.alone)
+        positions = product(self.dictionary, coefficients) + solver.extend(springs, pulls)
         if not np.isfinite(positions).all():
             raise NumericError("positions are not finite")
         self.known.add(block, positions)
         return positions
 
+    def coefficients(self, width, payload):
+        decoder = RangeDecoder(payload)
+        points = np.array(self.model.block(decoder, width)) * (self.header["step"] / 2)
+        decoder.finish()
+        return points
+
+    def around(self, block):
+        return surroundings(self.graph, block, self.known)
+
+    def start(self, block, width):  # M 8.3
+        start = cosine_columns(block.size, 0, width).astype(np.float32)
+        if self.follows(block):
+            start = np.hstack([self.dictionary, start[:, self.dictionary.shape[1] :]])[:, :width]
+        if self.hashes(block):
+            hashes = np.array([[hash_entry(r, j) for j in range(width)] for r in range(block.size)])
+            start = start + ((2.0**-8 if self.follows(block) else 0.25) * hashes).astype(np.float32)
+        return start
+
     def follows(self, block):  # M 8.3
         return self.dictionary is not None and len(self.dictionary) == block.size
+
+    def hashes(self, block):  # M 8.3
+        return not block.connected()
+
+    def solutions(self, block):  # M 8.4: z and t
+        return self.power, self.iterations if self.follows(block) else self.key_iterations
+
+    def improved(self, block, solver, start):
+        return solver.iterate(start, math.prod(self.solutions(block)))
+
+    def onorms(self, block):  # M 14.3
+        return math.prod(self.solutions(block)) + 1
 
     def charge(self, block, width):  # M 14.2, M 14.3: what the dictionary of the next block works
         n, rows, c = self.header["vertices"], block.size, -(-width // 16) * 16
         require_limit(8 * (6 * rows * c + 2 * c**2), 2**26 + 1024 * n, "memory")
-        s = 3 if self.follows(block) else 6
         solution = 40 * rows * (0.3 * -(-width // 64) + 0.02 * c)
-        return 5 * rows * c + s * solution + (s + 1) * rows * (3 + 0.4 * c + c**2 / 80)
+        norms = self.onorms(block) * rows * (3 + 0.4 * c + c**2 / 80)
+        return 5 * rows * c + math.prod(self.solutions(block)) * solution + norms
 
 
-def decode_blocks(header, graph, blocks):  # M 4 to M 12.1: positions in BSM units
+def extension_paper():
+    """Loaded only for streams that need it."""
+    import reference_paper
+
+    return reference_paper
+
+
+def decode_blocks(header, graph, blocks, partition):  # M 4 to M 12.1: positions in BSM units
     parts, work, blended = header["blocks"], 0.0, Known(header["vertices"])
-    labels = derive_labels(graph, parts)
+    most = 8e8 + 3.2e4 * header["vertices"]  # M 14.9
+    labels = extension_paper().labels_of(partition, graph, parts) if partition else derive_labels(graph, parts)
     cores = [[v for v, label in enumerate(labels) if label == part] for part in range(parts)]
     require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 5.2
+    kind = Chain if header["paper"] == FIELDS["paper"][4] and not header["onorm"] else extension_paper().Chain
     for part, (index, width, payload) in zip(chain_of(graph, labels, parts), blocks):
         if index % (header["key_interval"] or parts) == 0:  # M 10.1
-            chain = Chain(header, graph)
+            chain = kind(header, graph)
         block = Block(graph, grow(graph, cores[part], header["block_size"]))
         require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.9
-        work += chain.charge(block, width)
-        require_limit(work, 8e8 + 3.2e4 * header["vertices"], "work")
+        own = chain.charge(block, width)
+        require_limit(work := work + own, most, "work")
         blended.add(block, chain.decode(block, width, payload))
+        if chain.alone:  # M 14.3
+            work += own + 6 * block.size * width * 4 ** max(2, math.ceil(math.log(chain.alone, 4)))
+            require_limit(work, most, "work")
     return blended.sums / blended.weights[:, None]
 
 
@@ -772,7 +816,7 @@ def decode_packets(packets, fault):
         positions = np.array([place(values, header) for values in reader.x])
     elif packets[BLOCK] or not fault:
         graph = neighbors_of(faces, vertices)
-        positions = decode_blocks(header, graph, packets[BLOCK])
+        positions = decode_blocks(header, graph, packets[BLOCK], *packets.get(PARTITION, [None]))
         if fault and not packets[REFINEMENT]:
             raise fault
         positions = smooth(graph, positions, header["smoothing"])

@@ -1,43 +1,12 @@
-"""The codec of the paper, decoded from the bytes of a stream with numpy and the blocks of the reference decoder.
+"""The codec of the paper, decoded from the bytes of a stream with numpy and the integers of the reference decoder.
 
 Nothing of the product: R^z is a dense matrix in double precision, Onorm is numpy's QR factorization.
 """
 
 import numpy as np
 import reference_decoder as law
-import zstandard
-from reference_integers import Model, RangeDecoder, decode_connectivity, neighbors_of
-
-
-def labels_of(payload, graph, blocks):
-    """C 10: the part of each vertex."""
-    decoder, model, labels, used = RangeDecoder(payload), Model(inputs=3), [], 0
-    for v, row in enumerate(graph):
-        before = [labels[w] for w in sorted(row, reverse=True) if w < v]
-        candidates = sorted([*dict.fromkeys(before)][:4], key=lambda part: -before.count(part))
-        c, m, label = len(candidates), len(before), None
-        for k, part in enumerate(candidates):
-            votes = before.count(part)
-            contexts = min(m, 15), min(votes, 7) + 8 * (k < c - 1), min(m - votes, 3) + 4 * (c - 1)
-            if model.bit(decoder, contexts, k):
-                label = part
-                break
-        if label is None:
-            new = model.bit(decoder, (0, c, int(used < blocks)), 4) or not used
-            label = used if new else decoder.uniform(used)
-        used = max(used, label + 1)
-        labels.append(label)
-    decoder.finish()
-    return labels
-
-
-def unpacked(payload, count, bits):
-    """F 6: `count` rows of three numbers."""
-    size = (3 * count * bits + 7) // 8
-    if len(payload) < size:
-        payload = zstandard.ZstdDecompressor().decompress(b"\x28\xb5\x2f\xfd" + payload)
-    digits = np.unpackbits(np.frombuffer(payload, np.uint8))[: 3 * count * bits].reshape(-1, bits)
-    return (digits @ (1 << np.arange(bits)[::-1])).reshape(count, 3) - (1 << bits - 1)
+from reference_integers import decode_connectivity, neighbors_of
+from reference_paper import labels_of, unpacked
 
 
 def onorm(columns):

@@ -27,7 +27,7 @@ GOOD = [vector for vector in VECTORS if vector.error is None]
 LONG = {"good-grid-large", "good-grid-noise", *LARGE}
 """What takes the reference decoder seconds."""
 OF_SKIPPED = re.compile("(bad|unsupported)-(attribute|values)")
-LACKING = [f"extension {name}" for name in ("light", "sequence", "paper", "congruence")]
+LACKING = [f"extension {name}" for name in ("light", "sequence", "congruence")]
 SPEC = Path(__file__).parents[2] / "spec"
 
 

@@ -29,7 +29,7 @@ from typing import Any
 from tools.vectors.store import read_manifest
 
 SPEC = Path(__file__).parents[2] / "spec"
-MODULES = "reference_integers", "reference_decoder"
+MODULES = "reference_integers", "reference_decoder", "reference_paper"
 MEMORY = 4 << 30
 INSTEAD = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "+": "-", "-": "+"}
 SAME = {

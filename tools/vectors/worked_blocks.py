@@ -56,8 +56,8 @@ def _trace(stream: bytes) -> Iterator[dict[str, Any]]:
             entry["dictionary"] = result
             return result
 
-    def traced_onorm(columns: npt.NDArray[Any], order: Any) -> npt.NDArray[Any]:
-        result: npt.NDArray[Any] = onorm(columns, order)
+    def traced_onorm(columns: npt.NDArray[Any], order: Any, alone: Any) -> npt.NDArray[Any]:
+        result: npt.NDArray[Any] = onorm(columns, order, alone)
         blocks[-1]["orthonormal"].append(result)
         return result
 
