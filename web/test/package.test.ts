@@ -7,7 +7,10 @@ import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { pathToFileURL } from "node:url";
 import { build } from "esbuild";
-import { VECTORS, WEB } from "./shared";
+import { readNpz } from "./npz";
+import { BUILDS, compile, eventsOf, meshOfEvents, VECTORS, WEB } from "./shared";
+
+const kernels = await compile(BUILDS[0]);
 
 const CONSUMER = `
 import { decode, loadKernels, Pool, type Metadata } from "bsm-decoder";
@@ -123,6 +126,27 @@ describe("the package", () => {
         assert.match(cut.stderr, /^bsm-decoder: cut\.bsm: [^\n]+\n$/);
         const piped = spawnSync("bash", ["-c", `set -o pipefail; "${process.execPath}" "${command}" "${join(VECTORS, "good-labels.bsm")}" | true`], { cwd: folder, encoding: "utf8" });
         assert.deepEqual([piped.status, piped.stderr], [0, ""]);
+    });
+
+    test("is a command that writes all frames of a sequence, or says that it needs a place for them", () => {
+        const [command, name] = [join(folder, "node_modules", own.name, "obj.js"), join(VECTORS, "good-sequence-learnt.bsm")];
+        const written = (...target: string[]): { status: number | null; stderr: string } => spawnSync(process.execPath, [command, name, ...target], { cwd: folder, encoding: "utf8" });
+        assert.match(written().stderr, /a sequence of \d+ frames/);
+        for (const target of ["frames", "frames.npz", "frames.pc2", "frames.mdd"]) assert.deepEqual([written(target).status, written(target).stderr], [0, ""], target);
+        const arrays = readNpz(readFileSync(join(folder, "frames.npz")));
+        const [positions, faces] = ["positions", "faces"].map((array) => arrays[array].values);
+        const expected = meshOfEvents(eventsOf(kernels, new Uint8Array(readFileSync(name)), 1 << 20));
+        assert.deepEqual([[...positions], [...faces]], [[...expected.positions], [...expected.faces]]);
+        const count = positions.length / 3;
+        const objs = readdirSync(join(folder, "frames")).map((file) => readFileSync(join(folder, "frames", file), "utf8"));
+        assert.equal(objs.join("").match(/^v /gm)!.length, count);
+        const numbers = objs.join("").match(/^v .*/gm)!.flatMap((line) => line.slice(2).split(" ").map(Number));
+        assert.deepEqual(numbers, [...positions]);
+        const pc2 = readFileSync(join(folder, "frames.pc2"));
+        assert.deepEqual([pc2.readInt32LE(16) * pc2.readInt32LE(28), pc2.length, pc2.readFloatLE(32)], [count, 32 + 12 * count, Math.fround(positions[0])]);
+        const mdd = readFileSync(join(folder, "frames.mdd"));
+        const frames = mdd.readInt32BE(0);
+        assert.deepEqual([frames, frames * mdd.readInt32BE(4), mdd.readFloatBE(8 + 4 * frames)], [objs.length, count, Math.fround(positions[0])]);
     });
 
     test("names setDecoderPath in a bundle of CommonJS, which does not know its address, and decodes with it", async () => {
