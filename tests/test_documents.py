@@ -38,7 +38,7 @@ DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.
 PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
 BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack|tools\.measure house"
 """What .ci/run itself does, or is."""
-NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bunny_34834|bsm bench"
+NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bunny_34834"
 HELP_ONLY = r"tools\.(?:release|blender|charges|vectors|processors|replicate)|measure speed|s3://|bsm view"
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
 PLACES = {

@@ -31,7 +31,6 @@ COMMANDS = {
     "denoise": "remove noise from meshes and sequences",
     "demo": "compress a sample and compare it with the original",
     "curve": "measure rate against error and draw it",
-    "bench": "measure speed against exact solvers and Draco",
     "completion": "print a script for shell completion",
 }
 FILES = (
@@ -40,7 +39,7 @@ FILES = (
 )
 """What files and folders are called in the help."""
 _WRITTEN = {"output", "report", "save", "picture", "map", "work"}
-_WITHOUT_FILES = ("info", "compare", "verify", "bench", "completion", "curve")
+_WITHOUT_FILES = ("info", "compare", "verify", "completion", "curve")
 """Commands that write no file. They accept -f nevertheless, so that scripts can always pass it."""
 _WITH_FORCE = {
     "denoise": "; also write results that lose detail",

@@ -15,7 +15,6 @@ from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
-from bsm.evaluation.bench import EXACT, POWERS, SHIFT, bench_tables, iterated, run_bench
 from bsm.evaluation.curve import (
     STYLES,
     Curve,
@@ -42,6 +41,7 @@ from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh, written_mesh
 from bsm.pictures import render, view_matrix
 from tests.shapes import patch, torus
+from tools.measure.bench import EXACT, POWERS, SHIFT, bench_tables, iterated, run_bench
 from tools.vectors.meshes import shuffled
 
 POINT_KEYS = {

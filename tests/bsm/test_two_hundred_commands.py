@@ -130,7 +130,6 @@ smooth ring.ply | it is: bsm denoise
 simplify ring.ply | bsm encode --simplify
 decimate ring.ply | bsm encode --simplify
 gltf ring.glb | it is: bsm glb
-benchmark ring.ply | it is: bsm bench
 plot ring.ply | it is: bsm curve
 merge scan | it is: bsm untile
 version | bsm --version

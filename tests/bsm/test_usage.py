@@ -40,8 +40,6 @@ from tests.streams import events_of
         (["view", "--port", "99999"], "bsm view: argument --port: 99999 is more than 65535"),
         (["view", "--port", "-1"], "bsm view: argument --port: -1 is less than 0"),
         (["demo", "--vertices", "-1"], "bsm demo: argument --vertices: -1 is less than 1"),
-        (["bench", "a.ply", "--sample", "0"], "bsm bench: argument --sample: 0 is less than 1"),
-        (["bench", "a.ply", "--repeat", "0"], "bsm bench: argument --repeat: 0 is less than 1"),
         (["curve", "-o", "a", "--blocks", "0"], "bsm curve: argument --blocks: 0 is less than 1"),
         (["curve", "-o", "a", "--repeat", "0"], "bsm curve: argument --repeat: 0 is less than 1"),
         (["compare", "a", "b", "c"], "bsm compare: c: one input too many"),

@@ -2,6 +2,7 @@
 
 attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
+bench       speed against exact solvers and Draco, of MESHes
 speed       what encoding and decoding take, over Draco's and a file of figures; of MESHes, decoding by bsmdec
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
 targets     what a target beside the look takes, over the larger of what both take alone; series of promises
@@ -18,6 +19,7 @@ COMMANDS = {
     "attributes": "attributes:main",
     "fields": "fields:main",
     "encoding": "encoding:main",
+    "bench": "bench:main",
     "speed": "speed:main",
     "targets": "targets:main",
     "same": "same:main",

@@ -10,9 +10,9 @@ import numpy as np
 
 from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.static.encoder import Encoder
-from bsm.evaluation.bench import EXACT
 from bsm.evaluation.curve import Line as Drawn
 from bsm.evaluation.curve import Spectral, distinct, measure, paper_options
+from tools.measure.bench import EXACT
 from tools.replicate.paper.dictionaries import BITS, Cut
 from tools.replicate.paper.dynamic import codec_rule
 from tools.replicate.paper.figures import save_lines

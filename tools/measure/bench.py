@@ -1,8 +1,9 @@
-"""Speed: whole files against Draco, and dictionaries against exact eigensolvers.
+"""Whole files against Draco, and dictionaries against exact eigensolvers: `python -m tools.measure bench MESH...`.
 
 Solvers' times are CPU seconds of one thread, the least of several runs.
 """
 
+import argparse
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -165,3 +166,15 @@ def bench_tables(result: Result) -> str:
         columns = ("dictionaries of all blocks, one thread", "CPU ms", "NMSVE, dB", "times SVD", "times fastest exact")
         parts.append(f"\n{table(columns, rows)}")
     return "\n".join(parts)
+
+
+def main() -> None:
+    """Measure meshes, and print tables."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("meshes", nargs="+")
+    parser.add_argument("--sample", type=int, default=16, help="number of blocks for exact solvers")
+    parser.add_argument("--repeat", type=int, default=3, help="repeat every measurement; the fastest counts")
+    parser.add_argument("--no-solvers", action="store_true", help="leave out exact solvers, which take minutes")
+    args = parser.parse_args()
+    given = {"sample": args.sample, "repeats": args.repeat, "solvers": not args.no_solvers}
+    print(bench_tables(run_bench(args.meshes, **given, note=print)))
