@@ -69,7 +69,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with console.progress("encoding") as progress:
         name = beside.name if beside else None
         found = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)
-    if not (found.coded or rule or args.force):
+    if not (found.coded or taken or rule or args.force):
         why = "; ".join(found.left) or "the scene has no primitives"
         raise HarmError(f"{args.input}: nothing was coded: {why}; --force writes the scene anyway")
     if beside and found.fallback:
