@@ -1,0 +1,65 @@
+"""Every format that is read: garbage, a cut file and a huge count give a mesh or one of our errors, never another."""
+
+import base64
+import importlib.util
+import json
+import random
+import re
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from bsm import BsmError
+from bsm.bitstream.limits import Limits
+from bsm.files.mesh import GLTF, USD_FORMATS, WRITTEN_FORMATS, read_mesh, written_mesh
+from tests.motion import bending, save_frames
+from tests.shapes import torus
+
+LIBRARIES = {"3mf": "lib3mf", "om": "openmesh", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr")}
+FORMATS = sorted({*WRITTEN_FORMATS, *USD_FORMATS, *GLTF, "dae"})
+LIMITS = Limits(vertices=10_000, faces=10_000)
+
+
+def valid(kind: str, folder: Path) -> bytes:
+    """A file of this format, as we or its library write it."""
+    mesh = torus(6, 5)
+    if kind in WRITTEN_FORMATS:
+        return written_mesh(mesh, kind).data
+    if kind == "dae":
+        data: bytes = pytest.importorskip("trimesh").Trimesh(mesh.positions, mesh.faces).export(file_type="dae")
+        return data
+    if kind == "gltf":
+        whole = written_mesh(mesh, "glb").data
+        length = int.from_bytes(whole[12:16], "little")
+        document = json.loads(whole[20 : 20 + length])
+        content = base64.b64encode(whole[28 + length :]).decode()
+        document["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{content}"
+        return json.dumps(document).encode()
+    path = folder / f"valid.{'usdc' if kind == 'usdz' else kind}"
+    save_frames(path, path.suffix[1:], *bending(2, 6, 5))
+    if kind == "usdz":
+        from pxr import UsdUtils
+
+        UsdUtils.CreateNewUsdzPackage(str(path), str(path.with_suffix(".usdz")))
+        path = path.with_suffix(".usdz")
+    return path.read_bytes()
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_no_reader_lets_another_error_out(kind: str, tmp_path: Path) -> None:
+    if (library := LIBRARIES.get(kind)) is not None and importlib.util.find_spec(library) is None:
+        pytest.skip(f"needs {library}")
+    whole, noise = valid(kind, tmp_path), random.Random(kind)
+    cuts = [whole[: len(whole) * part // 9] for part in range(1, 9)]
+    counts = [whole[: m.start()] + b"999999999" + whole[m.end() :] for m in list(re.finditer(rb"\d+", whole))[:40:4]]
+    longs = [whole[:at] + b"\xff\xff\xff\x7f" + whole[at + 4 :] for at in range(0, min(len(whole) - 4, 400), 20)]
+    if kind in ("usd", "usdc"):  # usd-core takes memory for such counts, and only the wall bounds it
+        counts = longs = []
+    path = tmp_path / f"mesh.{kind}"
+    path.write_bytes(whole)
+    assert len(read_mesh(path).mesh.faces) > 50
+    for data in (noise.randbytes(500), noise.randbytes(20), b"\0" * 100, *cuts, *counts, *longs):
+        path.write_bytes(data)
+        with suppress(BsmError):
+            read_mesh(path, limits=LIMITS)
