@@ -188,7 +188,7 @@ def brief_fields(entries):  # F 11.2: fields of the header, the payload of CONNE
     for name, field in given.items():
         items = field if type(field) is list else [field]
         require(all(FIELDS[name][2] <= item <= FIELDS[name][3] for item in items), f"{name} is out of range")
-    require(congruence <= 34, "congruence is out of range")
+    require(congruence <= 68, "congruence is out of range")
     if congruence:
         raise UnsupportedError(EXTENSIONS[22])
     return given, rest[:size], rest[size:]

@@ -27,17 +27,17 @@ def gridded(
     values: Ints,
     counts: Iterable[int],
     transforms: Ints | None = None,
-    learnt: bool = False,
+    whole: bool = False,
     **fields: Any,
 ) -> Frames:
     """Frames of a mesh on a grid, with `transforms`, shape (k, 8), of congruent parts."""
     fields = {"grid": values.max(axis=0).tolist()} | fields
-    fields |= {} if transforms is None else {"congruence": 1 + len(transforms) + 17 * learnt}
+    fields |= {} if transforms is None else {"congruence": 35 + len(transforms) + 17 * whole}
     announced = {"vertices": len(values), "faces": len(coded.faces)}
     return [
         header_frame(**announced | fields),
         (FrameType.CONNECTIVITY, coded.payload),
-        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0), transforms, learnt),
+        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0), transforms, whole),
     ]
 
 
@@ -48,11 +48,11 @@ def grid_frames(
     largest: Sequence[int],
     light: int,
     transforms: Ints | None = None,
-    learnt: bool = False,
+    whole: bool = False,
 ) -> Frames:
     """Return GRID packets of this many vertices each."""
     frames, first = [], 0
-    grid = Grid((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms, learnt=learnt)
+    grid = Grid((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms, whole=whole)
     field = grid_field(faces, largest, values, light, grid)
     for count in counts:
         frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + field.write(count)[0]))
@@ -126,6 +126,7 @@ def random_grid(random: Random, mesh: TriangleMesh) -> bytes:
     fields = {"grid": largest} | _fields(random, max(largest))
     if not fields["light"] and random.random() < 0.75:
         fields["transforms"] = any_transforms(random, random.randrange(17), largest)
+        fields["whole"] = random.random() < 0.5
     return stream_of(gridded(coded, values, counts, **fields))
 
 

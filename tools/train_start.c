@@ -1,6 +1,6 @@
 /* Where models of congruent grids end: `train_start START STREAM...` codes the grid of each stream again from a start,
- * and writes to the standard output, for each, the state at the end: weights, weights of learners with whether they
- * learnt, hit slots; then the bytes of the payload, all as 32-bit integers. Streams without such a grid are left out.
+ * and writes to the standard output, for each, the state at the end: weights, weights of learners, hit slots, weights
+ * of whole vertices; then the bytes of the payload, all as 32-bit integers. Streams without such a grid are left out.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "bsm.c"
 
 enum { WEIGHTS = START_ROWS * WEIGHT_ROW, LEARNT = START_LEARNERS * MOST_TERMS };
-typedef struct { int32_t weight[WEIGHTS], learner[LEARNT], hit[TWIN_ROWS]; } State;
+typedef struct { int32_t weight[WEIGHTS], learner[LEARNT], hit[TWIN_ROWS], whole[WHOLE_ROWS * WHOLE_CONTEXTS]; } State;
 static Writing written = {.room = 1 << 26};
 
 static void code(bsmdec *decoder, const State *start) {
@@ -26,6 +26,7 @@ static void code(bsmdec *decoder, const State *start) {
     for (int i = 0; i < LEARNT; i++)
         start_learner(grid.grid.learners, i / MOST_TERMS, i % MOST_TERMS, start->learner[i]);
     for (int i = 0; i < TWIN_ROWS; i++) grid.model.twins.data[TWIN_ROW * i + 2] = start->hit[i];
+    memcpy(grid.twins->whole_weight, start->whole, sizeof start->whole);
     context->writing = &written;
     written.size = 0;
     if (!code_grid_values(&grid, 0, header->vertices, (Span){0})) abort();
@@ -33,6 +34,7 @@ static void code(bsmdec *decoder, const State *start) {
     memcpy(end.weight, grid.model.weights.data, sizeof end.weight);
     for (int i = 0; i < LEARNT; i++) end.learner[i] = (int32_t)learner[i / MOST_TERMS].weight[i % MOST_TERMS];
     for (int i = 0; i < TWIN_ROWS; i++) end.hit[i] = grid.model.twins.data[TWIN_ROW * i + 2];
+    memcpy(end.whole, grid.twins->whole_weight, sizeof end.whole);
     int32_t size = (int32_t)written.size;
     fwrite(&end, sizeof end, 1, stdout);
     fwrite(&size, sizeof size, 1, stdout);

@@ -26,31 +26,35 @@ from bsm.files.mesh import read_mesh
 from tools.amalgamate import ROOT, amalgamated, interface
 
 Numbers = npt.NDArray[np.float64]
-NODES, PAIRS, INPUTS, PREDICTIONS, SUMS, SIZES, TERMS, TWINS = 66, 18, 16, 7, 48, 12, 7, 282
+NODES, PAIRS, ROW, INPUTS, PREDICTIONS, SUMS, SIZES, TERMS, TWINS = 66, 18, 16, 12, 7, 48, 12, 7, 282
+WHOLE = 8, 5  # rows of weights of whole vertices, and inputs
 UNIT = 4096
 COUNT, MOST_SEEN, PRIOR, STRIDE = 16, 60, 2.0, 2.0
 
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Weights of decisions and of learners, 65536 for 1, and hit rates of rows of twins, 1 being 1."""
+    """Weights of decisions, of learners and of whole vertices, 65536 for 1, and hit rates of rows of twins."""
 
     weights: Numbers
     learners: Numbers
     hits: Numbers
+    whole: Numbers
 
     @property
-    def numbers(self) -> tuple[Numbers, Numbers, Numbers]:
+    def numbers(self) -> tuple[Numbers, ...]:
         """The bytes of the file, but for their signs."""
         hits = np.clip(np.floor(self.hits * 16.0), 0.0, 15.0)
-        return np.rint(self.weights / UNIT), np.rint(self.learners / UNIT), hits
+        weights, learners, whole = (np.rint(part / UNIT) for part in (self.weights, self.learners, self.whole))
+        return weights[:, :INPUTS], learners, hits, whole
 
     def moved(self, ends: Sequence[Start], seen: Numbers) -> Start:
         """Return a start nearer to the ends, by what they have learnt; `seen` tells how often each hit rate was."""
         weights = _toward(self.weights, np.array([end.weights for end in ends]))
         learners = _toward(self.learners, np.array([end.learners for end in ends]))
-        hits = np.array([end.hits for end in ends])
-        return Start(weights, learners, (PRIOR * self.hits + (seen * hits).sum(axis=0)) / (PRIOR + seen.sum(axis=0)))
+        whole = _toward(self.whole, np.array([end.whole for end in ends]))
+        hits = (PRIOR * self.hits + sum(seen * np.array([end.hits for end in ends]))) / (PRIOR + seen.sum(axis=0))
+        return Start(weights, learners, hits, whole)
 
 
 def _toward(start: Numbers, ends: Numbers) -> Numbers:
@@ -60,27 +64,27 @@ def _toward(start: Numbers, ends: Numbers) -> Numbers:
 
 
 def unlearnt() -> Start:
-    """Return what models start from that have learnt nothing (V 4.3, V 9.1, V 9.3, V 17.7)."""
-    weights, learners = np.zeros((NODES + PAIRS, INPUTS)), np.zeros((SUMS + SIZES, TERMS))
-    weights[:NODES, :PREDICTIONS], weights[:NODES, PREDICTIONS + 1 :] = 10532, 6000
+    """Return what models start from that have learnt nothing (V 4.3, V 9.1, V 9.3)."""
+    weights, learners = np.zeros((NODES + PAIRS, ROW)), np.zeros((SUMS + SIZES, TERMS))
+    weights[:NODES, :PREDICTIONS], weights[:NODES, PREDICTIONS + 1 : INPUTS] = 10532, 8000
     learners[:, 0], learners[SUMS:, 1] = 49152, 8192
-    return Start(weights, learners, np.full(TWINS, 0.5))
+    return Start(weights, learners, np.full(TWINS, 0.5), np.full(WHOLE, 20480.0))
 
 
 def ends_of(program: Path, start: Start, streams: Iterable[Path]) -> tuple[list[Start], Numbers, int]:
     """Return the states at the ends of all grids, how often each hit rate was learnt, and the bytes of all payloads."""
     slots = (np.rint(start.hits * 2.0**22).astype(np.uint32) << 10) + COUNT
-    parts = np.rint(start.weights).astype(np.int32), np.rint(start.learners).astype(np.int32), slots
+    weights, learners, whole = (np.rint(part).astype(np.int32) for part in (start.weights, start.learners, start.whole))
+    parts = weights, learners, slots, whole
     given = program.with_name("start")
     given.write_bytes(b"".join(part.tobytes() for part in parts))
     printed = subprocess.run([program, given, *streams], capture_output=True, check=True).stdout
     rows = np.frombuffer(printed, np.int32).reshape(-1, sum(part.size for part in parts) + 1)
-    weights, learners, hits, sizes = np.split(rows, np.cumsum([part.size for part in parts]), axis=1)
-    words = hits.view(np.uint32)
-    ends = [
-        Start(some.reshape(start.weights.shape), others.reshape(start.learners.shape), (rates >> 10) / 2.0**22)
-        for some, others, rates in zip(weights, learners, words, strict=True)
-    ]
+    *states, sizes = np.split(rows, np.cumsum([part.size for part in parts]), axis=1)
+    words = states[2].view(np.uint32)
+    parts_of_ends = states[0], states[1], (words >> 10) / 2.0**22, states[3]
+    shapes = start.weights.shape, start.learners.shape, start.hits.shape, start.whole.shape
+    ends = [Start(*map(np.reshape, each, shapes)) for each in zip(*parts_of_ends, strict=True)]
     return ends, np.minimum(words & 1023, MOST_SEEN).astype(float) - COUNT, int(sizes.sum())
 
 
@@ -114,8 +118,7 @@ def main(arguments: list[str] | None = None) -> int:
             ends, seen, size = ends_of(program, start, streams)
             print(f"round {turn + 1}: {len(ends)} grids, {size} bytes", flush=True)
             start = start.moved(ends, seen)
-    weights, learners, hits = start.numbers
-    numbers = [part.astype(np.int8).tobytes() for part in (weights, learners, hits)]
+    numbers = [part.astype(np.int8).tobytes() for part in start.numbers]
     chosen.output.write_bytes(b"".join(numbers))
     print(f"{chosen.output}: {chosen.output.stat().st_size} bytes")
     return 0

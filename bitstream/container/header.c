@@ -28,7 +28,7 @@ static const Field FIELDS[] = {
     {.key = RUN, .type = INTS_FIELD, .high = INT32_MAX, .most = 2},
     {.key = PAPER, .type = FLOATS_FIELD, .high = 0x1p30, .most = 8},
     {.key = ONORM, .type = INT_FIELD, .high = 64},
-    {.key = CONGRUENCE, .type = INT_FIELD, .high = 34},
+    {.key = CONGRUENCE, .type = INT_FIELD, .high = 68},
     {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
 };
 
@@ -138,6 +138,8 @@ static bool check_blocks(Context *context, const Record *record, const Header *h
 
 static bool check_header(Context *context, const Record *record, const Header *header) {
     const int *count = record->count;
+    if (header->congruence > 0 && header->congruence < LEAST_CONGRUENCE)
+        return FAIL(context, UNSUPPORTED, "congruent parts of a draft of 1.1, older than its release: encode it again");
     if (!(agrees(context, header->vertices <= 3 * header->faces, "more vertices than the corners of its faces")
         && agrees(context, !header->is_sequence
             || header->gop_frames > 0, "a sequence that is not frames and a length for GOPs")

@@ -22,7 +22,7 @@ typedef struct {
     int64_t cells, points, corner[3]; /* of a lattice, 0 without */
     bool counted;                     /* there is a corner */
     int light, onorm;                 /* solutions before each Onorm in doubles, or 0 */
-    int congruence; /* 1 more than the transforms of congruent parts, and 17 more of a learnt start; 0: without */
+    int congruence; /* 35 more than the transforms of congruent parts, and 17 more with whole vertices; 0: without */
     int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;
     bool brief; /* the frame of the header is the whole stream, and ends with this (F 11) */
@@ -46,9 +46,10 @@ INLINE int method_of(const Header *header) {
 /* Whether values of a grid are also foretold from congruent parts. */
 INLINE bool is_congruent(const Header *header) { return method_of(header) != LIGHT && header->congruence > 0; }
 
-/* How many transforms a congruent grid has, and whether its models start learnt (V 17.1, V 17.10). */
-INLINE int transforms_of(const Header *header) { return (header->congruence - 1) % 17; }
-INLINE bool starts_learnt(const Header *header) { return is_congruent(header) && header->congruence > 17; }
+/* How many transforms a congruent grid has, and whether it asks for whole vertices (V 17.1, V 17.11). */
+enum { LEAST_CONGRUENCE = 35 }; /* drafts had those below */
+INLINE int transforms_of(const Header *header) { return (header->congruence - LEAST_CONGRUENCE) % 17; }
+INLINE bool asks_whole(const Header *header) { return header->congruence >= LEAST_CONGRUENCE + 17; }
 
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 

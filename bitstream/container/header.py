@@ -141,8 +141,8 @@ class Header:
     """The numbers of `Paper`; empty: those of the law."""
     onorm: int = wire(21, int, 0, 64, default=0)
     """Onorm follows each of so many solutions of an iteration, with packed coefficients; 0: each solution."""
-    congruence: int = wire(22, int, 0, 34, default=0)
-    """1 plus the transforms between congruent parts of a grid, and 17 more for a learnt start; 0: coded without."""
+    congruence: int = wire(22, int, 0, 68, default=0)
+    """35 plus the transforms between congruent parts of a grid, and 17 more with whole vertices; 0: coded without."""
     turn: tuple[float, ...] = wire(24, tuple, -1.0, 1.0, lengths=(3, 3), default=(0.0, 0.0, 0.0))
     """The quaternion that turns the axes of a grid to those of the mesh, less its first entry, which is 1."""
 
@@ -152,7 +152,12 @@ class Header:
     @property
     def transforms(self) -> int:
         """Transforms between congruent parts; -1: values of a grid are not predicted from such."""
-        return (self.congruence - 1) % 17 if self.congruence else -1
+        return (self.congruence - 35) % 17 if self.congruence else -1
+
+    @property
+    def whole(self) -> bool:
+        """Whether a grid with congruent parts asks for whole vertices (V 17.11)."""
+        return self.congruence >= 52
 
     @property
     def law(self) -> Paper:

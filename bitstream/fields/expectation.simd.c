@@ -89,10 +89,10 @@ INLINE Inverse inverse_of(Number scale, Number count, int32_t first, int32_t *ty
 }
 
 INLINE void set_contexts(Work *w, uint32_t *const *slots, int contexts) {
-    bool all = contexts > CONTEXTS;
+    bool all = contexts == CONTEXTS;
     w->input[0][CONSTANT_INPUT] = 256;
     w->input[1] = (Number){slot_odds(*slots[0]), slot_odds(*slots[1]), slot_odds(*slots[2]), slot_odds(*slots[3]),
-        slot_odds(*slots[4]), slot_odds(*slots[5]), all ? slot_odds(*slots[6]) : 0, all ? slot_odds(*slots[7]) : 0};
+        all ? slot_odds(*slots[4]) : 0, all ? slot_odds(*slots[5]) : 0};
 }
 
 INLINE int64_t weighed(const Number *input, const int32_t *own, const int32_t *other, int inputs) {
@@ -166,7 +166,7 @@ INLINE void set_input(Work *w, int i, Number odds) { w->input[i] = smaller(large
 /* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 4.4). The number of contexts is a
  * constant wherever this is called, so that loops are unrolled. */
 INLINE int decide_by(Work *w, int node, int kind, int bit, int contexts) {
-    uint32_t *slots[CONTEXTS + TWIN_CONTEXTS];
+    uint32_t *slots[CONTEXTS];
     int inputs = PREDICTIONS + 1 + contexts;
     for (int i = 0; i < contexts; i++)
         slots[i] = w->model->slots.data + (i * CONTEXT_SIZE + w->e->context[i]) * VALUE_NODES + node;
@@ -185,7 +185,7 @@ INLINE int decide_by(Work *w, int node, int kind, int bit, int contexts) {
 
 OFTEN static int decide(Work *w, int node, int kind, int bit) {
     return w->e->contexts == CONTEXTS ? decide_by(w, node, kind, bit, CONTEXTS)
-        : decide_by(w, node, kind, bit, CONTEXTS + TWIN_CONTEXTS);
+        : decide_by(w, node, kind, bit, TWIN_CONTEXTS);
 }
 
 INLINE int32_t first_scale(const Expectation *e) { return e->scale < 2 ? 2 : e->scale; }
@@ -202,7 +202,7 @@ INLINE int32_t find_scales(Work *w) {
         count[i] = mean[i] * 0 + row[PREDICTIONS];
     }
     for (int j = 0; j < PREDICTIONS; j++) w->hits[j] = hits[j];
-    for (int i = 0; i < TWIN_PREDICTIONS && e->contexts > CONTEXTS; i++) { /* V 17.7 */
+    for (int i = 0; i < TWIN_PREDICTIONS && e->contexts != CONTEXTS; i++) { /* V 17.7 */
         if (e->twin[i] < 0) continue;
         const int32_t *own = w->model->twins.data + TWIN_ROW * e->twin[i];
         LANE(mean, TWIN_AT[i]) = own[0];
@@ -221,7 +221,11 @@ INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
     const Expectation *e = w->e;
     const uint32_t *hits = w->hits;
     int open = (1 << PREDICTIONS) - 1;
-    for (*asks = 0; *asks < e->asks && open != 0;) {
+    for (*asks = 0; *asks < e->refutations; *asks += 1) {
+        asked[*asks] = e->refuted[*asks];
+        open &= ~hits_of(e, asked[*asks]);
+    }
+    while (*asks < e->asks && open != 0) {
         int best = 0;
         uint32_t rate = 0;
         for (int j = 0; j < PREDICTIONS; j++) {
@@ -315,7 +319,7 @@ INLINE void learn_errors(const Work *w, int32_t value) {
     const Expectation *e = w->e;
     uint32_t *hits = w->model->hits.data + MODEL_ROW * e->hit_context;
     int32_t *row = w->model->scales.data + MODEL_ROW * e->scale_context, *count = row + PREDICTIONS, of_twins = 0;
-    for (int i = 0; i < TWIN_PREDICTIONS && e->contexts > CONTEXTS; i++) {
+    for (int i = 0; i < TWIN_PREDICTIONS && e->contexts != CONTEXTS; i++) {
         if (e->twin[i] < 0) continue;
         int32_t *own = w->model->twins.data + TWIN_ROW * e->twin[i];
         of_twins |= 1 << TWIN_AT[i];

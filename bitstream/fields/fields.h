@@ -45,7 +45,7 @@ enum {
     FINE = 16, /* predictions and their errors are in 1/16 */
     PREDICTIONS = 7,
     CONTEXTS = 6,
-    TWIN_CONTEXTS = 2, /* more where twins foretell values, each of two sizes */
+    TWIN_CONTEXTS = 4, /* where twins foretell values; the last two of two sizes */
     CONTEXT_SIZE = 512, /* values of a context */
     SCALE_CONTEXTS = 512,
     HIT_CONTEXTS = 32,
@@ -54,6 +54,7 @@ enum {
     MOST_ASKS = 3,
     CONSTANT_INPUT = PREDICTIONS, /* behind it are those of the contexts */
     VALUE_INPUTS = PREDICTIONS + CONTEXTS + 1, /* without twins */
+    TWIN_INPUTS = PREDICTIONS + TWIN_CONTEXTS + 1,
     WEIGHT_ROW = 16,
     MODEL_ROW = 8, /* numbers from one row to the next, some beyond the last */
     /* Nodes of the decisions, by kind. */
@@ -83,8 +84,9 @@ typedef struct { /* filled by the front-end */
     int32_t prediction[MODEL_ROW]; /* below 2^28 in magnitude; the last is the best guess */
     int32_t scale;                   /* what to expect of the size of its error, in 1/16; 0 .. 2^28 */
     int32_t asks;                    /* predictions that may be asked for, at most MOST_ASKS */
-    int32_t scale_context, hit_context, context[CONTEXTS + TWIN_CONTEXTS], set;
-    int32_t contexts;                /* CONTEXTS, or TWIN_CONTEXTS more */
+    int32_t scale_context, hit_context, context[CONTEXTS], set;
+    int32_t contexts;                /* CONTEXTS or TWIN_CONTEXTS */
+    int32_t refuted[MOST_ASKS], refutations; /* what the value is known not to be */
     int32_t twin[TWIN_PREDICTIONS];  /* rows of those of TWIN_AT that are by twins; -1 for others */
 } Expectation;
 

@@ -29,10 +29,17 @@ typedef struct { /* what is known of a vertex before its axes */
     int axis[STEPS];
 } Place;
 
-INLINE int32_t take_all(Forecast *f, int32_t error) {
+/* Learn from a value, all weights or, with twins, one in turn. */
+INLINE int32_t take_all(Forecast *f, int32_t error, Twins *t) {
     int32_t gap = error - f->shift;
-    learn_wide(f->guess, TERMS, f->term, error, f->typical);
-    learn_wide(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical);
+    if (!t) {
+        learn_wide(f->guess, TERMS, f->term, error, f->typical);
+        learn_wide(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical);
+        return gap;
+    }
+    learn_wide_in_turn(f->guess, TERMS, f->term, error, f->typical, t->values % TERMS);
+    learn_wide_in_turn(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical, t->values % HINTS);
+    t->values++;
     return gap;
 }
 
@@ -150,12 +157,15 @@ static void span_planes(const Grid *g, Place *p) {
     }
 }
 
-OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, int32_t last, Place *p) {
+OFTEN static void look_around(const Corners *corners, const Grid *g, int32_t v, int32_t last, Place *p) {
     gather_around(corners, v, &p->around);
     sort_flaps(g, &p->around);
     p->flaps = (int32_t)least(p->around.flaps, 3);
     p->valence = within(faces_at(corners, v) - 3, 0, VALENCES - 1);
     average(g, last, p);
+}
+
+OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, Place *p) {
     for (int i = 0; i < p->around.flaps; i++) add_shape(corners, g->values.data, v, p->around.flap[i], p->shape);
     if (p->around.flaps > 1)
         for (int i = 0; i < SHAPES; i++)
@@ -180,8 +190,10 @@ INLINE void expect_twins(const Twins *t, int j, int step, int kind, int32_t far,
     int chosen[2];
     choose_twins(t, chosen);
     for (int i = 0; i < TWIN_PREDICTIONS; i++) e->twin[i] = -1;
-    e->contexts = CONTEXTS + TWIN_CONTEXTS;
-    e->context[6] = 1008 + kind;
+    e->contexts = TWIN_CONTEXTS;
+    e->context[0] = e->context[3];
+    e->context[1] = e->context[5];
+    e->context[2] = 1008 + kind;
     for (int i = 0; i < 2 && chosen[i] >= 0; i++) {
         const Candidate *c = t->candidate + chosen[i];
         int32_t place = within(c->place[j], 0, far), sure = certainty(t, c);
@@ -190,10 +202,10 @@ INLINE void expect_twins(const Twins *t, int j, int step, int kind, int32_t far,
         if (i == 0) {
             image_off = place - guess;
             int32_t trusted = t->image[c->image].trust >= ONE / 2;
-            e->context[6] = (((sure / 12 * STEPS + sure % STEPS) * 2 + trusted) * 7
+            e->context[2] = (((sure / 12 * STEPS + sure % STEPS) * 2 + trusted) * 7
                 + signed_class(image_off, (int32_t)largest(unit, FINE / 2))) * 3;
         } else {
-            e->context[6] += 1 + (size_of(place - guess - image_off) < 24);
+            e->context[2] += 1 + (size_of(place - guess - image_off) < 24);
         }
     }
     bool echoed = t->echo_class > 0;
@@ -203,7 +215,7 @@ INLINE void expect_twins(const Twins *t, int j, int step, int kind, int32_t far,
         e->prediction[TWIN_AT[2 + i]] = place;
         e->twin[2 + i] = 2 * CERTAINTIES + (i * ECHO_CLASSES + t->echo_class - 1) * STEPS + step;
     }
-    e->context[7] = CONTEXT_SIZE + (echoed ? three_classes(off[0], off[1], image_off, FINE / 2, unit)
+    e->context[3] = CONTEXT_SIZE + (echoed ? three_classes(off[0], off[1], image_off, FINE / 2, unit)
         + 343 * (t->echo_class > 6) : 686 + signed_class(image_off, FINE / 2));
 }
 
@@ -233,6 +245,7 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     int64_t words = g->seen.columns;
     Expectation e;
     e.contexts = CONTEXTS;
+    e.refutations = 0;
     e.prediction[0] = base + tilted;
     e.prediction[1] = flaps > 0 ? p->across[0][j] : mean;
     e.prediction[2] = second;
@@ -260,13 +273,20 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     }
     e.context[5] = step == 0 ? 0 : *hits + (step << PREDICTIONS);
     e.set = step;
-    if (g->twins) expect_twins(g->twins, j, step, kind, far, unit, &e);
+    if (g->twins) {
+        expect_twins(g->twins, j, step, kind, far, unit, &e);
+        for (int i = 0; step == STEPS - 1 && i < g->twins->misses; i++) {
+            const int32_t *cell = g->twins->missed[i], *own = x + AXES * (int64_t)v;
+            if (cell[p->axis[0]] == own[p->axis[0]] && cell[p->axis[1]] == own[p->axis[1]])
+                e.refuted[e.refutations++] = cell[j];
+        }
+    }
 
     int32_t value = ISA(code_value)(coder, model, &e, is_reading(coder) ? 0 : x[AXES * (int64_t)v + j]);
     if (value < 0 || value > most) return false;
     x[AXES * (int64_t)v + j] = value;
     mark_seen(g->seen.data + j * words, value);
-    int32_t error = value * FINE - base, gap = take_all(&f, error);
+    int32_t error = value * FINE - base, gap = take_all(&f, error, g->twins);
     g->gaps.data[AXES * (int64_t)v + j] = gap;
     *hits = hits_of(&e, value);
     if (step == 0) *first_gap = size_of(gap);
@@ -288,10 +308,20 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
     Grid *g = &w->grid;
     int32_t v = g->order.data[i], last = i > 0 ? g->order.data[i - 1] : -1, hits = 0, first_gap = 0;
     Place p;
-    survey(&w->corners, g, v, last, &p);
-    if (g->twins) seek_twins(g->twins, &w->corners, &g->values, &p.around, v, p.base);
-    for (int step = 0; step < STEPS; step++)
-        if (!code_axis(&w->coder, &w->model, g, v, step, &p, &hits, &first_gap)) return false;
+    int32_t *x = g->values.data + AXES * (int64_t)v;
+    look_around(&w->corners, g, v, last, &p);
+    if (g->twins) seek_images(g->twins, &w->corners, &g->values, &p.around, v, p.base);
+    if (g->twins && g->twins->asks_whole && code_whole(&w->coder, g->twins, &p.around, v, p.base, p.error_near, g->largest.data, x)) {
+        for (int j = 0; j < AXES; j++) {
+            g->gaps.data[AXES * (int64_t)v + j] = FINE * x[j] - p.base[j];
+            mark_seen(g->seen.data + j * g->seen.columns, x[j]);
+        }
+    } else {
+        survey(&w->corners, g, v, &p);
+        if (g->twins) seek_echoes(g->twins, &w->corners, &g->values, &p.around, v);
+        for (int step = 0; step < STEPS; step++)
+            if (!code_axis(&w->coder, &w->model, g, v, step, &p, &hits, &first_gap)) return false;
+    }
     pass_on(&w->corners, &g->values, &g->sums, v);
     if (g->twins) remember_twins(g->twins, &g->values, &p.around, v);
     return true;

@@ -238,12 +238,13 @@ static int add_beyond(Twins *t, const Corners *corners, const Ints2 *values, int
 }
 
 /* Images of vertices beyond the twins of edges, or else of those around the twins of neighbors (V 17.4). */
-static void seek_images(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
+void seek_images(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
     const int32_t *base) {
     const int32_t *vertex = corners->faces.data, *rank = corners->rank.data;
     int32_t now = rank[v];
     int added = 0;
-    t->candidates = 0;
+    t->candidates = t->known_axes = t->echo_class = 0;
+    for (int i = 0; i < 2; i++) t->frame[i].is_there = false;
     if (t->images == 0) return;
     for (int i = 0; i < around->flaps && i < 3; i++) {
         Flap flap = around->flap[i];
@@ -402,7 +403,9 @@ KERNEL void find_alike(const Twins *t, const Frame *f, int open, int32_t *number
 }
 
 /* Flaps alike among those remembered: a vertex in the same place beside each is foretold (V 17.5). */
-static void seek_echoes(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v) {
+void seek_echoes(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v) {
+    const Candidate *first = t->candidate;
+    if (t->candidates > 0 && first->same_degree && first->support > 1 && t->image[first->image].trust >= SURE) return;
     int64_t sum[AXES] = {0, 0, 0}, weights = 0;
     int32_t best = INT32_MAX;
     int32_t number[2][PROBES * ECHO_VISITS + 1];
@@ -438,18 +441,6 @@ static void seek_echoes(Twins *t, const Corners *corners, const Ints2 *values, c
     }
     int kind = (best >= 26) + (best >= 51) + (best >= 96) + (best >= 160);
     t->echo_class = 1 + 3 * kind + (apart >= 16) + (apart >= 64);
-}
-
-void seek_twins(Twins *t, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
-    const int32_t *base) {
-    t->known_axes = 0;
-    seek_images(t, corners, values, around, v, base);
-    for (int i = 0; i < 2; i++) t->frame[i].is_there = false;
-    t->echo_class = 0;
-    if (t->candidates > 0 && t->candidate[0].same_degree && t->candidate[0].support > 1
-        && t->image[t->candidate[0].image].trust >= SURE)
-        return;
-    seek_echoes(t, corners, values, around, v);
 }
 
 void choose_twins(const Twins *t, int *chosen) {
@@ -553,11 +544,16 @@ void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t
     }
 }
 
-void start_learnt(const ValueModel *model, Longs2 learners) {
+void start_learnt(const ValueModel *model, Longs2 learners, Twins *twins) {
     const unsigned char *start = START;
-    for (int i = 0; i < START_ROWS * WEIGHT_ROW; i++) model->weights.data[i] = (int8_t)*start++ * (ONE / 16);
+    for (int row = 0; row < START_ROWS; row++)
+        for (int i = 0; i < TWIN_INPUTS; i++)
+            model->weights.data[WEIGHT_ROW * row + i] = (int8_t)*start++ * (ONE / 16);
     for (int i = 0; i < START_LEARNERS * MOST_TERMS; i++)
         start_learner(learners, i / MOST_TERMS, i % MOST_TERMS, (int8_t)*start++ * (ONE / 16));
-    for (int i = 0; i < TWIN_ROWS; i++)
-        model->twins.data[TWIN_ROW * i + 2] = (int32_t)((2 * (uint32_t)*start++ + 1) << 27 | START_COUNT);
+    for (int i = 0; i < TWIN_ROWS; i++) {
+        int32_t *row = model->twins.data + TWIN_ROW * i;
+        row[0] = 6 << 8, row[1] = 3, row[2] = (int32_t)((2 * (uint32_t)*start++ + 1) << 27 | START_COUNT);
+    }
+    for (int i = 0; i < WHOLE_ROWS * WHOLE_CONTEXTS; i++) twins->whole_weight[i] = (int8_t)*start++ * (ONE / 16);
 }

@@ -14,6 +14,9 @@ enum {
     ECHO_VISITS = 4, /* of one chain */
     TWIN_BYTES = 32, /* more than a transform takes in a payload */
     NEAR_BITS = 19, /* bits of `near`, as a power of two */
+    WHOLE_CONTEXTS = 5,
+    WHOLE_ROWS = 8,
+    MOST_MISSES = 2,
 };
 
 typedef struct { /* a transform, or the inverse of one */
@@ -58,6 +61,13 @@ typedef struct Twins {
     int32_t candidates, known_axes, axis[3], value[3];
     int32_t echoed[2][3], echo_class; /* of flaps alike, weighed and the best; 0: there is none */
     Frame frame[2]; /* of the first two flaps */
+    /* Whether vertices are where images are, if that is asked: the model, the latest answers of each image, a bit each; of each vertex
+     * whether it is in the first cell (0: not asked, 1: no, 2: yes); cells in which the vertex at hand is not. */
+    bool asks_whole;
+    uint32_t whole_slot[2 * WHOLE_CONTEXTS * CONTEXT_SIZE];
+    int32_t whole_weight[WHOLE_ROWS * WHOLE_CONTEXTS], latest[MOST_IMAGES], missed[MOST_MISSES][3], misses;
+    uint8_t *hit;
+    int32_t values; /* coded axis by axis: whose turn it is to learn */
 } Twins;
 
 /* What other meshes taught: spec/start.bin, of which the build makes an array (V 17.10). */
@@ -65,10 +75,10 @@ enum {
     START_ROWS = VALUE_NODES + WEIGHT_SETS * KINDS,
     START_LEARNERS = 60,
     START_COUNT = 16, /* how often each hit rate counts as seen */
-    START_BYTES = START_ROWS * WEIGHT_ROW + START_LEARNERS * MOST_TERMS + TWIN_ROWS,
+    START_BYTES = START_ROWS * TWIN_INPUTS + START_LEARNERS * MOST_TERMS + TWIN_ROWS + WHOLE_ROWS * WHOLE_CONTEXTS,
 };
 extern const unsigned char START[START_BYTES];
-void start_learnt(const ValueModel *model, Longs2 learners);
+void start_learnt(const ValueModel *model, Longs2 learners, Twins *twins);
 
 /* Code the transforms of a grid, a row each of `numbers`. */
 int64_t code_transforms(Coder coder, ConstInts largest, Ints2 numbers);
@@ -76,8 +86,12 @@ int64_t code_transforms(Coder coder, ConstInts largest, Ints2 numbers);
 void list_images(ConstInts largest, ConstInts2 numbers, Twins *twins);
 
 /* What a vertex with these surroundings may be: its base is in 1/16. */
-void seek_twins(Twins *twins, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
+void seek_images(Twins *twins, const Corners *corners, const Ints2 *values, const Around *around, int32_t v,
     const int32_t *base);
+void seek_echoes(Twins *twins, const Corners *corners, const Ints2 *values, const Around *around, int32_t v);
+/* Code whether vertex v is where one of two images is, and if so, its values x; see images.c. */
+bool code_whole(RangeCoder *coder, Twins *twins, const Around *around, int32_t v, const int32_t *base,
+    const int32_t *near, const int32_t *largest, int32_t *x);
 /* The two best candidates that agree with the axes known so far; -1: there is none. */
 void choose_twins(const Twins *twins, int *chosen);
 /* Learn from a vertex, which is known now. */

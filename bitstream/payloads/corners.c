@@ -3,7 +3,7 @@
 
 enum {
     MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES,
-    TWIN_SLOTS = 2 * TWIN_CONTEXTS * CONTEXT_SIZE * VALUE_NODES,
+    TWIN_SLOTS = (TWIN_CONTEXTS + 2) * CONTEXT_SIZE * VALUE_NODES,
     UNLEARNED_HIT = 1 << 28, SLOT_WEIGHT = 6000,
 };
 
@@ -32,22 +32,18 @@ bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order) {
 }
 
 bool make_value_model(Arena *arena, ValueModel *model, bool of_twins) {
-    int64_t slots = MODEL_SLOTS + (of_twins ? TWIN_SLOTS : 0);
+    int64_t slots = of_twins ? TWIN_SLOTS : MODEL_SLOTS;
     if (!take_words(arena, slots, &model->slots) || !take_words(arena, HIT_CONTEXTS * MODEL_ROW, &model->hits)
         || !zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, WEIGHT_ROW, &model->weights)
         || !zero_ints2(arena, SCALE_CONTEXTS, MODEL_ROW, &model->scales)
         || (of_twins && !zero_ints2(arena, TWIN_ROWS, TWIN_ROW, &model->twins)))
         return false;
-    for (int i = 0; i < TWIN_ROWS && of_twins; i++) {
-        int32_t *row = model->twins.data + TWIN_ROW * i;
-        row[0] = 6 << 8, row[1] = 3, row[2] = INT32_MIN;
-    }
     for (int64_t i = 0; i < model->slots.size; i++) model->slots.data[i] = 1u << 31;
     for (int64_t i = 0; i < model->hits.size; i++) model->hits.data[i] = UNLEARNED_HIT;
     for (int row = 0; row < VALUE_NODES; row++) {
         int32_t *weight = model->weights.data + row * WEIGHT_ROW;
         for (int i = 0; i < PREDICTIONS; i++) weight[i] = ONE * 9 / (8 * PREDICTIONS);
-        for (int i = CONSTANT_INPUT + 1; i < (of_twins ? WEIGHT_ROW : VALUE_INPUTS); i++) weight[i] = SLOT_WEIGHT;
+        for (int i = CONSTANT_INPUT + 1; i < VALUE_INPUTS; i++) weight[i] = SLOT_WEIGHT;
     }
     return true;
 }

@@ -29,6 +29,30 @@ static bool charge_grid(Context *context, const Header *header) {
         || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
 }
 
+static bool begin_twins(GridField *field, Arena *arena) {
+    int64_t n = field->header->vertices, transforms = transforms_of(field->header), images = 2 * transforms;
+    Twins *twins;
+    if (!TAKE_ZEROS(arena, 1, twins) || !TAKE(arena, MOST_ECHOES, twins->echo)
+        || !TAKE_ZEROS(arena, ECHO_HEADS, twins->echo_head)
+        || !zero_ints2(arena, transforms, TRANSFORM_ROW, &field->transforms))
+        return false;
+    field->twins = field->grid.twins = twins;
+    twins->asks_whole = asks_whole(field->header);
+    start_learnt(&field->model, field->grid.learners, twins);
+    for (int i = 0; i < 2 * WHOLE_CONTEXTS * CONTEXT_SIZE; i++) twins->whole_slot[i] = 1u << 31;
+    twins->echo[0] = (Echo){.chain = {0}}; /* the end of chains */
+    if (images == 0) return true;
+    twins->head_bits = 2; /* four times as many as vertices: few hold more than one cell */
+    while (INT64_C(1) << (twins->head_bits - 2) < n && twins->head_bits < 26) twins->head_bits++;
+    int64_t heads = INT64_C(1) << twins->head_bits;
+    if (!TAKE(arena, n * images, twins->twin) || !TAKE_ZEROS(arena, n, twins->has) || !TAKE(arena, heads, twins->head)
+        || !TAKE(arena, n, twins->next) || !TAKE_ZEROS(arena, n, twins->hit)
+        || !TAKE_ZEROS(arena, 1 << (NEAR_BITS - 6), twins->near))
+        return false;
+    for (int64_t i = 0; i < heads; i++) twins->head[i] = -1;
+    return true;
+}
+
 static bool begin_full(GridField *field, const GridField *like, Arena *arena, Arena *scratch) {
     Grid *grid = &field->grid;
     int64_t n = field->header->vertices, words = most_of(field->header) / 64 + 1;
@@ -40,9 +64,9 @@ static bool begin_full(GridField *field, const GridField *like, Arena *arena, Ar
         || !zero_longs2(arena, AXES, words, &grid->seen)
         || !make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS, &grid->learners))
         return false;
+    if (is_congruent(field->header)) return begin_twins(field, arena);
     for (int k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 0, 49152);
     for (int k = SUM_LEARNERS; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 1, 8192);
-    if (starts_learnt(field->header)) start_learnt(&field->model, grid->learners);
     return true;
 }
 
@@ -68,26 +92,6 @@ static bool begin_floats(GridField *field, Arena *arena) {
     return true;
 }
 
-static bool begin_twins(GridField *field, Arena *arena) {
-    int64_t n = field->header->vertices, transforms = transforms_of(field->header), images = 2 * transforms;
-    Twins *twins;
-    if (!TAKE_ZEROS(arena, 1, twins) || !TAKE(arena, MOST_ECHOES, twins->echo)
-        || !TAKE_ZEROS(arena, ECHO_HEADS, twins->echo_head)
-        || !zero_ints2(arena, transforms, TRANSFORM_ROW, &field->transforms))
-        return false;
-    field->twins = field->grid.twins = twins;
-    twins->echo[0] = (Echo){.chain = {0}}; /* the end of chains */
-    if (images == 0) return true;
-    twins->head_bits = 2; /* four times as many as vertices: few hold more than one cell */
-    while (INT64_C(1) << (twins->head_bits - 2) < n && twins->head_bits < 26) twins->head_bits++;
-    int64_t heads = INT64_C(1) << twins->head_bits;
-    if (!TAKE(arena, n * images, twins->twin) || !TAKE_ZEROS(arena, n, twins->has) || !TAKE(arena, heads, twins->head)
-        || !TAKE(arena, n, twins->next) || !TAKE_ZEROS(arena, 1 << (NEAR_BITS - 6), twins->near))
-        return false;
-    for (int64_t i = 0; i < heads; i++) twins->head[i] = -1;
-    return true;
-}
-
 /* The transforms, which precede the first value (V 17.2). */
 static bool code_twins(GridField *field, Coder coder) {
     ConstInts span = const_ints(field->largest);
@@ -110,8 +114,7 @@ bool begin_grid_like(GridField *field, const GridField *like, Context *context, 
     for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
     memcpy(field->largest.data, header->grid, sizeof header->grid);
     if (method_of(header) == LIGHT) return begin_light(field, arena);
-    return begin_full(field, like, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena))
-        && (!is_congruent(header) || begin_twins(field, arena));
+    return begin_full(field, like, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena));
 }
 
 bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,

@@ -437,14 +437,13 @@ class Field : public Shared, Output {
         : faces(other.faces), values(values), like(other.next == 0 && other.rows() == rows() ? other.encoding : NULL) {}
 
     void grid(Row<int32_t> largest, int light, Row<double> origin, double step, std::optional<Rows<double, 3>> exact,
-        std::optional<Rows<int32_t, 8>> transforms, bool learnt) {
+        std::optional<Rows<int32_t, 8>> transforms, int congruence) {
         if (largest.size() != 3 || values.shape(1) != 3 || origin.size() != 3 || (exact && exact->shape(0) != rows())
-            || (transforms && transforms->shape(0) > 16))
-            throw nb::value_error("a grid has three axes, and at most 16 transforms");
+            || (transforms ? (int)transforms->shape(0) : 0) != (congruence > 0 ? (congruence - 35) % 17 : 0))
+            throw nb::value_error("a grid has three axes, and the transforms of its header");
         begin([&] {
             return encode_positions(encoding, like, given(), largest.data(), light, origin.data(), step,
-                exact ? exact->data() : nullptr, transforms ? transforms->data() : nullptr,
-                transforms ? (int)transforms->shape(0) + 1 + 17 * learnt : 0);
+                exact ? exact->data() : nullptr, transforms ? transforms->data() : nullptr, congruence);
         });
     }
     void levels() {
@@ -655,7 +654,7 @@ NB_MODULE(_core, m) {
         .def(nb::init<Rows<int32_t, 3>, Table>(), "faces"_a, "values"_a)
         .def(nb::init<const Field &, Table>(), "other"_a, "values"_a, nb::keep_alive<1, 2>())
         .def("grid", in_turn(&Field::grid), "largest"_a, "light"_a, "origin"_a, "step"_a, "exact"_a.none(),
-            "transforms"_a.none() = nb::none(), "learnt"_a = false)
+            "transforms"_a.none() = nb::none(), "congruence"_a = 0)
         .def("levels", in_turn(&Field::levels))
         .def("attribute", in_turn(&Field::attribute), "declaration"_a, "vertices"_a, "at"_a, "places"_a.none())
         .def("write", in_turn(&Field::write), "count"_a)

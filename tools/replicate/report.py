@@ -30,7 +30,7 @@ writes every number as JSON, each table in LaTeX and each figure as PDF. `--figu
 `--quick` takes ten minutes. Rates are of whole files, with connectivity and headers. `BSM_MESHES` may name a folder of
 your own; its meshes and sequences join those that were in use here before. BSM was not developed on the fetched meshes,
 but some constants were chosen with some of them in view: of the look, of how many grids are tried, and of denoising.
-The state that models of congruent grids start from was learnt on 75 of them. The others gain as much by it: 3 %.
+The state that models of congruent grids start from was learnt on most of them.
 Each table names the commit that it measured.
 
 SSIMULACRA2 is Cloudinary's, in the Python package of that name; 90 is visually lossless, 70 high quality. Butteraugli

@@ -114,46 +114,47 @@ CONGRUENCE: dict[str, Good] = {
     )
 }
 CONGRUENCE |= {
-    f"good-congruence-learnt-{name}": Good(f"congruent parts, a learnt start: {probes}", make)
+    f"good-congruence-whole-{name}": Good(f"congruent parts, whole vertices: {probes}", make)
     for name, probes, make in (
-        ("echoes", "flaps alike, no transforms", lambda: placed(torus(16, 12), 500, [], learnt=True)),
-        ("mirrors", "mirrors along the axes", lambda: placed(torus(16, 12), 500, mirrors(), learnt=True)),
-        ("turned", "turns about an axis", lambda: placed(torus(15, 12), 700, [about(2, 5)], learnt=True)),
-        ("chunks", "frames", lambda: placed(torus(16, 12), 500, mirrors(), 1, 90, 101, learnt=True)),
-        ("noise", "16 transforms without sense", lambda: drawn(torus(12, 10), (1000, 3, MOST_GRID), 16, learnt=True)),
-        ("ends", "ends of the range", lambda: drawn(tangled(), (MOST_GRID,) * 3, 9, True, learnt=True)),
-        ("hub", "a vertex with very many neighbors", lambda: drawn(hub(), (99, 999, 9), 5, learnt=True)),
-        ("tent", "more neighbors and flaps than count", lambda: drawn(tent(), (255, 255, 255), 7, learnt=True)),
-        ("point", "a grid of one place", lambda: drawn(tetrahedron(), (0, 0, 0), 4, learnt=True)),
-        ("long", "more flaps than are remembered", lambda: placed(torus(64, 48), 300, [about(2, 16)], learnt=True)),
-        ("turn", "turned axes", lambda: placed(torus(15, 12), 700, mirrors(), learnt=True, turn=[0.25, -0.5, 0.125])),
+        ("echoes", "flaps alike, no transforms", lambda: placed(torus(16, 12), 500, [], whole=True)),
+        ("mirrors", "mirrors along the axes", lambda: placed(torus(16, 12), 500, mirrors(), whole=True)),
+        ("turned", "turns about an axis", lambda: placed(torus(15, 12), 700, [about(2, 5)], whole=True)),
+        ("chunks", "frames", lambda: placed(torus(16, 12), 500, mirrors(), 1, 90, 101, whole=True)),
+        ("noise", "16 transforms without sense", lambda: drawn(torus(12, 10), (1000, 3, MOST_GRID), 16, whole=True)),
+        ("ends", "ends of the range", lambda: drawn(tangled(), (MOST_GRID,) * 3, 9, True, whole=True)),
+        ("hub", "a vertex with very many neighbors", lambda: drawn(hub(), (99, 999, 9), 5, whole=True)),
+        ("tent", "more neighbors and flaps than count", lambda: drawn(tent(), (255, 255, 255), 7, whole=True)),
+        ("point", "a grid of one place", lambda: drawn(tetrahedron(), (0, 0, 0), 4, whole=True)),
+        ("long", "more flaps than are remembered", lambda: placed(torus(64, 48), 300, [about(2, 16)], whole=True)),
+        ("turn", "turned axes", lambda: placed(torus(15, 12), 700, mirrors(), whole=True, turn=[0.25, -0.5, 0.125])),
     )
 }
 CONGRUENCE_BAD: dict[str, Bad] = {
-    "bad-congruence-light": Bad("congruent parts of a light grid", "corrupt", lambda: _changed(light=1, congruence=1)),
+    "bad-congruence-light": Bad("congruent parts of a light grid", "corrupt", lambda: _changed(light=1, congruence=35)),
     "bad-congruence-blocks": Bad(
-        "congruent parts without a grid", "corrupt", lambda: _changed(grid=None, congruence=1)
+        "congruent parts without a grid", "corrupt", lambda: _changed(grid=None, congruence=35)
     ),
-    "bad-congruence-more": Bad("17 transforms", "corrupt", lambda: _changed(congruence=35)),
+    "bad-congruence-more": Bad("beyond all transforms", "corrupt", lambda: _changed(congruence=69)),
     "bad-congruence-none": Bad("a default that is stored", "corrupt", lambda: _changed(congruence=0)),
-    "bad-congruence-learnt-light": Bad(
-        "a learnt start of a light grid", "corrupt", lambda: _changed(light=1, congruence=18)
+    "unsupported-congruence-draft": Bad("1 transform of a draft", "unsupported", lambda: _changed(congruence=2)),
+    "unsupported-congruence-draft-learnt": Bad(
+        "16 transforms of a draft", "unsupported", lambda: _changed(congruence=34)
     ),
-    "bad-congruence-learnt-blocks": Bad(
-        "a learnt start without a grid", "corrupt", lambda: _changed(grid=None, congruence=18)
+    "bad-congruence-whole-light": Bad(
+        "whole vertices of a light grid", "corrupt", lambda: _changed(light=1, congruence=52)
     ),
-    "bad-congruence-learnt-short": Bad(
-        "a learnt start, 16 transforms, in a payload without", "truncated", lambda: _changed(congruence=34)
+    "bad-congruence-whole-short": Bad(
+        "whole vertices, 16 transforms, in a payload without", "truncated", lambda: _changed(congruence=68)
     ),
-    "bad-congruence-learnt-not": Bad(
-        "a learnt start that the header does not have",
+    "bad-congruence-whole-not": Bad(
+        "whole vertices that the header does not have",
         "corrupt",
-        lambda: with_header(placed(torus(16, 12), 500, mirrors(), learnt=True), congruence=4),
+        lambda: with_header(placed(torus(16, 12), 500, mirrors(), whole=True), congruence=38),
     ),
-    "bad-congruence-learnt-wrong": Bad(
-        "a learnt start that only the header has",
+    "bad-congruence-whole-wrong": Bad(
+        "whole vertices that only the header has",
         "corrupt",
-        lambda: with_header(placed(torus(16, 12), 500, mirrors()), congruence=21),
+        lambda: with_header(placed(torus(16, 12), 500, mirrors()), congruence=55),
     ),
-    "bad-congruence-short": Bad("16 transforms, in a payload without", "truncated", lambda: _changed(congruence=17)),
+    "bad-congruence-short": Bad("16 transforms, in a payload without", "truncated", lambda: _changed(congruence=51)),
 }

@@ -142,7 +142,7 @@ export const KERNEL_BUILDS = {
     "built/kernels-scalar.wasm": { vectors: false },
     "built/small.wasm": { vectors: true, without: /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
     "built/moving.wasm": { vectors: true, without: /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/, long: true, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/twins|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "!header->on_grid || header->congruence" },
+    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "!header->on_grid || header->congruence" },
     "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: true },
 };
 

@@ -23,7 +23,7 @@ from bsm.codec.static.ways.grid import SAMPLE, Grid, encode_grid, grid_of, sampl
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
 MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
-LEAST_SAVED = 0.03  # of the bytes, by congruent parts or other axes: a share that is worth another try
+LEAST_SAVED = 0.03  # of the bytes: a share that is worth another try, or a fifth more time of decoding
 
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels, brief: bool = False, most: float = math.inf) -> Draft:
@@ -51,12 +51,13 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     grid = grid_of(header)
     sets = transforms_of(prepared, grid)[: header.transforms], transforms_of(prepared, grid, 2.0)
     kept, finer = ([part for part in np.array_split(some, 4) if len(part)] for some in sets)
-    for i in (5, 4, 3, 2):  # where hardly anything is left to code, models may learn faster from nothing
+    for i in (5, 4, 3, 2):  # first without whole vertices, which take longer to decode
         some = kept if i == 5 else finer if i == 4 else kept[:i] + kept[i + 1 :]
-        if i < len(kept) or (i == 4 and not np.array_equal(*sets)) or (i == 5 and 4 * draft.size < len(places)):
-            grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]), learnt=i < 5)
+        if i < len(kept) or (i == 4 and not np.array_equal(*sets)) or (i == 5 and kept):
+            grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]), whole=i < 5 and draft.header.whole)
             coded = grid_draft(prepared, grid, places, draft.may_be_brief, draft.begun)
-            draft, kept = (coded, some) if coded.size < draft.size else (draft, kept)
+            wins = coded.size < (1.0 - LEAST_SAVED * (i == 5)) * draft.size
+            draft, kept = (coded, some) if wins else (draft, kept)
     return draft
 
 

@@ -30,17 +30,21 @@ class Grid:
     exact: bool = False
     transforms: Levels | None = None  # of congruent parts, shape (k, 8); None: coded without
     turn: Turn = UNTURNED  # of its axes to those of the mesh
-    learnt: bool = True  # whether models of congruent parts start with what other meshes taught
+    whole: bool = True  # whether vertices that are where images are take one decision
 
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
         return turned_by(coded * self.step + np.array(self.origin), self.turn)
 
     @property
+    def congruence(self) -> int:
+        """The field of the header."""
+        return 0 if self.transforms is None else 35 + len(self.transforms) + 17 * self.whole
+
+    @property
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
-        congruence = 0 if self.transforms is None else 1 + len(self.transforms) + 17 * self.learnt
-        coded = {"light": EXACT if self.exact else int(self.light), "congruence": congruence, "turn": self.turn}
+        coded = {"light": EXACT if self.exact else int(self.light), "congruence": self.congruence, "turn": self.turn}
         return {"center": self.origin, "scale": self.step, "grid": self.largest} | coded
 
 
@@ -57,7 +61,7 @@ def grid_field(
 ) -> Field:
     """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats; a field can give faces."""
     field, ends, grid = Field(faces, np.ascontiguousarray(coded, np.int32)), np.array(largest, np.int32), grid or UNIT
-    field.grid(ends, light, np.array(grid.origin, np.float64), grid.step, exact, grid.transforms, grid.learnt)
+    field.grid(ends, light, np.array(grid.origin, np.float64), grid.step, exact, grid.transforms, grid.congruence)
     return field
 
 

@@ -53,7 +53,7 @@ def summarize(info: StreamInfo) -> dict[str, Any]:
         "order": sizes["order"] > 0,
         "light": header.light > 0,
         "congruence": header.congruence > 0,
-        "learnt": header.congruence > 17,  # models start with what other meshes taught
+        "whole": header.whole,  # vertices where images of others are take one decision
         "turn": any(header.turn),
         "brief": info.brief,
         "paper": bool(header.paper) or sizes["partition"] > 0,
