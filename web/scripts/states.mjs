@@ -1,6 +1,6 @@
 // Pictures of the page of `bsm view` in every state and size, dark and light: `npm run states -- FOLDER PAGE...` takes saved pages,
 // and addresses of served ones; empty ones, too. Says how much of each mesh cards and buttons cover, and whether anything is cut
-// off or lies over another control; the exit code is 1 if so.
+// off or lies over another control, and presses the buttons of panels twice; the exit code is 1 if anything is wrong.
 import { mkdirSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -12,6 +12,13 @@ const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--e
 const MOST = 0.05; // of the mesh that may be covered
 const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #0f0 !important }";
 const PATIENCE = 120_000;
+
+const LEAST_PANEL = 120; // pixels
+
+async function middleOf(page, name) {
+    const { x, y, width, height } = await page.locator(`[name=${name}]`).boundingBox();
+    return [x + width / 2, y + height / 2];
+}
 
 /** The pixels of a PNG of 8 bits without interlacing, as rows of colors. */
 function pixelsOf(png) {
@@ -73,6 +80,17 @@ for (const path of pages) {
                     const box = element.getBoundingClientRect();
                     return box.width * box.height > 0 && (box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1);
                 }).map((element) => element.getAttribute("aria-label") ?? element.textContent.trim()));
+            for (const panel of ["panel", "keys"]) {
+                for (const open of [true, false]) {
+                    await page.mouse.click(...(await middleOf(page, panel)));
+                    const found = await page.evaluate((panel) => {
+                        const [part, button] = [document.querySelector(`[data-part=${panel}]`).getBoundingClientRect(), document.querySelector(`[name=${panel}]`).getBoundingClientRect()];
+                        return { height: part.height, hit: Boolean(document.elementFromPoint(button.x + button.width / 2, button.y + button.height / 2)?.closest(`[name=${panel}]`)) };
+                    }, panel);
+                    if (!found.hit) over.push(`${panel} over its button`);
+                    if (open !== found.height > LEAST_PANEL) over.push(`${panel} is ${found.height} px high where it is ${open ? "open" : "closed"}`);
+                }
+            }
             await page.addStyleTag({ content: BARE });
             const picture = pixelsOf(await page.screenshot());
             let [all, covered, edge] = [0, 0, 0];

@@ -75,24 +75,26 @@ export function element(tag: string, text: string, ...inside: Node[]): HTMLEleme
     return made;
 }
 
-/** What was measured, in words: of looks only where they were. */
-function verdictOf({ look, farthest, diagonal = 1 }: Content["facts"], looks: string, unit: unknown): string {
-    if (look !== undefined) return `${look <= 1 ? "Looks the same" : look <= CLOSE ? "Close: differences show side by side" : "A preview"} (${looks})`;
-    if (!farthest) return farthest === 0 ? "No difference was measured" : "";
+/** What the color of a verdict says. */
+export type Tone = "good" | "fair" | "poor" | "";
+
+/** What was measured, in words, of looks only where they were; figures are in the rows below. */
+function verdictOf({ look, farthest, diagonal = 1 }: Content["facts"], unit: unknown): [words: string, tone: Tone] {
+    if (look !== undefined) return look <= 1 ? ["Looks the same", "good"] : look <= CLOSE ? ["Close: differences show side by side", "fair"] : ["A preview: differences show at a glance", "poor"];
+    if (!farthest) return farthest === 0 ? ["No difference was measured", "good"] : ["", ""];
     const far = typeof unit === "string" ? `${Number((farthest * diagonal).toPrecision(2))}\u00a0${unit}` : `${percent(farthest)} of the diagonal`;
-    return `${farthest <= PIXEL ? "Close: differences" : "Differences"} up to ${far}`;
+    return farthest <= PIXEL ? [`Close: differences up to ${far}`, "good"] : [`Differences up to ${far}`, "poor"];
 }
 
 /** Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all of the file is in the stream. */
-export function factsOf({ layers, main, facts }: Content, length: number, { frames: { length: frames }, header, metadata }: BSMGeometry, took?: number): { plain?: number; size: number; claim: string; rows: Row[] } {
+export function factsOf({ layers, main, facts }: Content, length: number, { frames: { length: frames }, header, metadata }: BSMGeometry, took?: number): { plain?: number; size: number; claim: string; tone: Tone; rows: Row[] } {
     const size = layers[main].size || length;
     const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
     const plain = main > 0 && !facts.less ? layers[0].size : undefined;
     const ratio = (plain ?? 0) / Math.max(size, 1);
     const { look, drawn, farthest, apart, before, angle, seconds, promised = {}, draco, notes = [] } = facts;
-    const looks = look === undefined ? "" : promised.look ? `${look.toFixed(2)} of ${promised.look}` : look.toFixed(2);
     const rows: Row[] = notes.map((note) => ["Note", note]);
-    if (look !== undefined) rows.push(["Look distance", looks, `${promised.look ? "promised; " : ""}${drawn ? `worst of ${drawn} frames drawn; ` : ""}at 1, both look the same`]);
+    if (look !== undefined) rows.push(["Look distance", look.toFixed(2), `${promised.look ? `promised ${promised.look}; ` : ""}${drawn ? `worst of ${drawn} frames drawn; ` : ""}at 1, both look the same`]);
     if (farthest !== undefined) rows.push([apart === undefined ? "Largest vertex error" : "Largest surface distance", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
     if (apart !== undefined) rows.push(["Mean surface distance", percent(apart), "the faces differ"]);
     if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
@@ -102,6 +104,8 @@ export function factsOf({ layers, main, facts }: Content, length: number, { fram
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
-    const words = verdictOf(facts, looks, metadata.get("unit"));
-    return { plain, size, claim: [words, size > 0 && ratio > 1 ? `${times(ratio)} times smaller` : ""].filter(Boolean).join(", "), rows };
+    const [words, tone] = verdictOf(facts, metadata.get("unit"));
+    const left = facts.less ? `${(notes.find((note) => /left out/i.test(note)) ?? "Left out: parts of the file").split(/\.( |$)/)[0].replace(/^.*?left out/i, "Left out")}. ` : "";
+    const smaller = size > 0 && ratio > 1 && /good|fair/.test(tone) ? `, ${times(ratio)} times smaller` : "";
+    return { plain, size, claim: `${left}${words}${smaller}`, tone: left && tone === "good" ? "fair" : tone, rows };
 }

@@ -22,7 +22,7 @@ function around(root: HTMLElement, selector: string): Area | undefined {
 /** Areas that nothing covers, of which one is to be chosen; those of a half of the page where it shows two meshes. */
 export function freeAreas(root: HTMLElement, beside: number): Area[] {
     const [width, height] = [root.clientWidth / beside, root.clientHeight];
-    const card = around(root, ".bsm-card, .bsm-scale") ?? { left: 0, top: 0, right: 0, bottom: 0 };
+    const card = around(root, ".bsm-side > *") ?? { left: 0, top: 0, right: 0, bottom: 0 };
     const tools = around(root, ".bsm-tools > *") ?? { left: width, top: 0, right: width, bottom: 0 };
     const bottom = Math.min(height, ...[".bsm-dock > *", ".bsm-tag", ".bsm-ruler"].map((name) => around(root, name)?.top ?? height));
     const below = { left: 0, top: Math.max(card.bottom, tools.bottom), right: width, bottom };

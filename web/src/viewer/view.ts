@@ -84,7 +84,7 @@ export class View {
         };
         this.upload = new Upload(this.form, show, encode);
         this.listen();
-        for (const part of [root, ...root.querySelectorAll(".bsm-card, .bsm-dock, .bsm-scale")]) this.watch.observe(part);
+        for (const part of [root, ...root.querySelectorAll(".bsm-side > *, .bsm-dock")]) this.watch.observe(part);
         const go = (now: number): void => {
             if (this.closed) return;
             this.step(now);
@@ -358,6 +358,7 @@ export class View {
         const before = facts.plain === undefined ? [] : [element("s", `${sized(facts.plain)} → `)];
         form.part("figures").replaceChildren(...before, facts.size > 0 ? sized(facts.size) : "");
         form.say("claim", facts.claim);
+        form.part("claim").dataset.tone = facts.tone;
         this.listRows(facts.rows);
     }
 
