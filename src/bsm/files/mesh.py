@@ -25,7 +25,7 @@ from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, file_beside, is_url
-from bsm.files.room import PRECISION, gunzipped, plain_text, require_counts_of_head, require_room
+from bsm.files.room import PRECISION, gunzipped, plain_text, require_counts_of_head, require_counts_of_lines
 
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
@@ -126,8 +126,8 @@ def read_cut(
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
     polygons: Polygons
-    if kind in _PLAIN:
-        require_room(kind, data, limits)
+    if kind == "obj":
+        require_counts_of_lines(data, limits)
     if kind == "dae":
         polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
     elif kind in _ROOMS:

@@ -141,7 +141,6 @@ def point_row(keyword: str, positions: Doubles) -> str:
     return f"{keyword}{number} {number} {number}\n"
 
 
-LINE, WORD = 250.0, 330.0  # bytes that a line of text, and a word of it, are kept in while numbers are made of them
 AS_NUMBERS = 8  # bytes of a coordinate or an index as readers make it, however narrow the file has it
 TREE = 32  # bytes that a byte of JSON may become
 TAG = 150  # bytes that a tag of XML becomes in the tree of a library
@@ -240,41 +239,11 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
     return bytes(found)
 
 
-def require_room(kind: str, data: bytes, limits: Limits) -> None:
-    """Count lines and words of a text before objects are made of them."""
-    if kind in ("ply", "stl") and not _is_text(kind, data):
-        return
-    lines = data.count(b"\n") + data.count(b"\r") + 1
-    vertices = lines // 3  # the other two are faces; where they are none, too many lines are refused all the same
-    if kind == "obj":
-        begins = [(end, gap) for end in "\n\r" for gap in " \t"]
-        counts = {n: sum(data.count(f"{end}{k}{gap}".encode()) for end, gap in begins) for k, n in _KEYWORDS.items()}
-        for name, count in counts.items():
-            require_count(name, count, limits)
-        vertices = counts["vertices"]
-        if not counts["faces"] and not data.startswith((b"f ", b"f\t")) and b"\0" not in data:
-            raise NoFacesError("the file has no faces; point clouds are not supported")
-    memory = LINE * lines + WORD * _words(data)
-    granted = limits.memory_for(vertices, len(data))
-    if memory > granted:
-        raise LimitError(
-            f"{lines} lines of text take {memory:.3g} bytes of memory, over the limit of {granted:.3g} "
-            "(Limits.memory); if you trust the file, save it in a binary format"
-        )
-
-
-def _is_text(kind: str, data: bytes) -> bool:
-    if kind == "stl":
-        return len(data) != 84 + 50 * int.from_bytes(data[80:84], "little") and b"\0" not in data[:1024]
-    return b"format ascii" in data[:1024]
-
-
-def _words(data: bytes) -> int:
-    """Words of a text, and corners of faces as words of their own."""
-    count, before = 0, True
-    for start in range(0, len(data), _PIECE):
-        codes = np.frombuffer(data, np.uint8, min(_PIECE, len(data) - start), start)
-        gap = (codes <= 32) | (codes == ord("/"))
-        count += int((gap[:-1] & ~gap[1:]).sum()) + int(before and not gap[0])
-        before = bool(gap[-1])
-    return count
+def require_counts_of_lines(data: bytes, limits: Limits) -> None:
+    """Count the vertices and faces of an OBJ before objects are made of them."""
+    begins = [(end, gap) for end in "\n\r" for gap in " \t"]
+    counts = {n: sum(data.count(f"{end}{k}{gap}".encode()) for end, gap in begins) for k, n in _KEYWORDS.items()}
+    for name, count in counts.items():
+        require_count(name, count, limits)
+    if not counts["faces"] and not data.startswith((b"f ", b"f\t")) and b"\0" not in data:
+        raise NoFacesError("the file has no faces; point clouds are not supported")

@@ -12,6 +12,7 @@ import gc
 import importlib
 import io
 import itertools
+import json
 import math
 import mmap
 import os
@@ -23,21 +24,16 @@ import struct
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager, suppress
-from dataclasses import asdict, fields
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-import msgpack
-import numpy as np
-import numpy.typing as npt
-
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, UnsupportedError
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.attributes import KINDS, Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.answer import found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input
@@ -45,7 +41,7 @@ from bsm.files.pipes import Input
 _COMMAND = "from bsm.files.wall import serve; serve({number})"
 _KIND = struct.Struct("<16sI")  # the name of a format and seconds, as they are sent
 _END = struct.Struct("<iQd")  # a status, the most memory in bytes and seconds of processor time, as they come back
-_HEAD = 8  # bytes of the length of what follows, in shared memory
+_HEAD = struct.Struct("<QQ")  # the bytes of a question in shared memory, and those of a file after it
 _ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
 _LIBRARIES = {
     "gltf": ("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"),
@@ -108,13 +104,14 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
     asked["memory"] = int(min(limits.memory_for(limits.vertices, size), 1 << 40))
     asked["seconds"] = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
     asked["closed"] = lack() is None
-    request = msgpack.packb(asked)
-    with _shared(_ROOM + len(request) + asked["memory"]) as memory:
-        os.pwrite(memory, len(request).to_bytes(_HEAD, "little") + request, 0)
+    data = asked.pop("data", b"")
+    question = json.dumps(asked).encode()
+    with shared(_ROOM + len(question) + len(data) + asked["memory"]) as memory:
+        os.pwrite(memory, _HEAD.pack(len(question), len(data)) + question + data, 0)
         status = end_of_child(memory, _library(kind), _PATIENCE * asked["seconds"])[0]
         if os.WIFSIGNALED(status):
             raise _end_of(os.WTERMSIG(status), asked)
-        return _found_in(memory, limits)
+        return found_in(memory, limits)
 
 
 def _library(kind: str) -> str:
@@ -138,7 +135,7 @@ def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
 
 
 @contextmanager
-def _shared(size: int) -> Iterator[int]:
+def shared(size: int) -> Iterator[int]:
     """Memory that other processes can map; pages count once they are written."""
     memory = os.memfd_create("bsm", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
     try:
@@ -248,21 +245,22 @@ def _watch(answer: int, memory: int, seconds: int) -> None:
 def _read(memory: int) -> None:
     """Read the file that shared memory names, and leave the mesh or the error there."""
     try:
-        asked = _message(memory, 1 << 62)
+        question, size = _HEAD.unpack(os.pread(memory, _HEAD.size, 0))
+        asked = json.loads(os.pread(memory, question, _HEAD.size))
+        asked["data"] = os.pread(memory, size, _HEAD.size + question)
         try:
             _confine(asked)
-            _leave(memory, _called(asked))
+            leave(memory, _called(asked))
         except MemoryError:
             taken = f"{asked['memory']:,} bytes of memory (Limits.memory, most_memory)"
-            _leave(memory, {"error": ["LimitError", f"reading this file takes more than {taken}"]})
+            leave(memory, LimitError(f"reading this file takes more than {taken}"))
         except BsmError as error:
-            _leave(memory, {"error": [type(error).__name__, error.message, error.offset, error.frame, error.block]})
+            leave(memory, error)
         except OSError as error:
             name = asked["name"] if error.filename == asked.get("path", "") else error.filename
-            _leave(memory, {"system": [error.errno, error.strerror, name and str(name)]})
+            leave(memory, FormatError(f"reading this file failed: {error.strerror}{f': {name}' if name else ''}"))
         except Exception as error:
-            words = f"reading this file failed: {type(error).__name__}: {str(error)[:200]}"
-            _leave(memory, {"error": ["FormatError", words]})
+            leave(memory, FormatError(f"reading this file failed: {type(error).__name__}: {str(error)[:200]}"))
     finally:
         os._exit(0)
 
@@ -343,110 +341,3 @@ def _libraries() -> tuple[str, ...]:
     loaded = {path for module in list(sys.modules.values()) for path in list(getattr(module, "__path__", ()))}
     system = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/dev/null", "/dev/urandom"}
     return tuple(filter(os.path.exists, installed | python | loaded | system))
-
-
-_MADE: tuple[type, ...] = (np.ndarray, Attribute, TriangleMesh, MeshFile, Frames)
-"""The kinds of results besides plain data; messages call them by their places here."""
-
-
-def _leave(memory: int, found: Any) -> None:
-    """Leave a mesh, frames or plain data as a message, which says where arrays lie after it, each once."""
-    arrays, known, total = list[npt.NDArray[Any]](), dict[int, bytes](), 0
-
-    def plain(one: Any) -> Any:
-        nonlocal total
-        if isinstance(one, Iterator | Mapping):
-            return dict(one) if isinstance(one, Mapping) else list(one)
-        if not isinstance(one, np.ndarray):
-            given = {field.name: getattr(one, field.name) for field in fields(one)}
-            given |= {"frames": ()} if given.get("meshes") else {}  # which have them
-            return msgpack.ExtType(_MADE.index(type(one)), msgpack.packb([*given.values()], default=plain))
-        if id(one) not in known:
-            known[id(one)] = msgpack.packb([str(one.dtype), one.shape, total])
-            arrays.append(one)
-            total += one.nbytes
-        return msgpack.ExtType(0, known[id(one)])
-
-    message = msgpack.packb(found, default=plain)
-    place = _HEAD + len(message)
-    with closing(mmap.mmap(memory, place + total)) as view:
-        view[:place] = len(message).to_bytes(_HEAD, "little") + message
-        for array in arrays:
-            view[place : place + array.nbytes] = np.ascontiguousarray(array).tobytes()
-            place += array.nbytes
-
-
-# ------------------------------------------------------------------------------------------------ what came back
-
-
-def _message(memory: int, most: int) -> Any:
-    size, left = int.from_bytes(os.pread(memory, _HEAD, 0), "little"), os.fstat(memory).st_size
-    if size > min(most, left - _HEAD):
-        raise FormatError("the process that read this file left no mesh")
-    known: dict[bytes, npt.NDArray[Any]] = {}
-
-    def made(code: int, data: bytes) -> Any:
-        nonlocal left
-        if code or data not in known:
-            given = msgpack.unpackb(data, ext_hook=made, use_list=False)
-        if code:
-            return _made(_MADE[code], given)
-        if data not in known:
-            kind, shape, begin = given
-            taken = math.prod(shape) * np.dtype(kind).itemsize
-            if kind not in KINDS or min(shape, default=0) < 0 or taken > left:
-                raise ValueError("an array that is not there")
-            left -= taken
-            known[data] = np.frombuffer(os.pread(memory, taken, _HEAD + size + begin), kind).reshape(shape)
-        return known[data]
-
-    message = os.pread(memory, size, _HEAD)
-    return msgpack.unpackb(message, ext_hook=made, use_list=False, strict_map_key=False)
-
-
-def _made(kind: type, given: tuple[Any, ...]) -> Any:
-    """Make a mesh, frames or a part of them of data that a hostile file may have written."""
-    if kind is MeshFile:
-        mesh, *more = given
-        if not isinstance(mesh, TriangleMesh):
-            raise TypeError("a mesh of another kind")
-        return MeshFile(mesh, *(tuple(map(str, words)) for words in more))
-    if kind is not Frames:
-        return kind(*given)
-    faces, count, frames, attributes, notes, rate, metadata, meshes, rigged = given
-    faces = TriangleMesh(np.zeros((int(faces.max(initial=-1)) + 1, 3)), faces).faces
-    frames = frames if meshes is None else [mesh.positions for mesh in meshes]
-    if len(frames) != count or any(frame.shape[1:] != (3,) for frame in frames):
-        raise ValueError("frames of another kind")
-    if not all(isinstance(attribute, Attribute) for attribute in attributes):
-        raise TypeError("attributes of another kind")
-    every = None if meshes is None else iter(meshes)
-    words = tuple(map(str, notes))
-    return Frames(faces, int(count), iter(frames), attributes, words, float(rate), metadata, every, int(rigged))
-
-
-@cache
-def _kinds() -> dict[str, type[BsmError]]:
-    """All errors of ours, by their names."""
-    found, waiting = dict[str, type[BsmError]](), [BsmError]
-    while waiting:
-        kind = waiting.pop()
-        found[kind.__name__] = kind
-        waiting += kind.__subclasses__()
-    return found
-
-
-def _found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
-    """The mesh, frames or error that a child has left, which a hostile file may have taken over."""
-    try:
-        found = _message(memory, 2 * limits.metadata_bytes + 5 * limits.frame_bytes + _ROOM)
-        if isinstance(found, MeshFile | Frames | None):
-            return found
-        if "system" in found:
-            raise OSError(*found["system"])
-        kind, message, *places = found["error"]
-        raise _kinds()[kind](message, **dict(zip(("offset", "frame", "block"), places)))
-    except (BsmError, OSError):
-        raise
-    except Exception as error:
-        raise FormatError("the process that read this file left no mesh") from error

@@ -5,6 +5,7 @@ import signal
 import threading
 from dataclasses import replace
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
@@ -13,12 +14,14 @@ import bsm
 from bsm import FormatError, LimitError, Limits
 from bsm.cli import main
 from bsm.files import wall
+from bsm.files.answer import found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.files.motion.frames import Shared, Wanted
+from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.wall import lack
 from tests.shapes import torus
+from tools.attack.answers import SIZE, answers, fault
 from tools.attack.readers import chained_objects, three_mf
 from tools.attack.uses import of_size, uses
 
@@ -151,24 +154,30 @@ def test_nothing_is_written_and_no_other_folder_read(monkeypatch, tmp_path):
     assert victim.read_bytes() == b"secret" and not (tmp_path / "new").exists()
 
 
-def test_lies_about_arrays_are_refused(monkeypatch, tmp_path):
-    for lie in (
-        '{"positions": 0, "faces": 1, "attributes": [], "metadata": {}, "notes": [], "dropped": [], '
-        '"arrays": [["float64", [1 << 40, 3]], ["int32", [1, 3]]]}',
-        '{"arrays": [["object", [1]]]}',
-        '{"error": ["Exception", "x"], "arrays": []}',
-        '{"error": ["__builtins__", "x"], "arrays": []}',
-        '{"arrays": []}',
-    ):
-        with wall._shared(1 << 16) as memory:
-            message = wall.msgpack.packb(eval(lie))
-            os.pwrite(memory, len(message).to_bytes(8, "little") + message, 0)
+def test_lies_are_refused():
+    """100,000 of them: `python -m tools.attack answers`."""
+    with wall.shared(SIZE) as memory:
+        for data in answers(Random(7), 1500):
+            assert fault(memory, data, Limits.service()) == ""
+        for number in (0, 9, 400):
+            os.pwrite(memory, b"\xff" * 8 + bytes(number), 0)
             with pytest.raises(FormatError, match="left no mesh"):
-                wall._found_in(memory, Limits())
-    with wall._shared(1 << 16) as memory:
-        os.pwrite(memory, b"\xff" * 8, 0)
-        with pytest.raises(FormatError, match="left no mesh"):
-            wall._found_in(memory, Limits())
+                found_in(memory, Limits())
+    with wall.shared(SIZE) as memory, pytest.raises(FormatError, match="left no mesh"):
+        found_in(memory, Limits())
+
+
+def test_what_a_process_leaves_is_within_limits():
+    mesh = torus(40, 30)
+
+    def frames():
+        return Frames(mesh.faces, 2, iter([mesh.positions] * 2), meshes=iter([mesh] * 2))
+
+    with wall.shared(1 << 22) as memory:
+        for found, name in ((MeshFile(mesh), "vertices"), (frames(), "vertices"), (frames(), "frames")):
+            leave(memory, found)
+            with pytest.raises(LimitError, match=name):
+                found_in(memory, replace(Limits(), **{name: 1}))
 
 
 def test_many_threads_read_at_a_time():
