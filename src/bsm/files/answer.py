@@ -6,9 +6,9 @@ kind and a size, within shared memory. Whatever is wrong with it is a `FormatErr
 
 import os
 import struct
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
-from itertools import islice
+from dataclasses import dataclass, replace
 from mmap import mmap
 from typing import Any, TypeAlias
 
@@ -17,9 +17,8 @@ import numpy as np
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, FormatError, LimitError
 from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import KINDS, Attribute
-from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
+from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames
 from bsm.files.room import require_count
@@ -32,27 +31,45 @@ _PLAIN: dict[str, Callable[[bytes], Any]] = {
     "bytes": bytes,
     "int": lambda data: int.from_bytes(data[:_LONGEST], "little", signed=True),
     "float": lambda data: struct.unpack("<d", data)[0],
+    "none": lambda data: None,
 }
 _KINDS = (*KINDS, *_PLAIN)
 _COST = 1 << 10  # bytes of memory that a row is charged: what Python makes of it, and the time that it takes
-_NOTHING, _MESH, _FRAMES, _ERROR = range(4)
 _LETTER = 8  # bytes that a byte of text may become
 _LONGEST = 32  # bytes of a whole number
+_END = object()
 _MOST_WORDS = 1 << 16  # bytes of an error
 _REFUSALS: tuple[type[BsmError], ...] = (
     *(FormatError, LimitError, NoFacesError, errors.MeshError, errors.TruncatedError, errors.CorruptError),
     *(errors.UnsupportedError, errors.DependencyError, errors.OptionError, errors.ArgumentError, errors.NumericError),
 )
-"""Errors of readers; a process names them by their places here."""
-_PLACES = ("offset", "frame", "block")
+"""Errors of readers."""
+_METADATA = [(str, str | bytes | int | float)]
+_PARTS: dict[type, dict[str, Any]] = {
+    Attribute: {"name": str, "values": np.ndarray, "domain": str, "semantic": str, "indices": np.ndarray | None},
+    TriangleMesh: {"positions": np.ndarray, "faces": np.ndarray, "attributes": [Attribute], "metadata": _METADATA},
+    MeshFile: {"mesh": TriangleMesh, "notes": [str], "dropped": [str]},
+    Frames: {
+        **{"faces": np.ndarray, "count": int, "frames": [np.ndarray], "attributes": [Attribute], "notes": [str]},
+        **{"frame_rate": float, "metadata": _METADATA, "rigged": int, "meshes": [TriangleMesh]},
+    },
+    **dict.fromkeys(_REFUSALS, dict.fromkeys(("offset", "frame", "block"), int | None) | {"message": str}),
+    type(None): {},
+}
+"""What an answer is made of, in this order; `[one]` is the number of them, then each."""
+_ANSWERS = (type(None), MeshFile, Frames, *_REFUSALS)
 
 # ------------------------------------------------------------------------------------------------ as it is left
 
 
 def leave(memory: int, found: MeshFile | Frames | BsmError | None) -> None:
     """Leave a mesh, frames, an error or nothing in shared memory."""
+    if isinstance(found, Frames) and found.meshes is not None:
+        meshes = list(found.meshes)
+        found = replace(found, frames=(mesh.positions for mesh in meshes), meshes=iter(meshes))
     rows, parts, known, total = list[bytes](), list[Any](), dict[int, bytes](), 0
-    for value in _values(found):
+    form = type(found) if type(found) in _ANSWERS else FormatError
+    for value in (_ANSWERS.index(form), *_flat(form, found)):
         if id(value) not in known:
             kind, shape, data = _plain(value)
             known[id(value)] = _ROW.pack(_KINDS.index(kind), shape[1], shape[0], total)
@@ -76,41 +93,28 @@ def _plain(value: Value) -> tuple[str, tuple[int, ...], Any]:
         kind, data = "text", value.encode(errors="surrogatepass")
     elif isinstance(value, float | np.floating):
         kind, data = "float", struct.pack("<d", value)
+    elif value is None:
+        kind, data = "none", b""
     elif not isinstance(value, bytes):
         kind, data = "int", int(value).to_bytes(int(value).bit_length() // 8 + 1, "little", signed=True)
     return kind, (len(data), 1), data
 
 
-def _values(found: MeshFile | Frames | BsmError | None) -> Iterator[Value]:
+def _flat(form: Any, found: Any) -> Iterator[Value]:
     if found is None:
-        yield _NOTHING
-    elif isinstance(found, BsmError):
-        places = [getattr(found, name) for name in _PLACES]
-        number = _REFUSALS.index(type(found)) if type(found) in _REFUSALS else 0
-        yield from (_ERROR, number, found.message[:_MOST_WORDS])
-        yield from (-1 if place is None else place for place in places)
-    elif isinstance(found, MeshFile):
-        yield from (_MESH, found.mesh.positions, *_dressed(found.mesh), *_listed(found.notes), *_listed(found.dropped))
+        yield None
+    elif isinstance(form, list):
+        items = list(found.items() if isinstance(found, Mapping) else found)
+        yield len(items)
+        for item in items:
+            yield from _flat(form[0], item)
+    elif isinstance(form, tuple):
+        yield from found
+    elif form in _PARTS:
+        for name, part in _PARTS[form].items():
+            yield from _flat(part, getattr(found, name))
     else:
-        meshes = None if found.meshes is None else list(found.meshes)
-        frames = list(found.frames) if meshes is None else [mesh.positions for mesh in meshes]
-        yield from (_FRAMES, *_dressed(found), *_listed(found.notes), *_listed(frames))
-        yield from (found.count, found.rigged, float(found.frame_rate), int(meshes is not None))
-        for mesh in meshes or ():
-            yield from _dressed(mesh)
-
-
-def _dressed(found: TriangleMesh | Frames) -> Iterator[Value]:
-    yield from (found.faces, len(found.attributes))
-    for one in found.attributes:
-        yield from (one.name, one.domain, one.semantic, one.values, 0 if one.indices is None else one.indices)
-    yield len(found.metadata)
-    for name, value in found.metadata.items():
-        yield from (name, value)
-
-
-def _listed(items: Sequence[Value]) -> tuple[Value, ...]:
-    return (len(items), *items)
+        yield found
 
 
 # ------------------------------------------------------------------------------------------------ as it is taken
@@ -131,15 +135,11 @@ def _from_strangers() -> Iterator[None]:
 def found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
     """The mesh or frames that a process has left, or raise the error."""
     with _from_strangers():
-        values = iter(_read(memory))
-        kind = _next(values, int)
-        if kind == _MESH:
-            mesh = _mesh(next(values), values, limits)
-            return MeshFile(mesh, _texts(values), _texts(values))
-        if kind != _ERROR:
-            return _frames(values, limits) if kind == _FRAMES else None
-        error = _error(values)
-    raise error
+        taker = _Taker(iter(_read(memory)), limits, os.fstat(memory).st_size)
+        found: MeshFile | Frames | BsmError | None = taker.made(_ANSWERS[taker.next(int)])
+    if isinstance(found, BsmError):
+        raise found
+    return found
 
 
 def _read(memory: int) -> list[Value]:
@@ -167,71 +167,59 @@ def _read(memory: int) -> list[Value]:
     return values
 
 
-def _mesh(positions: Positions, values: Iterator[Value], limits: Limits) -> TriangleMesh:
-    return TriangleMesh(_points(positions, limits), *_dressing(values, limits))
+@dataclass
+class _Taker:
+    """Makes an answer of values that were read, and checks what they say of each other."""
 
+    values: Iterator[Value]
+    limits: Limits
+    size: int  # bytes of shared memory, and of values that attributes may copy
 
-def _points(found: Value, limits: Limits) -> Positions:
-    require_count("vertices", len(found), limits)
-    points: Positions = _of_three(found, np.float64)
-    return points
+    def next(self, kind: Any) -> Value:
+        if not isinstance(found := next(self.values, _END), kind):
+            raise TypeError("a value of another kind")
+        return found
 
+    def made(self, form: Any) -> Any:
+        if isinstance(form, list):
+            count = self.next(int | None)
+            return None if count is None else tuple(self.made(form[0]) for _ in range(count))
+        if isinstance(form, tuple):
+            return tuple(map(self.next, form))
+        if form not in _PARTS:
+            return self.next(form)
+        given = {name: self.made(part) for name, part in _PARTS[form].items() if name != "meshes"}
+        self.check(form, given)
+        return form(**given) if form is not type(None) else None
 
-def _of_three(found: Value, kind: type[np.generic]) -> Any:
-    if found.dtype != kind or found.shape[1] != 3:
-        raise TypeError("an array of another kind")
-    return found
+    def check(self, form: type, given: dict[str, Any]) -> None:
+        if form is Attribute:
+            self.size -= sum(given[name].nbytes for name in ("values", "indices") if given[name] is not None)
+            if self.size < 0:
+                raise ValueError("values that are used many times")
+        if "message" in given:
+            given["message"] = given["message"][:_MOST_WORDS]
+        if "faces" not in given:
+            return
+        frames = given.get("frames", [given.get("positions")])
+        counts = {"vertices": max(given.get("rigged", 0), *map(len, frames), 0), "faces": len(given["faces"])}
+        for name, count in (counts | {"frames": len(frames)}).items():
+            require_count(name, count, self.limits)
+        threes = {(array.dtype.name, array.shape[1]) for array in frames}
+        if {("int32", 3)} != {(given["faces"].dtype.name, given["faces"].shape[1])} or threes - {("float64", 3)}:
+            raise TypeError("arrays of another kind")
+        given["metadata"] = dict(given["metadata"])
+        if form is Frames:
+            count = self.next(int | None)
+            if {given["count"], count} - {0, None, len(frames)} or given["faces"].min(initial=0) < 0:
+                raise ValueError("frames of another number")  # 0: it was not known before all were read
+            given |= {"frames": iter(frames), "meshes": None if count is None else self.later(count)}
 
-
-def _frames(values: Iterator[Value], limits: Limits) -> Frames:
-    faces, attributes, metadata = _dressing(values, limits)
-    notes, frames = _texts(values), [_points(frame, limits) for frame in _list(values, np.ndarray)]
-    count, rigged, rate = _next(values, int), _next(values, int), _next(values, float)
-    require_count("vertices", rigged, limits)
-    require_count("frames", len(frames), limits)
-    if faces.min(initial=0) < 0 or count not in (0, len(frames)):  # 0: it was not known before all were read
-        raise ValueError("faces or frames of another kind")
-    meshes = _meshes(frames, values, limits) if _next(values, int) else None
-    return Frames(faces, count, iter(frames), attributes, notes, rate, metadata, meshes, rigged)
-
-
-def _meshes(frames: Sequence[Positions], values: Iterator[Value], limits: Limits) -> Iterator[TriangleMesh]:
-    """Meshes as they are asked for, since each copies what it is made of."""
-    for positions in frames:
-        with _from_strangers():
-            mesh = _mesh(positions, values, limits)
-        yield mesh
-
-
-def _dressing(values: Iterator[Value], limits: Limits) -> tuple[Faces, tuple[Attribute, ...], Metadata]:
-    faces, attributes, known = next(values), list[Attribute](), set[int]()
-    require_count("faces", len(faces), limits)
-    for _ in range(_next(values, int)):
-        name, domain, semantic, array, indices = islice(values, 5)
-        given = None if isinstance(indices, int) else indices
-        if {id(array), id(given)} & known:  # each is copied, and was charged once
-            raise ValueError("attributes of the same numbers")
-        known |= {id(array), id(given)} - {id(None)}
-        attributes.append(Attribute(name, array, domain, semantic, given))
-    metadata = {_next(values, str): _next(values, str | bytes | int | float) for _ in range(_next(values, int))}
-    return _of_three(faces, np.int32), tuple(attributes), metadata
-
-
-def _error(values: Iterator[Value]) -> BsmError:
-    kind, words, *places = _next(values, int), _next(values, str), *(_next(values, int) for _ in _PLACES)
-    known = {name: place for name, place in zip(_PLACES, places, strict=True) if place >= 0}
-    return _REFUSALS[kind](words[:_MOST_WORDS], **known)
-
-
-def _texts(values: Iterator[Value]) -> tuple[str, ...]:
-    return tuple(_list(values, str))
-
-
-def _list(values: Iterator[Value], kind: Any) -> list[Value]:
-    return [_next(values, kind) for _ in range(_next(values, int))]
-
-
-def _next(values: Iterator[Value], kind: Any) -> Value:
-    if not isinstance(found := next(values), kind):
-        raise TypeError("a value of another kind")
-    return found
+    def later(self, count: int) -> Iterator[TriangleMesh]:
+        """Meshes as they are asked for, since each copies what it is made of."""
+        left = self.size
+        for _ in range(count):
+            self.size = left
+            with _from_strangers():
+                mesh: TriangleMesh = self.made(TriangleMesh)
+            yield mesh
