@@ -694,9 +694,9 @@ def reading(make: Callable[[], Sample], folder: Path, limits: Limits) -> Callabl
     path, size = written(make(), folder)
 
     def read() -> Taken:
-        ends: list[tuple[int, int, float]] = []
+        ends: list[wall.End] = []
 
-        def noted(*given: Any) -> tuple[int, int, float]:
+        def noted(*given: Any) -> wall.End:
             ends.append(END_OF_CHILD(*given))
             return ends[-1]
 

@@ -17,6 +17,7 @@ import math
 import mmap
 import os
 import platform
+import re
 import resource
 import signal
 import socket
@@ -29,7 +30,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, UnsupportedError
 from bsm.bitstream.limits import Limits
@@ -39,8 +40,11 @@ from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input
 
 _COMMAND = "from bsm.files.wall import serve; serve({number})"
+End: TypeAlias = tuple[int, int, float, bytes]
 _KIND = struct.Struct("<16sI")  # the name of a format and seconds, as they are sent
-_END = struct.Struct("<iQd")  # a status, the most memory in bytes and seconds of processor time, as they come back
+_END = struct.Struct(
+    "<iQd4096s"
+)  # status, most memory in bytes, seconds of processor time and last words, that come back
 _HEAD = struct.Struct("<QQ")  # the bytes of a question in shared memory, and those of a file after it
 _ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
 _LIBRARIES = {
@@ -52,12 +56,35 @@ _LIBRARIES = {
     "3mf": ("bsm.files.formats.three_mf", "lib3mf"),
     "other": ("bsm.files.formats.with_trimesh", "trimesh"),
 }
+_OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
 _PATIENCE = 10  # times its processor time that a child may take, since the machine may be busy
-_CALLS = {  # of the kernel, by processor: its number in seccomp, and socket, execve, execveat, ptrace, io_uring_setup
-    "x86_64": (0xC000003E, (41, 59, 322, 101, 425)),
-    "aarch64": (0xC00000B7, (198, 221, 281, 117, 425)),
-}
+_PROCESSORS = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}  # and their numbers in seccomp
+_CALLS = """
+    read 0 63, write 1 64, open 2 -, close 3 57, stat 4 -, fstat 5 80, lstat 6 -, lseek 8 62, mmap 9 222,
+    mprotect 10 226, munmap 11 215, brk 12 214, rt_sigaction 13 134, rt_sigprocmask 14 135, rt_sigreturn 15 139,
+    ioctl 16 29, pread64 17 67, readv 19 65, writev 20 66, access 21 -, sched_yield 24 124, mremap 25 216,
+    madvise 28 233, dup 32 23, nanosleep 35 101, getpid 39 172, clone 56 220, exit 60 93, kill 62 129, uname 63 160,
+    fcntl 72 25, getcwd 79 17, readlink 89 -, getrusage 98 165, sysinfo 99 179, getuid 102 174, geteuid 107 175,
+    sigaltstack 131 132, gettid 186 178, futex 202 98, sched_getaffinity 204 123, getdents64 217 61,
+    clock_gettime 228 113, clock_nanosleep 230 115, exit_group 231 94, tgkill 234 131, openat 257 56, newfstatat 262 79,
+    readlinkat 267 78, faccessat 269 48, set_robust_list 273 99, getrandom 318 278, membarrier 324 283, statx 332 291,
+    rseq 334 293, faccessat2 439 439"""
+"""What reading may ask of the kernel, by its numbers on x86-64 and ARM (`python -m tools.attack calls`)."""
+_NAMES = """
+    pipe 22 -, shmget 29 194, socket 41 198, fork 57 -, vfork 58 -, execve 59 221, truncate 76 45, ftruncate 77 46,
+    chmod 90 -, chown 92 -, ptrace 101 117, setpriority 141 140, prctl 157 167, setxattr 188 5, tkill 200 130,
+    sched_setaffinity 203 122, unlinkat 263 35, fchmodat 268 53, fchownat 260 54, utimensat 280 88, prlimit64 302 261,
+    memfd_create 319 279, execveat 322 281, io_uring_setup 425 425"""
+"""Others, by which their refusal is told."""
+_WRITING = 0o1103  # flags of open: O_WRONLY, O_RDWR, O_CREAT, O_TRUNC
+_THREAD, _CLONE3, _NOT_KNOWN = 0x10000, 435, 38  # clone3 has its flags where no filter sees them: clone does it then
+_QUESTIONS = {
+    "ioctl": (0x5401, 0x5451),
+    "fcntl": (1, 2, 3, 1030),
+}  # TCGETS, FIOCLEX; F_GETFD to F_GETFL, F_DUPFD_CLOEXEC
+_REFUSED = 3000  # and the number of a call: the error of one that is refused
+_KNOWN = ("PATH", "LANG", "HOME")  # of the environment; other variables may be keys of a service
 _QUIET = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PXR_WORK_THREAD_LIMIT": "1", "MALLOC_ARENA_MAX": "1"}
 
 
@@ -68,7 +95,7 @@ def lack() -> str | None:
         landlock: Any = importlib.import_module("landlockpy")
     except ImportError:
         return "landlockpy: pip install landlockpy"
-    if platform.machine() not in _CALLS:
+    if platform.machine() not in _PROCESSORS:
         return "a processor of x86-64 or ARM"
     return None if landlock.supported() else "a kernel with Landlock"
 
@@ -92,7 +119,7 @@ def frames_behind_wall(
 
 
 def _asked(given: Input, file_format: str | None, kind: str) -> dict[str, Any]:
-    path = os.path.abspath(given.name) if given.is_file else None
+    path = os.path.abspath(given.name) if given.is_file and not _OF_THIS_PROCESS.match(given.name) else None
     chosen = file_format if lack() is None else file_format or kind or None  # one that others read never comes here
     return {"path": path, "name": given.name, "format": chosen, "data": b"" if path else given.read_all()}
 
@@ -102,15 +129,16 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
     size = sum(map(os.path.getsize, names)) if names[0] else len(asked["data"])
     asked["limits"] = asdict(limits)
     asked["memory"] = int(min(limits.memory_for(limits.vertices, size), 1 << 40))
-    asked["seconds"] = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
+    seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
+    asked["seconds"] = _least(seconds, max(resource.getrlimit(resource.RLIMIT_CPU)[0] - 1, -1))
     asked["closed"] = lack() is None
     data = asked.pop("data", b"")
     question = json.dumps(asked).encode()
     with shared(_ROOM + len(question) + len(data) + asked["memory"]) as memory:
         os.pwrite(memory, _HEAD.pack(len(question), len(data)) + question + data, 0)
-        status = end_of_child(memory, _library(kind), _PATIENCE * asked["seconds"])[0]
+        status, _, _, words = end_of_child(memory, _library(kind), _PATIENCE * asked["seconds"])
         if os.WIFSIGNALED(status):
-            raise _end_of(os.WTERMSIG(status), asked)
+            raise _end_of(os.WTERMSIG(status), words, asked)
         return found_in(memory, limits)
 
 
@@ -123,10 +151,21 @@ def _library(kind: str) -> str:
     return "own" if kind in own else kind if kind in _LIBRARIES else "other"
 
 
-def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
-    """The error of a child that a signal has ended."""
+def _too_little(asked: dict[str, Any]) -> LimitError:
+    return LimitError(
+        f"reading this file takes more than {asked['memory']:,} bytes of memory (Limits.memory, most_memory), or than "
+        "this system gives (ulimit -v)"
+    )
+
+
+def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
+    """The error of a child that a signal has ended, by its last words."""
+    if number == signal.SIGABRT and b"bad_alloc" in words:
+        return _too_little(asked)
     if number == signal.SIGXCPU:
-        return LimitError(f"reading takes more than {asked['seconds']} s of processor time (Limits.work, most_work)")
+        return LimitError(
+            f"reading takes more than {asked['seconds']} s of processor time (Limits.work, most_work, ulimit -t)"
+        )
     if number == signal.SIGALRM:
         return LimitError(f"reading this file takes more than {_PATIENCE * asked['seconds']} s")
     if number == signal.SIGKILL:
@@ -137,9 +176,12 @@ def _end_of(number: int, asked: dict[str, Any]) -> BsmError:
 @contextmanager
 def shared(size: int) -> Iterator[int]:
     """Memory that other processes can map; pages count once they are written."""
-    memory = os.memfd_create("bsm", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
     try:
-        os.ftruncate(memory, size)
+        memory = os.memfd_create("bsm", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+    except OSError as error:
+        raise UnsupportedError(f"this system shares no memory with a process that reads files: {error}") from error
+    try:
+        os.ftruncate(memory, _least(size, resource.getrlimit(resource.RLIMIT_FSIZE)[0]))
         fcntl.fcntl(memory, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK | fcntl.F_SEAL_GROW | fcntl.F_SEAL_SEAL)
         yield memory
     finally:
@@ -155,17 +197,19 @@ class _Server:
     def __init__(self) -> None:
         self._socket, there = socket.socketpair()
         paths = (str(Path(importlib.import_module("bsm").__file__ or "").parents[1]), os.environ.get("PYTHONPATH", ""))
-        environment = os.environ | _QUIET | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
-        command = [sys.executable, "-P", "-c", _COMMAND.format(number=there.fileno())]
+        known = {name: os.environ[name] for name in _KNOWN if name in os.environ}
+        environment = known | _QUIET | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
+        command = [_python(), "-P", "-c", _COMMAND.format(number=there.fileno())]
         nothing: Any = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         with there:
-            started = subprocess.Popen(command, pass_fds=[there.fileno()], env=environment, **nothing)
-            self.number, started.returncode = started.pid, 0  # never waited for: it ends with its socket
+            self.process = subprocess.Popen(command, pass_fds=[there.fileno()], env=environment, **nothing)
 
     def __del__(self) -> None:
         self._socket.close()
+        if hasattr(self, "process") and self.process.poll() is None:
+            self.process.returncode = 0  # not waited for: it ends with its socket
 
-    def read(self, memory: int, library: str, seconds: int) -> tuple[int, int, float]:
+    def read(self, memory: int, library: str, seconds: int) -> End:
         """Let a child read the file that shared memory names; return its status, memory and time."""
         here, there = socket.socketpair()
         with here:
@@ -174,8 +218,18 @@ class _Server:
             end = here.recv(_END.size, socket.MSG_WAITALL)
             if len(end) < _END.size:
                 raise ConnectionError("the process that reads files has died")
-            status, most, taken = _END.unpack(end)
-            return status, most, taken
+            found: End = _END.unpack(end)
+            return found
+
+
+def _python() -> str:
+    """This Python; a program that embeds it has another name."""
+    name = f"python{sys.version_info[0]}.{sys.version_info[1]}"
+    places = (sys.executable or "", *(str(Path(prefix, "bin", name)) for prefix in (sys.prefix, sys.base_prefix)))
+    found = (place for place in places if re.match("python|pypy", Path(place).name) and os.access(place, os.X_OK))
+    if not (python := next(found, "")):
+        raise FileNotFoundError("there is no Python at sys.executable or sys.prefix")
+    return python
 
 
 @cache
@@ -183,14 +237,15 @@ def _server() -> _Server:
     return _Server()
 
 
-def end_of_child(memory: int, library: str, seconds: int) -> tuple[int, int, float]:
+def end_of_child(memory: int, library: str, seconds: int) -> End:
     try:
-        return _server().read(memory, library, seconds)
-    except ConnectionError:  # somebody has ended it
+        with suppress(ConnectionError):
+            return _server().read(memory, library, seconds)
+        with suppress(subprocess.TimeoutExpired):  # somebody has ended it
+            _server().process.wait(1)
         _server.cache_clear()
-    try:
         return _server().read(memory, library, seconds)
-    except ConnectionError as error:
+    except OSError as error:
         raise UnsupportedError(f"the process that reads files from strangers does not start: {error}") from error
 
 
@@ -224,17 +279,26 @@ def _load(library: str) -> None:
 
 
 def _watch(answer: int, memory: int, seconds: int) -> None:
-    """Let a child read for so long, and tell how it ended."""
+    """Let a child read for so long, and tell how it ended, and what it said then."""
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        words, said = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
         child = os.fork()
         if not child:
-            os.close(answer)
+            os.setsid()
+            os.dup2(said, 2)
+            for file in (answer, words, said):
+                os.close(file)
             _read(memory)
         signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGALRM))
         signal.alarm(seconds)
         _, status, used = os.wait4(child, 0)
-        os.write(answer, _END.pack(status, used.ru_maxrss << 10, used.ru_utime + used.ru_stime))
+        with suppress(ProcessLookupError):
+            os.killpg(child, signal.SIGKILL)
+        last = b""
+        with suppress(BlockingIOError):
+            last = os.read(words, 1 << 16)[-4096:]
+        os.write(answer, _END.pack(status, used.ru_maxrss << 10, used.ru_utime + used.ru_stime, last))
     finally:
         os._exit(0)
 
@@ -252,15 +316,13 @@ def _read(memory: int) -> None:
             _confine(asked)
             leave(memory, _called(asked))
         except MemoryError:
-            taken = f"{asked['memory']:,} bytes of memory (Limits.memory, most_memory)"
-            leave(memory, LimitError(f"reading this file takes more than {taken}"))
+            leave(memory, _too_little(asked))
         except BsmError as error:
+            error.message = _named(error.message)
             leave(memory, error)
-        except OSError as error:
-            name = asked["name"] if error.filename == asked.get("path", "") else error.filename
-            leave(memory, FormatError(f"reading this file failed: {error.strerror}{f': {name}' if name else ''}"))
         except Exception as error:
-            leave(memory, FormatError(f"reading this file failed: {type(error).__name__}: {str(error)[:200]}"))
+            words = _named(f"{type(error).__name__}: {str(error)[:200]}")
+            leave(memory, FormatError(f"reading this file failed: {words}"))
     finally:
         os._exit(0)
 
@@ -288,19 +350,27 @@ def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
 
 def _confine(asked: dict[str, Any]) -> None:
     """Take from this process what reading needs not: files of others, network, writing, memory and time beyond."""
-    held = int(Path("/proc/self/statm").read_text().split()[0]) * mmap.PAGESIZE
+    try:
+        held = int(Path("/proc/self/statm").read_text().split()[0]) * mmap.PAGESIZE
+    except OSError as error:
+        raise UnsupportedError(f"files from strangers are read where /proc is: {error}") from error
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    for limit, most, longest in (
+        (resource.RLIMIT_CORE, 0, 0),
+        (resource.RLIMIT_FSIZE, 0, 0),
+        (resource.RLIMIT_AS, held + asked["memory"], held + asked["memory"]),
+        (resource.RLIMIT_CPU, asked["seconds"], asked["seconds"] + 1),
+    ):
+        soft, hard = resource.getrlimit(limit)  # of where this runs, which may be less
+        resource.setrlimit(limit, (_least(most, soft), _least(longest, hard)))
     if asked["closed"]:
         paths = filter(None, [*(asked.get("names") or [asked["path"]]), asked.get("beside")])
         _close_files({os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)})
     _close_calls()
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    for limit, most in (
-        (resource.RLIMIT_CORE, 0),
-        (resource.RLIMIT_FSIZE, 0),
-        (resource.RLIMIT_AS, held + asked["memory"]),
-        (resource.RLIMIT_CPU, asked["seconds"]),
-    ):
-        resource.setrlimit(limit, (most, most + (limit == resource.RLIMIT_CPU)))
+
+
+def _least(most: int, given: int) -> int:
+    return most if given == resource.RLIM_INFINITY else min(most, given)
 
 
 def _close_files(beside: set[str]) -> None:
@@ -315,22 +385,60 @@ def _close_files(beside: set[str]) -> None:
 
 
 def _close_calls() -> None:
-    """Let the kernel refuse sockets, programs and the memory of other processes, by a filter of its calls."""
-    architecture, refused = _CALLS.get(platform.machine(), (0, ()))
-    if not refused:
+    """Let the kernel refuse all calls but those of reading, by a filter."""
+    if platform.machine() not in _PROCESSORS:
         return  # `lack` says so
-    load, equal, at_least, end = 0x20, 0x15, 0x35, 0x06  # the processor is at 4 of what it looks at, the call at 0
-    program = [(load, 0, 0, 4), (equal, 1, 0, architecture), (end, 0, 0, 0x80000000), (load, 0, 0, 0)]
-    program += [(at_least, len(refused) + 1, 0, 0x40000000)]
-    program += [(equal, len(refused) - place, 0, number) for place, number in enumerate(refused)]
-    program += [(end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x50001)]  # allowed; not permitted
-    code = ctypes.create_string_buffer(b"".join(struct.pack("<HBBI", *step) for step in program))
-    known = ctypes.create_string_buffer(struct.pack("@HP", len(program), ctypes.addressof(code)))
+    code = ctypes.create_string_buffer(b"".join(struct.pack("<HBBI", *step) for step in _filter(os.getpid())))
+    known = ctypes.create_string_buffer(struct.pack("@HP", len(code) // 8, ctypes.addressof(code)))
     control = ctypes.CDLL(None, use_errno=True).prctl
     control.argtypes = (ctypes.c_int, *4 * (ctypes.c_ulong,))
-    for call in ((38, 1, 0, 0, 0), (22, 2, ctypes.addressof(known), 0, 0)):  # no new privileges; the filter
+    ends_with_watcher, no_new_privileges = (1, signal.SIGKILL, 0, 0, 0), (38, 1, 0, 0, 0)
+    for call in (ends_with_watcher, no_new_privileges, (22, 2, ctypes.addressof(known), 0, 0)):
         if control(*call):
             raise UnsupportedError(f"the kernel does not filter calls: {os.strerror(ctypes.get_errno())}")
+
+
+def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
+    """The steps of a filter: what they do, how many to skip if so and if not, and a number."""
+    load, equal, any_bit, at_least, add, end, end_so = 0x20, 0x15, 0x45, 0x35, 0x04, 0x06, 0x16
+    allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000
+    call, processor, arguments = (load, 0, 0, 0), (load, 0, 0, 4), [(load, 0, 0, 16 + 8 * place) for place in range(3)]
+    yield from (processor, (equal, 1, 0, _PROCESSORS[platform.machine()]), killed, call, (at_least, 0, 1, 1000), killed)
+    for name, number in _numbers(_CALLS).items():
+        steps = [allowed]
+        if name in ("open", "openat"):
+            steps = [arguments[1 + (name == "openat")], (any_bit, 1, 0, _WRITING), allowed, call]
+        elif name == "clone":
+            steps = [arguments[0], (any_bit, 0, 1, _THREAD), allowed, call]
+        elif name in ("kill", "tgkill"):
+            steps = [arguments[0], (equal, 0, 1, own), allowed, call]
+        elif name in _QUESTIONS:
+            asked = ((equal, 0, 1, one) for one in _QUESTIONS[name])
+            steps = [arguments[1], *itertools.chain.from_iterable((one, allowed) for one in asked), call]
+        yield from ((equal, 0, len(steps), number), *steps)
+    yield from (
+        (equal, 0, 1, _CLONE3),
+        (end, 0, 0, failed + _NOT_KNOWN),
+        (add, 0, 0, failed + _REFUSED),
+        (end_so, 0, 0, 0),
+    )
+
+
+def _numbers(calls: str) -> dict[str, int]:
+    column = 1 + list(_PROCESSORS).index(platform.machine())
+    words = [call.split() for call in calls.split(",")]
+    return {call[0]: int(call[column]) for call in words if call[column] != "-"}
+
+
+def _named(words: str) -> str:
+    """A message with the names of refused calls in place of the numbers of their errors."""
+    names = {number: name for name, number in (_numbers(_CALLS) | _numbers(_NAMES)).items()}
+
+    def told(found: re.Match[str]) -> str:
+        number = int(found[1]) - _REFUSED
+        return f"reading may not call {names.get(number, f'number {number}')} of the kernel"
+
+    return re.sub(r"Unknown error (3\d\d\d)", told, words)
 
 
 @cache
