@@ -25,7 +25,7 @@ from bsm.files.formats.metadata import Beside, Written, fetched, images_in
 from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, file_beside, is_url
-from bsm.files.room import PRECISION, gunzipped, plain_text, require_counts_of_head, require_counts_of_lines
+from bsm.files.room import PRECISION, gunzipped, plain_text
 
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
@@ -108,7 +108,6 @@ def read_cut(
     suffix = file_format or format_of_name(name)
     if suffix in _CONTENTS and (other := by_name(_ROOMS["stl"], "other_kind")(head)) not in _CONTENTS[suffix]:
         raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
-    require_counts_of_head(suffix or format_of_bytes(head), head, limits)
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
@@ -126,8 +125,6 @@ def read_cut(
         scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
         return scene
     polygons: Polygons
-    if kind == "obj":
-        require_counts_of_lines(data, limits)
     if kind == "dae":
         polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
     elif kind in _ROOMS:

@@ -20,7 +20,6 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.mesh import NoFacesError
 
 Ints = npt.NDArray[np.int64]
 Doubles = npt.NDArray[np.float64]
@@ -146,10 +145,6 @@ TREE = 32  # bytes that a byte of JSON may become
 TAG = 150  # bytes that a tag of XML becomes in the tree of a library
 _PIECE = 1 << 18
 _ENDING = 16  # zeros that the end of a gzip member may have; gzip skips zeros after it one at a time
-_COUNTED = {b"vertex": "vertices", b"face": "faces"}
-_PLY_COUNTS = re.compile(rb"[\r\n][ \t]*element[ \t]+(vertex|face)[ \t]+(\d{1,18})\b")
-_OFF_COUNTS = re.compile(rb"\s*[A-Zn4]{3,9}\s+(\d{1,18})\s+(\d{1,18})\b")
-_KEYWORDS = {"v": "vertices", "f": "faces"}
 
 
 def require_count(name: str, count: int, limits: Limits) -> None:
@@ -157,20 +152,6 @@ def require_count(name: str, count: int, limits: Limits) -> None:
     most = int(min(getattr(limits, name), 1 << 62))
     if count > most:
         raise LimitError(f"{name} = {count:,} is over the limit of {most:,}; cut it into parts, as bsm tile does")
-
-
-def require_counts_of_head(kind: str | None, head: bytes, limits: Limits) -> None:
-    """Raise `LimitError` where the first bytes of a file already tell of too many vertices or faces."""
-    found: list[tuple[bytes, bytes]] = []
-    if kind == "ply":
-        found = _PLY_COUNTS.findall(head.partition(b"end_header")[0])
-    elif kind == "off" and (match := _OFF_COUNTS.match(without_comments(head))):
-        found = list(zip(_COUNTED, match.groups()))
-    elif kind == "stl" and len(head) >= 84 and b"\0" in head[:1024]:
-        claimed = int.from_bytes(head[80:84], "little")
-        found = [(b"face", str(claimed).encode())] if claimed < (1 << 32) - 1 else []  # by who did not know it
-    for name, count in found:
-        require_count(_COUNTED[name], int(count), limits)
 
 
 def require_inflated(size: int, compressed: int, limits: Limits, vertices: int = 0) -> None:
@@ -237,13 +218,3 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
     except (OSError, zlib.error) as error:
         raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
     return bytes(found)
-
-
-def require_counts_of_lines(data: bytes, limits: Limits) -> None:
-    """Count the vertices and faces of an OBJ before objects are made of them."""
-    begins = [(end, gap) for end in "\n\r" for gap in " \t"]
-    counts = {n: sum(data.count(f"{end}{k}{gap}".encode()) for end, gap in begins) for k, n in _KEYWORDS.items()}
-    for name, count in counts.items():
-        require_count(name, count, limits)
-    if not counts["faces"] and not data.startswith((b"f ", b"f\t")) and b"\0" not in data:
-        raise NoFacesError("the file has no faces; point clouds are not supported")

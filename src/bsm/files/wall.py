@@ -6,6 +6,7 @@ the file and those of Python and its packages; without, only what our own reader
 errors come back as data in shared memory.
 """
 
+import csv
 import ctypes
 import fcntl
 import gc
@@ -34,6 +35,7 @@ from typing import Any, TypeAlias
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, UnsupportedError
 from bsm.bitstream.limits import Limits
+from bsm.files import mesh, sequence
 from bsm.files.answer import found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames, Wanted
@@ -41,17 +43,18 @@ from bsm.files.pipes import Input
 
 _COMMAND = "from bsm.files.wall import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
-_KIND = struct.Struct("<16sI")  # the name of a format and seconds, as they are sent
+_KIND = struct.Struct("<32sI")  # the formats of a library, and seconds, as they are sent
 _END = struct.Struct(
     "<iQd4096s"
-)  # status, most memory in bytes, seconds of processor time and last words, that come back
+)  # a status, the most memory, seconds of processor time, and last words, that come back
 _HEAD = struct.Struct("<QQ")  # the bytes of a question in shared memory, and those of a file after it
 _ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
+_OWN = " npz obj off ply stl vtp"  # and what tells no format
 _LIBRARIES = {
-    "gltf": ("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"),
-    "own": ("bsm.files.mesh", *(f"bsm.files.formats.{kind}" for kind in ("npz", "obj", "off", "ply", "stl", "vtp"))),
+    "glb gltf": ("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"),
+    _OWN: ("bsm.files.mesh", *(f"bsm.files.formats.{kind}" for kind in ("npz", "obj", "off", "ply", "stl", "vtp"))),
     "dae": ("bsm.files.formats.dae", "collada", "lxml.etree"),
-    "usd": ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel"),
+    "usd usda usdc usdz": ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel"),
     "om": ("bsm.files.formats.om", "openmesh"),
     "3mf": ("bsm.files.formats.three_mf", "lib3mf"),
     "other": ("bsm.files.formats.with_trimesh", "trimesh"),
@@ -60,29 +63,9 @@ _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
 _PATIENCE = 10  # times its processor time that a child may take, since the machine may be busy
 _PROCESSORS = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}  # and their numbers in seccomp
-_CALLS = """
-    read 0 63, write 1 64, open 2 -, close 3 57, stat 4 -, fstat 5 80, lstat 6 -, lseek 8 62, mmap 9 222,
-    mprotect 10 226, munmap 11 215, brk 12 214, rt_sigaction 13 134, rt_sigprocmask 14 135, rt_sigreturn 15 139,
-    ioctl 16 29, pread64 17 67, readv 19 65, writev 20 66, access 21 -, sched_yield 24 124, mremap 25 216,
-    madvise 28 233, dup 32 23, nanosleep 35 101, getpid 39 172, clone 56 220, exit 60 93, kill 62 129, uname 63 160,
-    fcntl 72 25, getcwd 79 17, readlink 89 -, getrusage 98 165, sysinfo 99 179, getuid 102 174, geteuid 107 175,
-    sigaltstack 131 132, gettid 186 178, futex 202 98, sched_getaffinity 204 123, getdents64 217 61,
-    clock_gettime 228 113, clock_nanosleep 230 115, exit_group 231 94, tgkill 234 131, openat 257 56, newfstatat 262 79,
-    readlinkat 267 78, faccessat 269 48, set_robust_list 273 99, getrandom 318 278, membarrier 324 283, statx 332 291,
-    rseq 334 293, faccessat2 439 439"""
-"""What reading may ask of the kernel, by its numbers on x86-64 and ARM (`python -m tools.attack calls`)."""
-_NAMES = """
-    pipe 22 -, shmget 29 194, socket 41 198, fork 57 -, vfork 58 -, execve 59 221, truncate 76 45, ftruncate 77 46,
-    chmod 90 -, chown 92 -, ptrace 101 117, setpriority 141 140, prctl 157 167, setxattr 188 5, tkill 200 130,
-    sched_setaffinity 203 122, unlinkat 263 35, fchmodat 268 53, fchownat 260 54, utimensat 280 88, prlimit64 302 261,
-    memfd_create 319 279, execveat 322 281, io_uring_setup 425 425"""
-"""Others, by which their refusal is told."""
 _WRITING = 0o1103  # flags of open: O_WRONLY, O_RDWR, O_CREAT, O_TRUNC
 _THREAD, _CLONE3, _NOT_KNOWN = 0x10000, 435, 38  # clone3 has its flags where no filter sees them: clone does it then
-_QUESTIONS = {
-    "ioctl": (0x5401, 0x5451),
-    "fcntl": (1, 2, 3, 1030),
-}  # TCGETS, FIOCLEX; F_GETFD to F_GETFL, F_DUPFD_CLOEXEC
+_QUESTIONS = {"ioctl": (0x5401, 0x5451), "fcntl": (1, 2, 3, 1030)}  # TCGETS, FIOCLEX; F_GETFD to _GETFL, _DUPFD_CLOEXEC
 _REFUSED = 3000  # and the number of a call: the error of one that is refused
 _KNOWN = ("PATH", "LANG", "HOME")  # of the environment; other variables may be keys of a service
 _QUIET = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PXR_WORK_THREAD_LIMIT": "1", "MALLOC_ARENA_MAX": "1"}
@@ -111,8 +94,8 @@ def frames_behind_wall(
 ) -> Frames | None:
     """Read all frames of a sequence in a process of its own; errors as of `open_sequence`."""
     asked = _asked(given, file_format, kind) if isinstance(given, Input) else {"names": list(given)}
-    mesh = os.path.abspath(wanted.mesh) if wanted and wanted.mesh else None
-    more = {"sequence": True, "wanted": {**asdict(wanted), "mesh": mesh} if wanted else None, "beside": mesh}
+    beside = os.path.abspath(wanted.mesh) if wanted and wanted.mesh else None
+    more = {"sequence": True, "wanted": {**asdict(wanted), "mesh": beside} if wanted else None, "beside": beside}
     asked = {"format": file_format, **asked, **more}
     found: Frames | None = _read_there(asked, limits, kind)
     return found
@@ -136,19 +119,11 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
     question = json.dumps(asked).encode()
     with shared(_ROOM + len(question) + len(data) + asked["memory"]) as memory:
         os.pwrite(memory, _HEAD.pack(len(question), len(data)) + question + data, 0)
-        status, _, _, words = end_of_child(memory, _library(kind), _PATIENCE * asked["seconds"])
+        library = next((kinds for kinds in _LIBRARIES if kind in kinds.split(" ")), "other")
+        status, _, _, words = end_of_child(memory, library, _PATIENCE * asked["seconds"])
         if os.WIFSIGNALED(status):
             raise _end_of(os.WTERMSIG(status), words, asked)
         return found_in(memory, limits)
-
-
-def _library(kind: str) -> str:
-    if kind in ("glb", "gltf"):
-        return "gltf"
-    if kind.startswith("usd"):
-        return "usd"
-    own = ("npz", "obj", "off", "ply", "stl", "vtp", "")
-    return "own" if kind in own else kind if kind in _LIBRARIES else "other"
 
 
 def _too_little(asked: dict[str, Any]) -> LimitError:
@@ -199,7 +174,9 @@ class _Server:
         paths = (str(Path(importlib.import_module("bsm").__file__ or "").parents[1]), os.environ.get("PYTHONPATH", ""))
         known = {name: os.environ[name] for name in _KNOWN if name in os.environ}
         environment = known | _QUIET | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
-        command = [_python(), "-P", "-c", _COMMAND.format(number=there.fileno())]
+        if not re.match("python|pypy", os.path.basename(sys.executable or "")):
+            raise FileNotFoundError("sys.executable is not Python")  # but a program that has Python in it
+        command = [sys.executable, "-P", "-c", _COMMAND.format(number=there.fileno())]
         nothing: Any = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         with there:
             self.process = subprocess.Popen(command, pass_fds=[there.fileno()], env=environment, **nothing)
@@ -222,16 +199,6 @@ class _Server:
             return found
 
 
-def _python() -> str:
-    """This Python; a program that embeds it has another name."""
-    name = f"python{sys.version_info[0]}.{sys.version_info[1]}"
-    places = (sys.executable or "", *(str(Path(prefix, "bin", name)) for prefix in (sys.prefix, sys.base_prefix)))
-    found = (place for place in places if re.match("python|pypy", Path(place).name) and os.access(place, os.X_OK))
-    if not (python := next(found, "")):
-        raise FileNotFoundError("there is no Python at sys.executable or sys.prefix")
-    return python
-
-
 @cache
 def _server() -> _Server:
     return _Server()
@@ -251,10 +218,11 @@ def end_of_child(memory: int, library: str, seconds: int) -> End:
 
 def serve(number: int) -> None:
     """Fork for each file that is asked for, until the last process that can ask has ended."""
-    _load("own")
+    _load(_OWN)
     _libraries()
+    _calls()
     lack()  # landlockpy looks for the C library when it is first used
-    importlib.import_module("bsm.files.mesh").read_mesh(_SMALLEST, isolated=False)
+    mesh.read_mesh(_SMALLEST, isolated=False)
     gc.freeze()
     with socket.socket(fileno=number) as asked:
         while True:
@@ -331,8 +299,6 @@ def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
     """Read as without a wall, in here."""
     given = (asked["format"], Limits(**asked["limits"]))
     wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
-    # Not at the top: they import this module.
-    mesh, sequence = (importlib.import_module(f"bsm.files.{name}") for name in ("mesh", "sequence"))
     if names := asked.get("names"):
         frames: Frames = sequence.open_frames(names, *given, wanted, isolated=False)
         return frames
@@ -404,7 +370,9 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
     allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000
     call, processor, arguments = (load, 0, 0, 0), (load, 0, 0, 4), [(load, 0, 0, 16 + 8 * place) for place in range(3)]
     yield from (processor, (equal, 1, 0, _PROCESSORS[platform.machine()]), killed, call, (at_least, 0, 1, 1000), killed)
-    for name, number in _numbers(_CALLS).items():
+    for number, (name, is_allowed) in _calls().items():
+        if not is_allowed:
+            continue
         steps = [allowed]
         if name in ("open", "openat"):
             steps = [arguments[1 + (name == "openat")], (any_bit, 1, 0, _WRITING), allowed, call]
@@ -424,19 +392,20 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
     )
 
 
-def _numbers(calls: str) -> dict[str, int]:
-    column = 1 + list(_PROCESSORS).index(platform.machine())
-    words = [call.split() for call in calls.split(",")]
-    return {call[0]: int(call[column]) for call in words if call[column] != "-"}
+@cache
+def _calls() -> dict[int, tuple[str, bool]]:
+    """Calls of the kernel by their numbers, and whether reading may make them; for a server, before it reads files."""
+    rows = csv.DictReader(Path(__file__).with_name("calls.csv").read_text().splitlines())
+    machine = platform.machine()
+    return {int(row[machine]): (row["call"], row["allowed"] == "yes") for row in rows if row.get(machine)}
 
 
 def _named(words: str) -> str:
     """A message with the names of refused calls in place of the numbers of their errors."""
-    names = {number: name for name, number in (_numbers(_CALLS) | _numbers(_NAMES)).items()}
 
     def told(found: re.Match[str]) -> str:
-        number = int(found[1]) - _REFUSED
-        return f"reading may not call {names.get(number, f'number {number}')} of the kernel"
+        name, _ = _calls().get(int(found[1]) - _REFUSED, (f"number {int(found[1]) - _REFUSED}", False))
+        return f"reading may not call {name} of the kernel"
 
     return re.sub(r"Unknown error (3\d\d\d)", told, words)
 

@@ -75,7 +75,7 @@ def acting(monkeypatch, tmp_path, act, before=""):
     (tmp_path / "library").mkdir(exist_ok=True)
     (tmp_path / "library" / "evil.py").write_text(f"import os, socket\ndef act(here):\n    {act}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "library"))
-    monkeypatch.setitem(wall._LIBRARIES, "own", ("bsm.files.mesh",))
+    monkeypatch.setitem(wall._LIBRARIES, wall._OWN, ("bsm.files.mesh",))
     code = (
         "from bsm.files import mesh, wall; import evil; plain, known = mesh.read_mesh, wall._libraries\n"
         "def taken(source, *given, **more):\n"
@@ -290,5 +290,5 @@ def test_the_command_reads_untrusted_files_behind_the_wall(tmp_path):
     write_mesh(tmp_path / "a.ply", torus(20, 16))
     assert main(["encode", str(tmp_path / "a.ply"), "--untrusted", "-q"]) == 0
     assert bsm.decode(tmp_path / "a.bsm").faces.shape == (640, 3)
-    (tmp_path / "b.ply").write_bytes(b"ply\nformat ascii 1.0\nelement vertex 2000000\n")
+    (tmp_path / "b.ply").write_bytes(b"ply\nformat ascii 1.0\nelement vertex 2000000\nelement face 1\nend_header\n")
     assert main(["encode", str(tmp_path / "b.ply"), "--untrusted", "-q"]) == 6

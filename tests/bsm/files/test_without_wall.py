@@ -50,7 +50,7 @@ def test_what_we_read_ourselves_is_read(lacking, tmp_path):
     with pytest.raises(MeshError):
         read_mesh(b"v 0 0 0\n", limits=SERVICE)
     with pytest.raises(LimitError):
-        read_mesh(b"ply\nformat ascii 1.0\nelement vertex 2000000\n", limits=SERVICE)
+        read_mesh(b"ply\nformat ascii 1.0\nelement vertex 2000000\nelement face 1\nend_header\n", limits=SERVICE)
 
 
 def test_the_package_is_looked_for(monkeypatch):

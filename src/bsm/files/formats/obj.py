@@ -15,7 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
-from bsm.files.room import Doubles, Ints, Rows, as_integers, continued, point_row, text_table
+from bsm.files.room import Doubles, Ints, Rows, as_integers, continued, point_row, require_count, text_table
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """The value of a keyword for the faces after it, and the keyword."""
@@ -24,6 +24,7 @@ _NUMBERS = (b"v", b"vt", b"vn", b"f")
 _DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
 _KNOWN = {b"", b"mtllib", *_NUMBERS, *_DROPPED, *(keyword.encode() for keyword in STATES.values())}
 _COLORS = 3  # numbers of a color that every reader takes; some count a fourth as a coordinate
+_COUNTED = {"vertices": b"\nv ", "faces": b"\nf "}
 _FEW = 8
 _MOST_NAME = 1 << 10  # characters: a name is repeated wherever a group of faces begins
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
@@ -33,6 +34,8 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
     """Read an OBJ, or lines of one after `seen` vertices; values of their corners may be elsewhere."""
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
+    for name, begin in _COUNTED.items():  # before a line is an object
+        require_count(name, data.count(begin), limits)
     lines = _Lines(continued(data))
     points = Rows(lines.of(b"v"), "vertex")
     is_face = lines.are(b"f")

@@ -15,7 +15,7 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
-from bsm.files.room import Ints, Rows, as_integers, ranges, require_lines, single_suffices
+from bsm.files.room import Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
 
 _WRITTEN_TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -29,6 +29,7 @@ _NAMES_OF_TYPES = {kind: name for name, kind in _WRITTEN_TYPES.items()}
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 MOST_HEADER = 1 << 20
 _MAX_ELEMENTS = 64
+_COUNTED = {"vertex": "vertices", "face": "faces"}
 _MAX_PROPERTIES = 256  # of one element: rows are walked once for each list
 COMMENTS = ("comment", "obj_info")  # what a line begins with that anybody may write anything in
 IMAGE = "TextureFile"  # a comment that begins so names an image; their numbers are those of the property texnumber
@@ -280,6 +281,9 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
         raise NoFacesError("this PLY file is a range grid; mesh it first, for instance with MeshLab")
     if "vertex" not in names or "face" not in names:
         raise NoFacesError("this PLY file has no faces; point clouds are not supported")
+    for element in header.elements:
+        if element.name in _COUNTED:
+            require_count(_COUNTED[element.name], element.count, limits)
     body = data[header.size :]
     tables = tables_of(header, body)
     vertex, face = tables["vertex"], tables["face"]

@@ -11,7 +11,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats.metadata import Written, face_numbers, left_out, named, text_of
 from bsm.files.formats.polygons import Column, Polygons
-from bsm.files.room import NO_DOUBLES, Doubles, Rows, single_suffices
+from bsm.files.room import NO_DOUBLES, Doubles, Rows, require_count, single_suffices
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 HEAD = 84  # bytes before the first record, the last four of them the number of triangles
@@ -73,6 +73,7 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         soup, columns, metadata = _of_text(data)
     else:
         count, wrong = binary_triangles(data, len(data))
+        require_count("faces", count, limits)
         records = np.frombuffer(data, RECORD, count, HEAD)
         with np.errstate(invalid="ignore"):  # a later check refuses NaN
             soup = records["corners"].reshape(-1, 3).astype(np.float64)
