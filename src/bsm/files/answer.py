@@ -1,16 +1,15 @@
 """The answer of a process that has read a file: one flat table, then the bytes that its rows name.
 
-A hostile file may have taken that process over. So the table is checked before anything is made of it: each row is a
-kind and a size, within shared memory. Whatever is wrong with it is a `FormatError` or `LimitError`.
+A hostile file may have taken that process over. So each row, a kind and a size, is checked before anything is made of
+it. Whatever is wrong is a `FormatError` or `LimitError`.
 """
 
 import os
 import struct
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing, contextmanager
-from dataclasses import dataclass, replace
+from contextlib import closing
 from mmap import mmap
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -23,22 +22,21 @@ from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames
 from bsm.files.room import require_count
 
-Value: TypeAlias = Any  # an array of two dimensions, a text, bytes, a whole number or a float
 _COUNT = struct.Struct("<Q")
 _ROW = struct.Struct("<IIQQ")  # a kind, columns, rows, and the first byte after the table
-_PLAIN: dict[str, Callable[[bytes], Any]] = {
-    "text": lambda data: data.decode(errors="surrogatepass"),
-    "bytes": bytes,
-    "int": lambda data: int.from_bytes(data[:_LONGEST], "little", signed=True),
-    "float": lambda data: struct.unpack("<d", data)[0],
-    "none": lambda data: None,
+_PLAIN: dict[type, tuple[Callable[[Any], bytes], Callable[[bytes], Any]]] = {
+    str: (lambda text: text.encode(errors="surrogatepass"), lambda data: data.decode(errors="surrogatepass")),
+    bytes: (bytes, bytes),
+    float: (struct.Struct("<d").pack, lambda data: struct.unpack("<d", data)[0]),
+    int: (
+        lambda n: int(n).to_bytes(16, "little", signed=True),
+        lambda data: int.from_bytes(data[:16], "little", signed=True),
+    ),
+    type(None): (lambda none: b"", lambda data: None),
 }
+"""What is not an array: how it becomes bytes, and is made of them again."""
 _KINDS = (*KINDS, *_PLAIN)
-_COST = 1 << 10  # bytes of memory that a row is charged: what Python makes of it, and the time that it takes
-_LETTER = 8  # bytes that a byte of text may become
-_LONGEST = 32  # bytes of a whole number
-_END = object()
-_MOST_WORDS = 1 << 16  # bytes of an error
+_COST, _LETTER = 1 << 10, 8  # bytes of memory that a row is charged, for its time, too, and a byte of text
 _REFUSALS: tuple[type[BsmError], ...] = (
     *(FormatError, LimitError, NoFacesError, errors.MeshError, errors.TruncatedError, errors.CorruptError),
     *(errors.UnsupportedError, errors.DependencyError, errors.OptionError, errors.ArgumentError, errors.NumericError),
@@ -54,172 +52,111 @@ _PARTS: dict[type, dict[str, Any]] = {
         **{"frame_rate": float, "metadata": _METADATA, "rigged": int, "meshes": [TriangleMesh]},
     },
     **dict.fromkeys(_REFUSALS, dict.fromkeys(("offset", "frame", "block"), int | None) | {"message": str}),
-    type(None): {},
 }
 """What an answer is made of, in this order; `[one]` is the number of them, then each."""
 _ANSWERS = (type(None), MeshFile, Frames, *_REFUSALS)
 
-# ------------------------------------------------------------------------------------------------ as it is left
-
 
 def leave(memory: int, found: MeshFile | Frames | BsmError | None) -> None:
     """Leave a mesh, frames, an error or nothing in shared memory."""
-    if isinstance(found, Frames) and found.meshes is not None:
-        meshes = list(found.meshes)
-        found = replace(found, frames=(mesh.positions for mesh in meshes), meshes=iter(meshes))
-    rows, parts, known, total = list[bytes](), list[Any](), dict[int, bytes](), 0
+    rows, parts, total = list[bytes](), list[Any](), 0
     form = type(found) if type(found) in _ANSWERS else FormatError
+    kind: Any
+    data: Any
     for value in (_ANSWERS.index(form), *_flat(form, found)):
-        if id(value) not in known:
-            kind, shape, data = _plain(value)
-            known[id(value)] = _ROW.pack(_KINDS.index(kind), shape[1], shape[0], total)
-            parts.append((value, data))  # a value that is gone could lend its number to another
-            total += len(data)
-        rows.append(known[id(value)])
+        if isinstance(value, np.ndarray):
+            kind, shape, data = str(value.dtype), value.shape, np.ascontiguousarray(value).reshape(-1).view(np.uint8)
+        else:
+            kind = next(kind for kind in _PLAIN if isinstance(value, kind))
+            data = _PLAIN[kind][0](value)
+            shape = (len(data), 1)
+        rows.append(_ROW.pack(_KINDS.index(kind), shape[1], shape[0], total))
+        parts.append(data)
+        total += len(data)
     table = _COUNT.pack(len(rows)) + b"".join(rows)
     if len(table) + total > os.fstat(memory).st_size:
         raise MemoryError
     with closing(mmap(memory, len(table) + total)) as view:
-        view.write(table)
-        for _, data in parts:
+        for data in (table, *parts):
             view.write(data)
 
 
-def _plain(value: Value) -> tuple[str, tuple[int, ...], Any]:
-    if isinstance(value, np.ndarray):
-        return str(value.dtype), value.shape, np.ascontiguousarray(value).reshape(-1).view(np.uint8)
-    kind, data = "bytes", value
-    if isinstance(value, str):
-        kind, data = "text", value.encode(errors="surrogatepass")
-    elif isinstance(value, float | np.floating):
-        kind, data = "float", struct.pack("<d", value)
-    elif value is None:
-        kind, data = "none", b""
-    elif not isinstance(value, bytes):
-        kind, data = "int", int(value).to_bytes(int(value).bit_length() // 8 + 1, "little", signed=True)
-    return kind, (len(data), 1), data
-
-
-def _flat(form: Any, found: Any) -> Iterator[Value]:
-    if found is None:
-        yield None
-    elif isinstance(form, list):
+def _flat(form: Any, found: Any) -> Iterator[Any]:
+    if isinstance(form, list) and found is not None:
         items = list(found.items() if isinstance(found, Mapping) else found)
         yield len(items)
         for item in items:
             yield from _flat(form[0], item)
     elif isinstance(form, tuple):
         yield from found
-    elif form in _PARTS:
+    elif found is not None and form in _PARTS:
         for name, part in _PARTS[form].items():
-            yield from _flat(part, getattr(found, name))
+            moving = form is Frames and name == "frames" and found.meshes is not None  # they are in the meshes
+            yield from _flat(part, () if moving else getattr(found, name))
     else:
-        yield found
+        yield found.item() if isinstance(found, np.generic) else found
 
 
-# ------------------------------------------------------------------------------------------------ as it is taken
-
-
-@contextmanager
-def _from_strangers() -> Iterator[None]:
+def found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
+    """The mesh or frames that a process has left, or raise the error."""
     try:
-        yield
-    except (FormatError, LimitError):
+        values = _read(memory)
+        form = _ANSWERS[_made(int, values, limits)]
+        found: MeshFile | Frames | BsmError | None = _made(form, values, limits)
+    except LimitError:
         raise
     except MemoryError as error:
         raise LimitError("the system has too little memory for what the process that read this file left") from error
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
-
-
-def found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
-    """The mesh or frames that a process has left, or raise the error."""
-    with _from_strangers():
-        taker = _Taker(iter(_read(memory)), limits, os.fstat(memory).st_size)
-        found: MeshFile | Frames | BsmError | None = taker.made(_ANSWERS[taker.next(int)])
     if isinstance(found, BsmError):
         raise found
     return found
 
 
-def _read(memory: int) -> list[Value]:
-    """All values of a table: those of equal rows are one."""
+def _read(memory: int) -> Iterator[Any]:
     size = left = os.fstat(memory).st_size
     (count,) = _COUNT.unpack(os.pread(memory, _COUNT.size, 0))
     left -= count * _COST
-    if left < 0:
-        raise ValueError("more rows than there can be")
-    table = os.pread(memory, count * _ROW.size, _COUNT.size)
-    known, values = dict[bytes, Value](), list[Value]()
-    for place in range(0, len(table), _ROW.size):
-        row = table[place : place + _ROW.size]
-        if row not in known:
-            number, columns, rows, at = _ROW.unpack(row)
-            kind, at = _KINDS[number], at + _COUNT.size + len(table)
-            plain = np.dtype("uint8" if kind in _PLAIN else kind)
-            taken = rows * columns * plain.itemsize
-            left -= taken * (_LETTER if kind == "text" else 1)
-            if left < 0 or at + taken > size:
-                raise ValueError("a value that is not there")
-            data = os.pread(memory, taken, at)
-            known[row] = _PLAIN[kind](data) if kind in _PLAIN else np.ndarray((rows, columns), plain, data)
-        values.append(known[row])
-    return values
+    for place in range(_COUNT.size, _COUNT.size + count * _ROW.size, _ROW.size):
+        number, columns, rows, begin = _ROW.unpack(os.pread(memory, _ROW.size, place))
+        kind, begin = _KINDS[number], begin + _COUNT.size + count * _ROW.size
+        plain = np.dtype("uint8" if kind in _PLAIN else kind)
+        taken = rows * columns * plain.itemsize
+        left -= taken * (_LETTER if kind is str else 1)
+        if left < 0 or begin + taken > size:
+            raise ValueError("more than there can be")
+        data = os.pread(memory, taken, begin)
+        yield _PLAIN[kind][1](data) if kind in _PLAIN else np.ndarray((rows, columns), plain, data)
 
 
-@dataclass
-class _Taker:
-    """Makes an answer of values that were read, and checks what they say of each other."""
-
-    values: Iterator[Value]
-    limits: Limits
-    size: int  # bytes of shared memory, and of values that attributes may copy
-
-    def next(self, kind: Any) -> Value:
-        if not isinstance(found := next(self.values, _END), kind):
+def _made(form: Any, values: Iterator[Any], limits: Limits) -> Any:
+    if isinstance(form, list):
+        count = _made(int | None, values, limits)
+        return None if count is None else [_made(form[0], values, limits) for _ in range(count)]
+    if isinstance(form, tuple):
+        return [_made(part, values, limits) for part in form]
+    if form not in _PARTS:
+        if not isinstance(found := next(values), form):
             raise TypeError("a value of another kind")
         return found
+    given = {name: _made(part, values, limits) for name, part in _PARTS[form].items()}
+    given |= {name: tuple(given[name]) for name in ("attributes", "notes", "dropped") if name in given}
+    if form in (TriangleMesh, Frames):
+        _check(given, limits)
+    return form(**given)
 
-    def made(self, form: Any) -> Any:
-        if isinstance(form, list):
-            count = self.next(int | None)
-            return None if count is None else tuple(self.made(form[0]) for _ in range(count))
-        if isinstance(form, tuple):
-            return tuple(map(self.next, form))
-        if form not in _PARTS:
-            return self.next(form)
-        given = {name: self.made(part) for name, part in _PARTS[form].items() if name != "meshes"}
-        self.check(form, given)
-        return form(**given) if form is not type(None) else None
 
-    def check(self, form: type, given: dict[str, Any]) -> None:
-        if form is Attribute:
-            self.size -= sum(given[name].nbytes for name in ("values", "indices") if given[name] is not None)
-            if self.size < 0:
-                raise ValueError("values that are used many times")
-        if "message" in given:
-            given["message"] = given["message"][:_MOST_WORDS]
-        if "faces" not in given:
-            return
-        frames = given.get("frames", [given.get("positions")])
-        counts = {"vertices": max(given.get("rigged", 0), *map(len, frames), 0), "faces": len(given["faces"])}
-        for name, count in (counts | {"frames": len(frames)}).items():
-            require_count(name, count, self.limits)
-        threes = {(array.dtype.name, array.shape[1]) for array in frames}
-        if {("int32", 3)} != {(given["faces"].dtype.name, given["faces"].shape[1])} or threes - {("float64", 3)}:
-            raise TypeError("arrays of another kind")
-        given["metadata"] = dict(given["metadata"])
-        if form is Frames:
-            count = self.next(int | None)
-            if {given["count"], count} - {0, None, len(frames)} or given["faces"].min(initial=0) < 0:
-                raise ValueError("frames of another number")  # 0: it was not known before all were read
-            given |= {"frames": iter(frames), "meshes": None if count is None else self.later(count)}
-
-    def later(self, count: int) -> Iterator[TriangleMesh]:
-        """Meshes as they are asked for, since each copies what it is made of."""
-        left = self.size
-        for _ in range(count):
-            self.size = left
-            with _from_strangers():
-                mesh: TriangleMesh = self.made(TriangleMesh)
-            yield mesh
+def _check(given: dict[str, Any], limits: Limits) -> None:
+    """Check a mesh or frames before they are made, and make of their parts what they take."""
+    given["metadata"], meshes = dict(given["metadata"]), given.get("meshes")
+    frames = given.get("frames", [given.get("positions")]) if meshes is None else [mesh.positions for mesh in meshes]
+    counts = {"vertices": max(given.get("rigged", 0), *map(len, frames)), "faces": len(given["faces"])}
+    for name, count in (counts | {"frames": len(frames)}).items():
+        require_count(name, count, limits)
+    kinds = {given["faces"].dtype.name, *(f"{frame.dtype} of {frame.shape[1]}" for frame in frames)}
+    if kinds != {"int32", "float64 of 3"} or given.get("count", 0) not in (0, len(frames)):  # 0: it is not known
+        raise ValueError("arrays of another kind")
+    if "meshes" in given:
+        given["faces"] = TriangleMesh(frames[0], given["faces"]).faces
+        given |= {"frames": iter(frames), "meshes": None if meshes is None else iter(meshes)}
