@@ -151,10 +151,7 @@ def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
 @contextmanager
 def shared(size: int) -> Iterator[int]:
     """Memory that other processes can map; pages count once they are written."""
-    try:
-        memory = os.memfd_create("bsm", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
-    except OSError as error:
-        raise UnsupportedError(f"this system shares no memory with a process that reads files: {error}") from error
+    memory = os.memfd_create("bsm", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
     try:
         os.ftruncate(memory, _least(size, resource.getrlimit(resource.RLIMIT_FSIZE)[0]))
         fcntl.fcntl(memory, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK | fcntl.F_SEAL_GROW | fcntl.F_SEAL_SEAL)
@@ -300,18 +297,14 @@ def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
     given = (asked["format"], Limits(**asked["limits"]))
     wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
     if names := asked.get("names"):
-        frames: Frames = sequence.open_frames(names, *given, wanted, isolated=False)
-        return frames
+        return sequence.open_frames(names, *given, wanted, isolated=False)
     source: Any = asked["path"]
     if source is None:
         source = io.BytesIO(asked["data"])
         source.name = asked["name"]
-    found: MeshFile | Frames | None
     if asked.get("sequence"):
-        found = sequence.open_sequence(source, given[0], wanted, given[1], isolated=False)
-    else:
-        found = mesh.read_mesh(source, *given, isolated=False)
-    return found
+        return sequence.open_sequence(source, given[0], wanted, given[1], isolated=False)
+    return mesh.read_mesh(source, *given, isolated=False)
 
 
 def _confine(asked: dict[str, Any]) -> None:
@@ -320,7 +313,6 @@ def _confine(asked: dict[str, Any]) -> None:
         held = int(Path("/proc/self/statm").read_text().split()[0]) * mmap.PAGESIZE
     except OSError as error:
         raise UnsupportedError(f"files from strangers are read where /proc is: {error}") from error
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     for limit, most, longest in (
         (resource.RLIMIT_CORE, 0, 0),
         (resource.RLIMIT_FSIZE, 0, 0),
