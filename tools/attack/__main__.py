@@ -6,6 +6,7 @@ bombs    streams that cost as much as they can, held against what they may take
 charges  many small and few large of all that can be many: time by what was charged
 walk     every frame type and field as large as its bytes allow, held against the law
 readers  every reader of files, with every number as large as it can be, held against the law
+calls    what reading asks of the kernel, by a recorder
 answers  what processes leave that a hostile file has taken over, mutated
 uses     files that say something once and use it many times, held against the law
 growth   files that are large in one place, read at four times the size
@@ -22,7 +23,7 @@ from __future__ import annotations
 
 from tools.command import dispatch
 
-ALIKE = "fuzz sweep readers answers growth proof costly manifests uses doors meshes judges figures"
+ALIKE = "fuzz sweep readers calls answers growth proof costly manifests uses doors meshes judges figures"
 COMMANDS = {name: f"{name}:main" for name in ALIKE.split()}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 

@@ -34,7 +34,7 @@ _PLAIN: dict[type, tuple[Callable[[Any], bytes], Callable[[bytes], Any]]] = {
     ),
     type(None): (lambda none: b"", lambda data: None),
 }
-"""What is not an array: how it becomes bytes, and is made of them again."""
+"""Values besides arrays: how each becomes bytes, and is made of them again."""
 _KINDS = (*KINDS, *_PLAIN)
 _COST, _LETTER = 1 << 10, 8  # bytes of memory that a row is charged, for its time, too, and a byte of text
 _REFUSALS: tuple[type[BsmError], ...] = (
@@ -106,7 +106,9 @@ def found_in(memory: int, limits: Limits) -> MeshFile | Frames | None:
     except LimitError:
         raise
     except MemoryError as error:
-        raise LimitError("the system has too little memory for what the process that read this file left") from error
+        raise LimitError(
+            "the system has too little memory for the answer of the process that read this file"
+        ) from error
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
     if isinstance(found, BsmError):
@@ -148,7 +150,7 @@ def _made(form: Any, values: Iterator[Any], limits: Limits) -> Any:
 
 
 def _check(given: dict[str, Any], limits: Limits) -> None:
-    """Check a mesh or frames before they are made, and make of their parts what they take."""
+    """Check a mesh or frames before they are made, and bring their parts into the right kinds."""
     given["metadata"], meshes = dict(given["metadata"]), given.get("meshes")
     frames = given.get("frames", [given.get("positions")]) if meshes is None else [mesh.positions for mesh in meshes]
     counts = {"vertices": max(given.get("rigged", 0), *map(len, frames)), "faces": len(given["faces"])}

@@ -244,7 +244,7 @@ def _load(library: str) -> None:
 
 
 def _watch(answer: int, memory: int, seconds: int) -> None:
-    """Let a child read for so long, and tell how it ended, and what it said then."""
+    """Let a child read for so long, and tell how it ended, with its last words."""
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         words, said = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
@@ -357,7 +357,7 @@ def _close_calls() -> None:
 
 
 def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
-    """The steps of a filter: what they do, how many to skip if so and if not, and a number."""
+    """The steps of a filter: an operation, how many steps to skip if true and if false, and a number."""
     load, equal, any_bit, at_least, add, end, end_so = 0x20, 0x15, 0x45, 0x35, 0x04, 0x06, 0x16
     allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000
     call, processor, arguments = (load, 0, 0, 0), (load, 0, 0, 4), [(load, 0, 0, 16 + 8 * place) for place in range(3)]

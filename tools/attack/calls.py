@@ -1,0 +1,64 @@
+"""What reading asks of the kernel: `python -m tools.attack calls`; exit code 1 if a call was refused (needs strace).
+
+Every attack on readers is read behind the wall under a recorder. What is recorded after a process has closed its calls
+is held against src/bsm/files/calls.csv.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+
+from bsm.files import wall
+
+_TABLE = Path(wall.__file__).with_name("calls.csv")
+_LINE = re.compile(r"(\d+) +(\w+)\((.*)")
+_CLOSES = "PR_SET_SECCOMP"
+
+
+def recorded(lines: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
+    """Calls of processes that have closed their calls, and those of them that were refused."""
+    closed, calls, refused = set[str](), Counter[str](), Counter[str]()
+    for line in lines:
+        if not (found := _LINE.match(line)):
+            continue
+        process, name, rest = found.groups()
+        if process in closed:
+            calls[name] += 1
+            refused[name] += "(errno 3" in rest
+            if name == "clone" and (thread := re.search(r"= (\d+)$", rest)):
+                closed.add(thread[1])
+        elif _CLOSES in rest:
+            closed.add(process)
+    return calls, +refused
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--every", type=int, default=200, metavar="N", help="of the numbers take one in N")
+    parser.add_argument("--bytes", type=int, default=1 << 16, help="of a file that is grown (default: %(default)s)")
+    args = parser.parse_args()
+    attack = [sys.executable, "-m", "tools.attack", "readers", "--limits", "service"]
+    with tempfile.NamedTemporaryFile("r", errors="replace") as log:
+        record = ["strace", "-f", "-qq", "-e", "signal=none", "-o", log.name]
+        subprocess.run([*record, *attack, "--every", str(args.every), "--bytes", str(args.bytes)], check=True)
+        calls, refused = recorded(log)
+    rows = csv.DictReader(_TABLE.read_text().splitlines())
+    allowed = {row["call"] for row in rows if row["allowed"] == "yes" and row[platform.machine()]}
+    for name, count in calls.most_common():
+        print(f"{name:20}{count:9}{'  refused ' + str(refused[name]) if refused[name] else ''}")
+    print(f"allowed and not asked for: {' '.join(sorted(allowed - calls.keys()))}")
+    return 1 if refused or calls.keys() - allowed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
