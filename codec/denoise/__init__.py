@@ -8,7 +8,7 @@ except ImportError:
     raise DependencyError(f"denoising needs scipy: {how_to_install('denoise')}") from None
 
 from bsm.codec.denoise.automatic import AutomaticChoice
+from bsm.codec.denoise.filters import DenoiseOptions
 from bsm.codec.denoise.frames import FrameDenoiser, denoise, denoise_automatically
-from bsm.codec.denoise.recipe import DenoiseOptions
 
 __all__ = ["AutomaticChoice", "DenoiseOptions", "FrameDenoiser", "denoise", "denoise_automatically"]

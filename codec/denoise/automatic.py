@@ -10,15 +10,14 @@ from bsm.bitstream.errors import counted
 from bsm.codec.arrays import Faces, Floats, Mask, Order, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
-from bsm.codec.denoise.learnt.cascade import Learnt
+from bsm.codec.denoise.filters import BENDS, FINISHES, RAYS, Filter, Step, Surface
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import put_outliers_back
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.noise.synthesis import NoiseLevel
+from bsm.codec.denoise.noise.synthesis import NoiseLevel, estimate_noise
 from bsm.codec.denoise.noise.volumes import Cells
-from bsm.codec.denoise.recipe import BENDS, RAYS, Patient, Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, SEED, Forecast, Progress, Rehearsal, silent
+from bsm.codec.denoise.rehearsal import GOALS, Forecast, Progress, Rehearsal, silent
 from bsm.codec.denoise.safety import DETAIL_LOST, judge, restraint
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.graph import graph_of_faces
@@ -39,30 +38,22 @@ def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
     order = order[means[order] > 0.5 * means.max()]
     chosen = order[np.linspace(0, len(order) - 1, min(PIECES, len(order)) + 2).astype(np.int64)[1:-1]]
     inside = np.isin(labels, chosen)
-    members = np.flatnonzero(inside)
     number = np.cumsum(inside) - 1
-    return members, number[faces[inside[faces].all(axis=1)]].astype(np.int32)
+    return np.flatnonzero(inside), number[faces[inside[faces].all(axis=1)]].astype(np.int32)
 
 
-BASE = Recipe("normals", 0.2, "patches", 0.35)
+BASE = Filter("normals", 0.2, 0.35, "patches")
 CANDIDATES = (
     BASE,
-    *(Recipe("normals", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4)),
-    Recipe("heights", 0.2, "own", 0.4),
-    Recipe("none", 0.2, "local", 0.45),
-    *(Recipe("normals", keep, "own", sigma_r) for keep, sigma_r in ((0.2, 0.55), (0.1, 0.4))),
-    *(Recipe("heights", keep, "own", sigma_r) for keep, sigma_r in ((0.2, 0.25), (0.2, 0.55), (0.1, 0.4))),
-    *(Recipe("heights", keep, "own", 0.55) for keep in (0.3, 0.4)),
-    *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.6)),
+    Filter("normals", 0.2, 0.25),
+    *(Filter("heights", keep, sigma_r) for keep, sigma_r in ((0.2, 0.4), (0.1, 0.55))),
 )
-"""The first one makes the first guess, the first `HERALDS` the second one."""
-HERALDS = 5
-SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 1.0, 0.1, 3.0) for sigma_r in (0.4, 0.25, 0.55))
+"""The first one makes the first guess."""
+SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
 """For scans of one view."""
-_OWN = [Recipe("positions", keep, "own", width) for keep in (0.4, 0.2, 0.1) for width in (0.4, 0.25, 0.55)]
-AXIAL = (BASE, Recipe("none", 0.2, "patches", 0.35), *_OWN)
+AXIAL = (BASE, *(Filter("positions", keep, width) for keep, width in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
 """For noise along one axis, along which vertices then go back. The first keeps sharp edges for the guess."""
-FUSED = (*(Recipe(BENDS, weight, "own", 0.3) for weight in (0.3, 0.6, 0.15)), *CANDIDATES[:3])
+FUSED = (*(Filter(BENDS, weight, 0.3) for weight in (0.3, 0.6, 0.15)), CANDIDATES[1])
 EVEN, FUSED_UNEVEN, FUSED_MOST = 0.2, 7.0, 2.5
 """For volumes, whose noise is even and as fine as their cells. Noise of cameras is uneven, and too broad to rehearse
 with: the weight of bends over the unevenness, and its bound."""
@@ -76,10 +67,10 @@ best on smooth shapes; its mean with the other filter loses nothing where detail
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
 STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
-HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
-LEARNT = 0.4  # share of learnt normals in the mean
+BEGUN, ROUND, CHOSEN = 0.05, 0.2, 0.5  # of all work: before rehearsals, in a round of them, and before the filter
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
+WORTH_STEADIED = 0.8  # the same after the temporal filter, for normals times vertices
 AS_LARGE = 1.05  # rehearsed error over the change from which on nothing tells noise from shape
 UNPROMISED = 1.2  # rehearsed error over that which the roughness tells, from which on thin parts became worse
 
@@ -92,7 +83,7 @@ class AutomaticChoice:
     noise: NoiseLevel
     untreated: float
     expected: float
-    learnt: float = 0.0
+    finish: str = "none"
     detailed: bool = False
     outliers: int = 0
     ripples: tuple[float, ...] = ()
@@ -134,65 +125,70 @@ class AutomaticChoice:
         return replace(choice, kind="outliers", reason=f"{counted(vertices=outliers)} that stood out")
 
 
-def calm(positions: Positions, patient: Patient) -> tuple[int, Ripples, Finding]:
+def calm(positions: Positions, surface: Surface) -> tuple[int, Ripples, Finding]:
     """The number of outliers that are put back, the positions, shape (n, 3), without these and ripples, and their
     noise."""
-    finding = find_noise(positions, patient.probe)
+    finding = find_noise(positions, surface.probe)
     if finding.exact:
         return 0, Ripples(positions), finding
-    back = put_outliers_back(positions, patient.probe, finding)
-    outliers, ripples = int((back != positions).any(axis=1).sum()), find_ripples(back, patient.probe)
+    back = put_outliers_back(positions, surface.probe, finding)
+    outliers, ripples = int((back != positions).any(axis=1).sum()), find_ripples(back, surface.probe)
     if outliers or ripples.lengths:
-        finding = find_noise(ripples.positions, patient.probe)
+        finding = find_noise(ripples.positions, surface.probe)
     return outliers, ripples, finding
 
 
 def choose(
-    positions: Positions, finding: Finding, patient: Patient, goal: str = "shading", progress: Progress = silent
+    positions: Positions, finding: Finding, surface: Surface, goal: str = "shading", progress: Progress = silent
 ) -> AutomaticChoice:
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
     if finding.kind in ("cells", "steps") or finding.uneven > EVEN:
         return _by_cause(finding)
-    full = patient.topology
-    members, part = sample(full.faces, finding.levels)
-    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels > 0.0
-    if len(members) < full.n:
-        whole, given = patient, positions
-        rows = members, np.isin(full.faces, members).all(axis=1)
-        positions, patient = positions[members], Patient(part, len(members))
-        patient.part = lambda: Learnt(*(every[some] for every, some in zip(whole.learnt(given), rows, strict=True)))
-        patient.view, patient.bound, patient.noisy = finding.view, finding.bound, finding.levels[members] > 0.0
-    candidates = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
-    taught = candidates is CANDIDATES and (full.n <= MOST_TAUGHT or finding.kind != "white")
+    filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
     # The networks were not trained on the noise that the temporal filter leaves, and would take shape away with it.
-    share = LEARNT if taught and finding.kind != "unsteady" else 0.0
-    patient.expect(max((recipe.keep for recipe in candidates if recipe.needs_coarse), default=0.0))
-    goals = named("goal", GOALS, goal)
-    rehearsal = Rehearsal(positions, finding.on(members), patient, candidates[0], goals, progress)
-    if rehearsal.level.slides:  # noise has moved vertices along the surface, too
-        candidates = tuple(replace(each, hand_over=SLIDING.get(each.hand_over, each.hand_over)) for each in candidates)
-    winner = rehearsal.compete(candidates[:HERALDS], HERALDED)
-    # The result of a few recipes is a better guess. A third round would repeat its own mistakes.
-    rehearsal.rehearse(rehearsal.perform(winner.steps, share), SEED + 1)
-    winner = rehearsal.compete(candidates, REHEARSED)
-    steps, expected, untreated, reason = winner.steps, winner.error, rehearsal.untreated, finding.reason
+    learnt = (len(positions) <= MOST_TAUGHT or finding.kind != "white") and finding.kind != "unsteady"
+    finishes = [each for each in FINISHES if filters is CANDIDATES or each == "none"]
+    finishes = [each for each in finishes if learnt or each != "learnt"]
+    members, part = sample(surface.topology.faces, finding.levels)
+    chosen = positions
+    if len(members) < len(positions):
+        surface, chosen = Surface(part, len(members)), positions[members]
+    surface.expect(filters)
+    level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
+    if level.slides:  # noise has moved vertices along the surface, too
+        filters = tuple(replace(each, hand_over=SLIDING.get(each.hand_over, each.hand_over)) for each in filters)
+    known = finding.on(members).reaching(surface.topology, level.slides)
+    mesh = surface.filtered(chosen, known)
+    rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
+    winner = rehearsal.compete(filters, finishes, lambda stage, share: progress(stage, BEGUN + ROUND * share))
+    steadied = finding.kind == "unsteady"
+    if not steadied:
+        # The result of some filters is a better guess. A third round would repeat its own mistakes.
+        rehearsal.again(winner)
+        winner = rehearsal.compete(
+            filters, finishes, lambda stage, share: progress(stage, BEGUN + ROUND * (1.0 + share))
+        )
+    expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
     doubts = {
-        "any filter would cost more than it gains": WORTH * untreated,
+        "any filter would cost more than it gains": (WORTH_STEADIED if steadied else WORTH) * untreated,
         # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
-        "the expected error is as large as the change": AS_LARGE * rehearsal.changed(steps, share),
+        "the expected error is as large as the change": AS_LARGE * (np.inf if steadied else rehearsal.changed(winner)),
         "the triangles are so uneven that any filter would turn their normals farther": (
             UNPROMISED * forecast.untreated if forecast else np.inf
         ),
     }
+    steps = winner.steps
     for doubt, most in doubts.items():
         if steps and winner.error > most:
             steps, expected, reason = (), untreated, f"{reason}, but {doubt}"
-    noise = NoiseLevel(rehearsal.level.normal / finding.edge, rehearsal.level.tangential / finding.edge)
+    noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
-    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, share, detailed, forecast=forecast)
+    return AutomaticChoice(
+        steps, finding.kind, reason, noise, untreated, expected, winner.finish, detailed, forecast=forecast
+    )
 
 
 def _by_cause(finding: Finding) -> AutomaticChoice:
@@ -200,43 +196,42 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
     steps: tuple[Step, ...]
     if finding.kind == "fused":
         weight = min(FUSED_UNEVEN * finding.uneven, FUSED_MOST)
-        steps = (Step(Recipe(BENDS, weight, "own", 0.4), 0),)
+        steps = (Step(Filter(BENDS, weight, 0.4), 0),)
     elif finding.kind == "steps":
-        steps = (Step(Recipe(RAYS, STEP_STRENGTH, "own", 0.25), STEP_ITERATIONS),)
+        steps = (Step(Filter(RAYS, STEP_STRENGTH, 0.25), STEP_ITERATIONS),)
     else:
         assert isinstance(finding.bound, Cells)
         flat, stored = finding.bound.flatness, finding.bound.thick > 1
         more = BENDS_ITERATIONS[: 1 if stored else int(flat // THICK)]
-        steps = tuple(Step(Recipe(BENDS, 0.0, "own", BENDS_WIDTH), count) for count in more)
+        steps = tuple(Step(Filter(BENDS, 0.0, BENDS_WIDTH), count) for count in more)
         if more and not stored and finding.bound.thin > WALLS:
-            steps = (*steps, Step(Recipe("none", 0.0, "own", 0.4), BENDS_ITERATIONS[0]))
+            steps = (*steps, Step(Filter("none", 0.0, 0.4), BENDS_ITERATIONS[0]))
         if not stored:
             width = min(CELL_WIDTH * flat ** (2.0 / 3.0), 1.0)
             detailed = bool(more) and finding.bound.thin > DETAILED * flat
-            steps = (*steps, Step(Recipe("positions", CELL_KEEP, "own", width), CELL_ITERATIONS[detailed]))
+            steps = (*steps, Step(Filter("positions", CELL_KEEP, width), CELL_ITERATIONS[detailed]))
     noise = NoiseLevel(finding.level / finding.edge, 0.0)
     unknown = Forecast(0.0, 0.0, most=1.0, known=False)
     return AutomaticChoice(steps, finding.kind, finding.reason, noise, 0.0, 0.0, forecast=unknown)
 
 
 def treat(
-    choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient, strength: float = 1.0
+    choice: AutomaticChoice, noisy: Positions, finding: Finding, surface: Surface, strength: float = 1.0
 ) -> tuple[Positions, AutomaticChoice]:
     """Apply the choice to `noisy`, shape (n, 3), where it is safe; also return it as carried out, with its angles."""
     if not choice.steps:
         return noisy, choice
-    finding, touched = finding.reaching(patient.topology, choice.noise.slides), finding.levels > 0.0
-    patient.view, patient.bound, patient.noisy = finding.view, finding.bound, touched
-    patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
-    full = patient.treatments(noisy).mean(choice.steps, choice.learnt)
-    full = np.where(touched[:, None], full, noisy)
+    finding, touched = finding.reaching(surface.topology, choice.noise.slides), finding.levels > 0.0
+    surface.expect(step.filter for step in choice.steps)
+    filtered = surface.filtered(noisy, finding)
+    full = np.where(touched[:, None], filtered.finished(filtered.mean(choice.steps), choice.finish), noisy)
     full = full if finding.bound is None else finding.bound.within(noisy, full)
-    good, reason = judge(noisy, full, finding, patient.probe)
+    good, reason = judge(noisy, full, finding, surface.probe)
     if reason:
         return noisy, replace(choice, steps=(), reason=reason)
     share = restraint(finding, choice.noise.normal * finding.edge) if choice.detailed else 1.0
     result = np.where(good[:, None], noisy + share * (full - noisy) if share < 1.0 else full, noisy)
     if choice.forecast:
         part = noisy + strength * (result - noisy)
-        choice = choice.seen(share * strength, full, part, touched, patient.topology)
+        choice = choice.seen(share * strength, full, part, touched, surface.topology)
     return result, choice

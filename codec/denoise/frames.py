@@ -12,11 +12,11 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Surface
 from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.normals import FINE_STEPS, GuidedFilter
-from bsm.codec.denoise.recipe import HAND_OVERS, DenoiseOptions, Patient
 from bsm.codec.denoise.rehearsal import GOALS, Progress, silent
 from bsm.codec.denoise.safety import judge
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
@@ -59,7 +59,7 @@ class FrameDenoiser:
         first = self._checked(first)
         welded, faces, self._index = weld_seams(first, faces)
         self._members = np.unique(self._index, return_index=True)[1]
-        self._patient = Patient(faces, len(welded))
+        self._surface = Surface(faces, len(welded))
         self._options, self._goal, self._strength, self._force = options, goal, strength, force
         self._progress = progress
         self.choice: AutomaticChoice | None = None
@@ -86,8 +86,8 @@ class FrameDenoiser:
             given, welded = pair
             assert choice is not None and found is not None
             if (choice.outliers or choice.ripples) and welded is not begun:
-                welded = calm(welded, self._patient)[1].positions
-            result, done = treat(choice, welded, found, self._patient, self._strength)
+                welded = calm(welded, self._surface)[1].positions
+            result, done = treat(choice, welded, found, self._surface, self._strength)
             return (given, result), done
 
         for group, remaining in self._steadied(frames):
@@ -95,15 +95,15 @@ class FrameDenoiser:
                 begun = group[0][1]
                 self._progress("finding noise", 0.0)
                 if remaining is None:
-                    outliers, ripples, found = calm(begun, self._patient)
+                    outliers, ripples, found = calm(begun, self._surface)
                     begun = ripples.positions
                     group[0] = group[0][0], begun
                 else:
-                    found = find_noise(begun, self._patient.probe)
+                    found = find_noise(begun, self._surface.probe)
                 if remaining is not None and remaining >= UNSTEADY * found.edge:
                     found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
-                choice = choose(begun, found, self._patient, goal, self._progress)
+                choice = choose(begun, found, self._surface, goal, self._progress)
                 self._progress("filtering", CHOSEN)
                 if remaining is None:
                     choice = choice.after(outliers, ripples)
@@ -130,9 +130,9 @@ class FrameDenoiser:
             welded = np.stack([frame[self._members] for frame in seen])
             level: float | None = None
             if len(seen) >= FEWEST_FRAMES:
-                filter_ = filter_ or TemporalFilter(self._patient.topology.faces, n)
+                filter_ = filter_ or TemporalFilter(self._surface.topology.faces, n)
                 steadied, deviation, remaining = filter_(welded)
-                edge = mean_edge_length(welded[0], self._patient.topology.faces)
+                edge = mean_edge_length(welded[0], self._surface.topology.faces)
                 if np.sqrt(3.0) * deviation > UNSTEADY * edge:
                     welded, level = steadied, np.sqrt(3.0) * deviation * remaining
             results = welded[-fresh:]
@@ -149,7 +149,7 @@ class FrameDenoiser:
 
     def _by_options(self, frames: Iterator[Positions], options: DenoiseOptions) -> Iterator[Pair]:
         """Given frames, and welded results that pass the gates."""
-        topology = self._patient.topology
+        topology = self._surface.topology
         start, step = HAND_OVERS[options.hand_over], FINE_STEPS[options.fine]
         iterations = {} if options.iterations is None else {"iterations": options.iterations}
         coarse = None
@@ -163,7 +163,7 @@ class FrameDenoiser:
             result = step(start(noisy, smooth, GuidedFilter(noisy, topology)), topology.faces, **iterations)
             if self._force:
                 return given, result
-            good, reason = judge(noisy, result, find_noise(noisy, self._patient.probe), self._patient.probe)
+            good, reason = judge(noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe)
             if reason:
                 raise HarmError(f"{reason}; nothing is written unless it is forced", frame=number)
             return given, np.where(good[:, None], result, noisy)

@@ -70,25 +70,15 @@ def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int 
     return next(islice(guided.iterates(np.array(positions, np.float64)), iterations, None))
 
 
-PATIENT_VERTICES = 20  # updates where nothing hurries; half as many leave 0.2 % more of the angle, twice the same
-AT_ONCE = 2
-
-
 def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
     """Denoise by bilateral filtering of the normals over faces that share a vertex; the boundary stays."""
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
-    normals = next(islice(_normals(positions, topology, SIGMA_R), iterations, None))
+    normals = next(islice(bilateral_normals(positions, topology, SIGMA_R), iterations, None))
     return follow_normals(positions, topology, normals, VERTEX_ITERATIONS, ~topology.boundary)
 
 
-def filtered_normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Positions]:
-    """The positions, shape (n, 3), after 0, 1, 2, ... times two iterations of the filter and twenty vertex updates."""
-    for normals in islice(_normals(positions, topology, sigma_r), 0, None, AT_ONCE):
-        yield follow_normals(positions, topology, normals, PATIENT_VERTICES, ~topology.boundary)
-
-
-def _normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Floats]:
+def bilateral_normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Floats]:
     """Yield the normals, shape (m, 3), after 0, 1, 2, ... iterations, without end."""
     geometry = face_geometry(positions, topology.faces)
     starts, members = topology.patches

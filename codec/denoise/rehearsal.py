@@ -1,7 +1,7 @@
 """Rehearsal (a parametric bootstrap): a good guess at the clean mesh is made noisy again, and the answer is known.
 
 A guess that still has noise in it asks for too few iterations, one that is too smooth for too many. So the guess is
-the noisy mesh after t iterations of a base recipe, and t rises until the rehearsal asks for hardly more iterations than
+the noisy mesh after t iterations of a base filter, and t rises until the rehearsal asks for hardly more iterations than
 the guess was given. Noise of the kind that was found is drawn anew.
 """
 
@@ -12,19 +12,20 @@ from itertools import islice
 import numpy as np
 
 from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters import Filter, Filtered, Step, Surface
 from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
-from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
-from bsm.codec.denoise.recipe import Patient, Recipe, Step, Treatments, blend
+from bsm.codec.denoise.noise.synthesis import NoiseLevel, Synthesis
 from bsm.codec.denoise.surface import pair_distances
 from bsm.codec.geometry.metrics import Reference, face_geometry, face_normals, mean_edge_length
 from bsm.codec.threads import ordered_map
 
-MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
+MOST_ITERATIONS = 100  # no filter has wanted as many; it keeps the work bounded
 PATIENCE = 2  # iterations that are tried after the best one
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01  # members join while the error stays below this multiple: several make fewer mistakes than one
+EASIER = {"none": 1.0, "learnt": 0.93, "flat": 0.95}
+"""What errors after a finish, in turn, count: true shapes have less noise, and more detail, than guesses."""
 SEED = 1
-ROUND = 0.1  # of all work, what the recipes of a round take, more or less
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
@@ -58,11 +59,12 @@ GOALS: dict[str, Goal] = {
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Steps, the error of their mean in a rehearsal, and the mean itself, shape (n, 3)."""
+    """Steps and a finish, their error in a rehearsal, and their result, shape (n, 3)."""
 
     steps: tuple[Step, ...]
     error: float
     result: Positions
+    finish: str = "none"
 
 
 @dataclass(frozen=True)
@@ -80,38 +82,41 @@ class Rehearsal:
     """A mesh, a guess at it without noise, and the guess with noise again."""
 
     def __init__(
-        self, noisy: Positions, finding: Finding, patient: Patient, base: Recipe, goal: Goal, progress: Progress
+        self, given: Filtered, surface: Surface, finding: Finding, level: NoiseLevel, base: Filter, goal: Goal
     ) -> None:
-        self._patient, self._topology, self._goal, self._progress = patient, patient.topology, goal, progress
-        self._given, self._touched = noisy, finding.levels > 0.0
-        smooth = patient.smooth(noisy, base.keep) if base.needs_coarse else noisy
-        self.level = estimate_noise(noisy, smooth, patient.probe)
-        self._finding = finding.reaching(self._topology, self.level.slides)
-        patient.bound = self._finding.bound
-        self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
-        given = 1
-        for done, guess in enumerate(patient.treatments(noisy).iterates(base)):
-            if done < given:
+        self._mesh, self._surface, self._topology, self._goal = given, surface, surface.topology, goal
+        self._finding, self._level, self._touched = finding, level, finding.levels > 0.0
+        self._synthesis = Synthesis(finding, surface.probe, level.tangential)
+        if finding.kind == "unsteady":  # of which little is left: what is rehearsed with has the detail of the shape
+            self._rehearse(given.given, SEED)
+            return
+        iterations = 1
+        for done, guess in enumerate(given.iterates(base)):
+            if done < iterations:
                 continue
-            self.rehearse(self._within(guess, noisy), SEED)
+            self._rehearse(self._within(guess, given.given), SEED)
             wanted = self.attempt(base).steps[0].iterations
-            if wanted <= 1.5 * given + 0.5:
+            if wanted <= 1.5 * iterations + 0.5:
                 break
-            given = wanted
+            iterations = wanted
 
-    def rehearse(self, guess: Positions, seed: int) -> None:
+    def _rehearse(self, guess: Positions, seed: int) -> None:
         """Make a guess, shape (n, 3), noisy."""
         self.truth = Reference(guess, self._topology.faces)
         self.noisy = self._synthesis.draw(guess, seed)
-        self._treatments = Treatments(self.noisy, self._patient)
+        self._trial = Filtered(self.noisy, self._surface, self._finding)
 
-    def perform(self, steps: tuple[Step, ...], share: float) -> Positions:
-        """The steps' result, shape (n, 3), on the mesh that is rehearsed for, with `share` of the learnt normals."""
-        return self._within(self._patient.treatments(self._given).mean(steps, share), self._given)
+    def again(self, outcome: Outcome) -> None:
+        """Rehearse with the result of an outcome on the mesh as the guess."""
+        self._rehearse(self._performed(outcome), SEED + 1)
 
-    def changed(self, steps: tuple[Step, ...], share: float) -> float:
-        """How far the mesh that is rehearsed for is from the result, in the unit of the errors."""
-        return self._goal(Reference(self.perform(steps, share), self._topology.faces), self._given)
+    def _performed(self, outcome: Outcome) -> Positions:
+        result = self._mesh.finished(self._mesh.mean(outcome.steps), outcome.finish)
+        return self._within(result, self._mesh.given)
+
+    def changed(self, outcome: Outcome) -> float:
+        """How far the mesh that is rehearsed for is from its result, in the unit of the errors."""
+        return self._goal(Reference(self._performed(outcome), self._topology.faces), self._mesh.given)
 
     def lost(self, winner: Outcome) -> float:
         """Return the roughness that the filter takes from the guess, a logarithm."""
@@ -125,11 +130,11 @@ class Rehearsal:
         lost = 0.0 if scanned else self.lost(winner)
         clean = guess * np.exp(LOST_MORE * max(lost, 0.0))
         drawn = self._roughness(self.noisy) ** 2 - guess**2
-        found = self._roughness(self._given) ** 2 - clean**2
+        found = self._roughness(self._mesh.given) ** 2 - clean**2
         before = float(np.sqrt(np.clip(found / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
         after = np.exp(LOST_MORE * lost)
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
-        few = int(self._patient.probe.windows.valid.sum()) < MANY_WINDOWS
+        few = int(self._surface.probe.windows.valid.sum()) < MANY_WINDOWS
         sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
         least = 1.0 if sure or scanned else UNSURE.get(self._finding.kind, LEAST)
         most = 1.0 if sure else (DETAIL_SEEN if scanned else DETAIL) / least
@@ -144,7 +149,7 @@ class Rehearsal:
         sides = positions[faces] - positions[np.roll(faces, 1, axis=1)]
         longest = np.sqrt(np.square(sides).sum(axis=2).max(axis=1))
         heights = 2.0 * face_geometry(positions, faces).areas / np.maximum(longest, 1e-300)
-        return float((heights < self.level.normal + self.level.tangential).mean())
+        return float((heights < self._level.normal + self._level.tangential).mean())
 
     def _roughness(self, positions: Positions) -> float:
         """Mean distance between the normals of neighboring faces."""
@@ -155,37 +160,45 @@ class Rehearsal:
     def untreated(self) -> float:
         return self._goal(self.truth, self.noisy)
 
-    def attempt(self, recipe: Recipe) -> Outcome:
+    def attempt(self, filter_: Filter) -> Outcome:
         """Iterate until nothing has improved for a while."""
-        best = Outcome((Step(recipe, 0),), np.inf, self.noisy)
-        run = self._treatments.iterates(recipe)
+        best = Outcome((Step(filter_, 0),), np.inf, self.noisy)
+        run = self._trial.iterates(filter_)
         for count, positions in enumerate(islice(run, MOST_ITERATIONS + 1)):
             result = self._within(positions, self.noisy)
             error = self._goal(self.truth, result)
             if error < best.error:
-                best = Outcome((Step(recipe, count),), error, result)
+                best = Outcome((Step(filter_, count),), error, result)
             elif count >= best.steps[0].iterations + PATIENCE:
                 break
         return best
 
-    def compete(self, recipes: tuple[Recipe, ...], begun: float = 0.0) -> Outcome:
-        """The steps whose mean is best, found greedily; `begun` of all work is done before."""
+    def compete(self, filters: tuple[Filter, ...], finishes: list[str], progress: Progress) -> Outcome:
+        """The steps whose mean is best, found greedily, with the best finish."""
         alone = []
-        for number, outcome in enumerate(ordered_map(self.attempt, recipes, None), start=1):
-            self._progress(f"rehearsing {number} of {len(recipes)}", begun + ROUND * number / len(recipes))
+        for number, outcome in enumerate(ordered_map(self.attempt, filters, None), start=1):
+            progress(f"rehearsing {number} of {len(filters)}", number / len(filters))
             alone.append(outcome)
         alone.sort(key=lambda outcome: outcome.error)
-        chosen, error = [alone[0]], alone[0].error
+        chosen, best = [alone[0]], alone[0]
         while len(chosen) < MOST_MEMBERS:
-            errors = [self._goal(self.truth, blend([member.result for member in (*chosen, steps)])) for steps in alone]
-            best = int(np.argmin(errors))
-            if errors[best] > GAIN * error:
+            means = [np.mean([member.result for member in (*chosen, other)], axis=0) for other in alone]
+            errors = [self._goal(self.truth, mean) for mean in means]
+            found = int(np.argmin(errors))
+            if errors[found] > GAIN * best.error:
                 break
-            chosen.append(alone[best])
-            error = errors[best]
-        steps = tuple(outcome.steps[0] for outcome in chosen)
-        result = blend([outcome.result for outcome in chosen])
-        return Outcome(steps[:1] if len(set(steps)) == 1 else steps, error, result)
+            chosen.append(alone[found])
+            best = Outcome(tuple(member.steps[0] for member in chosen), errors[found], means[found])
+        steps = best.steps[:1] if len(set(best.steps)) == 1 else best.steps
+        finished = []
+        for finish in finishes:
+            result = self._within(self._trial.finished(best.result, finish), self.noisy)
+            finished.append(Outcome(steps, self._goal(self.truth, result), result, finish))
+        best = min(finished, key=lambda outcome: outcome.error)
+        for outcome in reversed(finished):
+            if outcome.error * EASIER[outcome.finish] <= best.error:
+                return outcome
+        return best
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
         if self._finding.bound is not None:

@@ -13,7 +13,7 @@ import pytest
 
 from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
-from bsm.codec.denoise import normals, recipe, rehearsal
+from bsm.codec.denoise import filters, normals, rehearsal
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
@@ -179,7 +179,7 @@ def test_frames_that_are_none_are_refused(frames, options):
 
 def test_the_command_knows_all_choices_of_the_library():
     assert set(FINE) == set(normals.FINE_STEPS)
-    assert set(HAND_OVERS) == set(recipe.HAND_OVERS)
+    assert set(HAND_OVERS) == set(filters.HAND_OVERS)
     assert set(GOALS) <= set(rehearsal.GOALS)
 
 

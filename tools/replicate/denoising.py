@@ -15,7 +15,9 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import FrameDenoiser, denoise_automatically
-from bsm.codec.denoise.recipe import Patient, Recipe, Treatments
+from bsm.codec.denoise.filters import Filter, Filtered, Surface
+from bsm.codec.denoise.normals import VERTEX_ITERATIONS, bilateral_normals
+from bsm.codec.denoise.surface import follow_normals
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.files.mesh import read_mesh
 from tools.noise import (
@@ -50,12 +52,9 @@ KINDS: dict[str, Callable[[Positions, Faces], Positions]] = {
     "rounded": lambda positions, faces: rounded(positions, faces, 0.5 * LEVEL, SEED),
     "half clean": lambda positions, faces: gaussian_in_part(positions, faces, LEVEL, 0.5, SEED),
 }
-RIVALS = {
-    "guided": Recipe("none", 0.1, "patches", 0.35),
-    "bilateral normal": Recipe("none", 0.1, "local", 0.35),
-    "paper": Recipe("positions", 0.1, "patches", 0.35),
-}
-FIXED_ITERATIONS = {"guided": (5, 20), "bilateral normal": (10,), "paper": (5, 20)}
+GUIDED = {"guided": Filter("none", 0.1, 0.35, "patches"), "paper": Filter("positions", 0.1, 0.35, "patches")}
+WIDTH = 0.35  # of the bilateral filter of normals
+FIXED_ITERATIONS = {"guided": (5, 20), "paper": (5, 20), "bilateral normal": (10,)}
 MOST, PATIENCE = 60, 5
 PAIRS = {
     "fandisk_0.3_noisy": "fandisk_6475",
@@ -102,8 +101,7 @@ def denoise_mesh(source: Source) -> Row:
 
 def against_oracle(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> Row:
     """The angle before, behind the best rival that an oracle stops, and behind ours."""
-    treatments = Treatments(noisy, Patient(faces, len(noisy)))
-    rival = min(_best(treatments.iterates(recipe), angle_of) for recipe in RIVALS.values())
+    rival = min(_best(run, angle_of) for run in rivals(noisy, faces).values())
     return {"noisy": angle_of(noisy), "rival": rival, **ours(noisy, faces, angle_of)}
 
 
@@ -115,14 +113,21 @@ def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float])
     return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if known else None}
 
 
+def rivals(noisy: Positions, faces: Faces) -> dict[str, Iterator[Positions]]:
+    """The positions after 0, 1, 2, ... iterations of each rival, without end."""
+    surface = Surface(faces, len(noisy))
+    filtered, topology = Filtered(noisy, surface), surface.topology
+    normals = bilateral_normals(noisy, topology, WIDTH)
+    followed = (follow_normals(noisy, topology, each, VERTEX_ITERATIONS, ~topology.boundary) for each in normals)
+    return {name: filtered.iterates(rival) for name, rival in GUIDED.items()} | {"bilateral normal": followed}
+
+
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
     """The angle behind the best of the rivals with numbers of iterations that a user might ask for."""
-    treatments = Treatments(noisy, Patient(faces, len(noisy)))
     found = []
-    for name, rival in RIVALS.items():
-        run, done = treatments.iterates(rival), -1
+    for name, run in rivals(noisy, faces).items():
+        done = -1
         for count in FIXED_ITERATIONS[name]:
-            count = count // 2 if rival.guide == "local" else count  # the local filter counts in twos
             found.append(reference.theta(next(islice(run, count - done - 1, None))))
             done = count
     return min(found)

@@ -36,7 +36,8 @@ FINE = ("guided", "bilateral-normal")
 HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
 STREAM = "bsm"
-_GUIDES = {"patches": "guided", "own": "bilateral", "local": "local bilateral"}
+_GUIDES = {"patches": "guided", "own": "bilateral"}
+_FINISHES = {"learnt": "with learnt normals", "flat": "flat, with sharp edges, where that fits the noise"}
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 
@@ -239,13 +240,11 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         line += ", more for finer detail" if least < most else ""
     yield line
     for step, times in Counter(choice.steps).items():
-        share = times / len(choice.steps) * (1.0 - choice.learnt)
-        if share > 0.0:
-            recipe = step.recipe
-            coarse = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
-            other = {"none": "no hand-over", "rays": f"flattened along rays by {recipe.keep:g}"}
-            begun = coarse if recipe.needs_coarse else other.get(recipe.hand_over, "fewest bends")
-            way = f"{step.iterations} iterations of the {_GUIDES[recipe.guide]} normal filter"
-            yield f"chosen     {100.0 * share:.0f} % {begun}; {way}, sigma_r {recipe.sigma_r:g}"
-    if choice.learnt > 0.0:
-        yield f"chosen     {100.0 * choice.learnt:.0f} % learnt normals"
+        chosen = step.filter
+        coarse = f"hand-over of {chosen.hand_over}, c = {100 * chosen.keep:g} % of a block"
+        other = {"none": "no hand-over", "rays": f"flattened along rays by {chosen.keep:g}"}
+        begun = coarse if chosen.needs_coarse else other.get(chosen.hand_over, "fewest bends")
+        way = f"{step.iterations} iterations of the {_GUIDES[chosen.guide]} normal filter"
+        yield f"chosen     {100.0 * times / len(choice.steps):.0f} % {begun}; {way}, sigma_r {chosen.sigma_r:g}"
+    if choice.finish != "none":
+        yield f"finished   {_FINISHES[choice.finish]}"

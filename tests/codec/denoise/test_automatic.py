@@ -34,7 +34,7 @@ def test_it_beats_a_fixed_number_of_iterations(shape) -> None:  # type: ignore[n
     clean, faces = shape(14)
     noisy = gaussian_along_normals(clean, faces, 0.25, seed=7)
     denoised, choice = denoise_automatically(noisy, faces)
-    assert {step.recipe for step in choice.steps} <= set(CANDIDATES)
+    assert {step.filter for step in choice.steps} <= set(CANDIDATES)
     assert choice.kind == "white"
     assert choice.noise.normal == pytest.approx(0.25, rel=0.2)
     assert theta(clean, denoised, faces) < theta(clean, guided_normal_filtering(noisy, faces, 20), faces)
@@ -154,3 +154,11 @@ def test_it_is_as_good_as_the_best_fixed_scheme_with_an_oracle(
     original, mesh = partners(clean, noisy)
     denoised, _ = denoise_automatically(mesh.positions, mesh.faces)
     assert theta(original.positions, denoised, mesh.faces) < oracle
+
+
+def test_what_is_flat_becomes_flat() -> None:
+    clean, faces = cube(24)
+    noisy = gaussian_along_normals(clean, faces, 0.3, seed=5)
+    denoised, choice = denoise_automatically(noisy, faces)
+    assert choice.finish == "flat"
+    assert theta(clean, denoised, faces) < 0.04 * theta(clean, noisy, faces)

@@ -101,7 +101,7 @@ def test_walls_of_one_slice_are_filtered_without_a_coarse_step_as_well() -> None
     pytest.importorskip("vtkmodules")
     made = voxelized(tray, 60, 4.0)
     result, choice = denoise_automatically(made.positions, made.faces)
-    assert {step.recipe.hand_over for step in choice.steps} == {"bends", "positions", "none"}
+    assert {step.filter.hand_over for step in choice.steps} == {"bends", "positions", "none"}
     # Without that step it would be 1.12 times.
     assert made.angle(result) < 1.09 * made.angle(made.positions) and made.rms(result) < made.rms(made.positions)
 

@@ -6,8 +6,8 @@ import pytest
 from bsm import DenoiseOptions, HarmError, MeshError, OptionError, TriangleMesh
 from bsm.codec.denoise import FrameDenoiser, denoise
 from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.filters import HAND_OVERS
 from bsm.codec.denoise.normals import GuidedFilter, guided_normal_filtering
-from bsm.codec.denoise.recipe import HAND_OVERS
 from bsm.codec.denoise.surface import Topology, surface_normals
 from tests.codec.denoise.denoise_shapes import Partners, sphere
 from tests.shapes import theta

@@ -1,0 +1,208 @@
+"""Filters for any mesh: a hand-over from the coarse step, iterations of a normal filter, and a finish."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
+
+import numpy as np
+
+from bsm.bitstream.errors import public
+from bsm.bitstream.once import cached_property
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.choices import check_options
+from bsm.codec.denoise.bends import flattened
+from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
+from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
+from bsm.codec.denoise.noise.causes import Grid
+from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.volumes import Cells
+from bsm.codec.denoise.normals import FINE_STEPS, Guide, GuidedFilter, patch_guidance
+from bsm.codec.denoise.surface import Topology, surface_normals
+from bsm.codec.geometry.metrics import face_normals
+
+GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
+RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
+BENDS = "bends"  # of thick slices, see `Cells.flattened`, and of fused views, where `keep` is the weight of bends
+SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
+
+HandOver = Callable[[Positions, Positions, GuidedFilter], Positions]
+"""From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
+
+
+def coarse_heights(noisy: Positions, coarse: Positions, guided: GuidedFilter) -> Positions:
+    """Move the noisy vertices, shape (n, 3), along the normals of the coarse mesh, shape (n, 3), as far as that is."""
+    normals = surface_normals(coarse, guided.topology)
+    return np.asarray(noisy + np.einsum("ij,ij->i", coarse - noisy, normals)[:, None] * normals)
+
+
+def coarse_normals(noisy: Positions, coarse: Positions, guided: GuidedFilter) -> Positions:
+    """Keep the noisy positions, shape (n, 3), after one joint bilateral pass that the coarse mesh's normals guide."""
+    guide = face_normals(coarse, guided.topology.faces)
+    return guided.step(noisy, lambda *_: guide, SIGMA_R)
+
+
+HAND_OVERS: dict[str, HandOver] = {
+    "positions": lambda noisy, coarse, guided: np.array(coarse),  # the paper's
+    "heights": coarse_heights,
+    "normals": coarse_normals,
+    "none": lambda noisy, coarse, guided: np.array(noisy),
+}
+
+
+@public
+@dataclass(frozen=True, kw_only=True)
+class DenoiseOptions:
+    """Options of denoising. The defaults are the paper's coarse-to-fine scheme.
+
+    Parameters
+    ----------
+    hand_over : str
+        "positions" (the paper's: the fine step sees the coarse mesh), "heights" (the same, but no vertex slides
+        along the surface), "normals" (the noisy mesh, after a pass guided by the coarse mesh's normals) or "none" (no
+        coarse step).
+    fine : str
+        Name of the fine step, see `codec.denoise.normals.FINE_STEPS`.
+    iterations : int, optional
+        Of the fine step; None: the method's own number, 0: only the coarse step.
+    keep : float
+        Fraction of each block's frequencies that the coarse step keeps.
+    block_size : int
+        Approximate vertices of a block before overlap.
+
+    Raises
+    ------
+    OptionError
+        If a name is unknown or a number outside its range.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> own = bsm.DenoiseOptions(hand_over="normals", fine="guided", iterations=10)
+    >>> clean = bsm.denoise("scan.ply", own)
+    """
+
+    hand_over: str = "positions"
+    fine: str = "guided"
+    iterations: int | None = None
+    keep: float = KEEP
+    block_size: int = BLOCK_SIZE
+
+    def __post_init__(self) -> None:
+        choices = {"hand_over": tuple(HAND_OVERS), "fine": tuple(FINE_STEPS)}
+        check_options(self, choices, {"iterations": (0, 1 << 20), "keep": (1e-6, 1.0), "block_size": (1, 1 << 20)})
+
+
+FINISHES = ("none", "learnt", "flat")
+"""Of a result: as it is, with learnt normals, and near the noisy mesh with the fewest bends along its edges."""
+LEARNT, FLAT, FLAT_POWER = 0.6, 0.8, 0.5  # share of learnt normals; weight of bends over the noise, and their power
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Settings of a filter, without the number of iterations."""
+
+    hand_over: str
+    keep: float
+    sigma_r: float
+    guide: str = "own"
+
+    @property
+    def needs_coarse(self) -> bool:
+        return self.hand_over not in ("none", RAYS, BENDS)
+
+
+@dataclass(frozen=True)
+class Step:
+    filter: Filter
+    iterations: int
+
+
+class Surface:
+    """The faces of a mesh, with what filters need of them, which is found once."""
+
+    def __init__(self, faces: Faces, n: int) -> None:
+        self.topology = Topology(faces, n)
+        self.probe = Probe(self.topology)
+        self._last: Filtered | None = None
+        self._coarse: CoarseFilter | None = None
+        self._keep = 0.0
+
+    def expect(self, filters: Iterable[Filter]) -> None:
+        """Be ready for the coarse meshes that the filters need."""
+        keep = max((each.keep for each in filters if each.needs_coarse), default=0.0)
+        if keep > self._keep:
+            self._keep, self._coarse = keep, CoarseFilter(self.topology.faces, self.topology.n, keep, BLOCK_SIZE)
+
+    def smooth(self, positions: Positions, filter_: Filter) -> Positions:
+        """The coarse mesh, shape (n, 3), that a filter needs; `positions` if it needs none."""
+        if not filter_.needs_coarse:
+            return positions
+        self.expect([filter_])
+        assert self._coarse is not None
+        return self._coarse(positions, filter_.keep)
+
+    def filtered(self, positions: Positions, finding: Finding) -> Filtered:
+        """Return the filtered `positions`, shape (n, 3), and keep them until others are asked for; thread-safe."""
+        last = self._last
+        if last is None or last.given is not positions:
+            self._last = last = Filtered(positions, self, finding)
+        return last
+
+
+class Filtered:
+    """Results of filters on one mesh; those with the same hand-over share their start."""
+
+    def __init__(self, given: Positions, surface: Surface, finding: Finding | None = None) -> None:
+        self.given, self._surface, self._topology, self._finding = given, surface, surface.topology, finding
+        bound = finding.bound if finding else None
+        self._noisy = noisy = bound.parted(given, surface.probe) if isinstance(bound, Grid) else given
+        self._within = np.asarray if bound is None else partial(bound.within, noisy)
+        self._guided = GuidedFilter(surface.probe.average @ noisy, self._topology, self._within)
+        self._starts: dict[tuple[str, float], Positions] = {}
+        self._results: dict[Step, Positions] = {}
+
+    def iterates(self, filter_: Filter) -> Iterator[Positions]:
+        """The positions, shape (n, 3), after the hand-over and 0, 1, 2, ... iterations, without end."""
+        where = (filter_.hand_over, 0.0 if filter_.hand_over == "none" else filter_.keep)
+        start = self._starts.get(where)
+        if start is None:
+            start = self._starts[where] = self._within(self._begun(filter_))
+        return self._guided.iterates(start, GUIDES[filter_.guide], filter_.sigma_r)
+
+    def _begun(self, filter_: Filter) -> Positions:
+        noisy, topology = self._noisy, self._topology
+        if filter_.hand_over == RAYS:
+            assert self._finding is not None and self._finding.view is not None
+            return self._finding.view.flattened(noisy, topology, filter_.keep)
+        if filter_.hand_over == BENDS:
+            if self._finding is not None and isinstance(self._finding.bound, Cells):
+                return self._finding.bound.flattened(noisy, topology)
+            return flattened(noisy, self._surface.probe.average @ noisy, topology, filter_.keep, 1.0)
+        return HAND_OVERS[filter_.hand_over](noisy, self._surface.smooth(noisy, filter_), self._guided)
+
+    def mean(self, steps: tuple[Step, ...]) -> Positions:
+        """The mean result of the steps, shape (n, 3): errors of different filters partly cancel."""
+        for step in steps:
+            if step not in self._results:
+                self._results[step] = next(islice(self.iterates(step.filter), step.iterations, None))
+        return np.asarray(np.mean([self._results[step] for step in steps], axis=0))
+
+    def finished(self, result: Positions, finish: str) -> Positions:
+        """A result, shape (n, 3), after one of `FINISHES`."""
+        if finish == "learnt":
+            return joined(result, self.learnt, LEARNT, self._topology)
+        if finish == "flat":
+            assert self._finding is not None
+            weight = FLAT * self._finding.level / self._finding.whiteness**2 / self._finding.edge
+            return self._within(flattened(self._noisy, result, self._topology, weight, FLAT_POWER))
+        return result
+
+    @cached_property
+    def learnt(self) -> Learnt:
+        """The networks' result."""
+        noisy = None if self._finding is None else self._finding.levels > 0.0
+        return learnt(self._noisy, self._topology, noisy)
