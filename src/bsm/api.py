@@ -500,7 +500,7 @@ def save(
     mesh : mesh, pair of arrays, or path
         As `encode` takes it.
     path : path
-        A path that ends in .bsm, .3mf (with lib3mf), .glb, .npz, .obj, .off, .om (with openmesh), .ply, .stl or .vtp.
+        A path that ends in .bsm, .3mf (with lib3mf), .glb, .npz, .obj, .off, .ply, .stl or .vtp.
     overwrite : bool
         Whether to replace an existing file.
     **keywords

@@ -40,7 +40,7 @@ FORMATS: Mapping[str, Convention] = {
     "3mf": Convention("named", "z"),
     **dict.fromkeys(("vtp", "mdd"), Convention(times=_TIMED)),
     **dict.fromkeys(("npz", "npy"), Convention(times=frozenset())),
-    **dict.fromkeys(("obj", "ply", "off", "stl", "om", "pc2"), Convention()),
+    **dict.fromkeys(("obj", "ply", "off", "stl", "pc2"), Convention()),
     "tileset": Convention("meters", "z"),
 }
 _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}

@@ -1,4 +1,4 @@
-"""Mesh files: OBJ, OFF, PLY, STL, VTP and npz by our own readers and writers, .om by openmesh, the rest by trimesh.
+"""Mesh files: OBJ, OFF, PLY, STL, VTP and npz by our own readers and writers, others by the libraries of their makers.
 
 Coordinates are in double precision; vertices, faces and corners keep their order; all other data becomes attributes and
 metadata; notes name changes and losses. Files may be hostile: a file that declares more than it contains is refused
@@ -30,15 +30,21 @@ from bsm.files.room import PRECISION, gunzipped, plain_text
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
 MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
-WRITTEN_FORMATS = ("3mf", "glb", "npz", "obj", "off", "om", "ply", "stl", "vtp")  # what we write
+WRITTEN_FORMATS = ("3mf", "glb", "npz", "obj", "off", "ply", "stl", "vtp")  # what we write
 GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _CONTENTS = {"obj": "an OBJ", "off": "", "ply": "a PLY", "glb": "a GLB, JSON"}  # by their first bytes
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
 
 
+_WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
+_FOREIGN = {
+    ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
+    ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
+    ("zip", "gz", "bz2", "xz", "tar", "tgz"): "it contains files: unpack it, and read its contents",
+}
 _ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
-_ROOMS |= {"om": "bsm.files.formats.om", "3mf": "bsm.files.formats.three_mf"}
+_ROOMS |= {"3mf": "bsm.files.formats.three_mf"}
 
 
 def by_name(module: str, function: str) -> Any:
@@ -57,7 +63,7 @@ def read_mesh(
         "-" reads standard input. Pipes and files compressed by gzip are accepted. Materials and images that a file
         names are read if they are in its folder or below.
     file_format : str, optional
-        One of `MESH_FORMATS`, or a suffix that trimesh knows. None: by the name, or else by the first bytes.
+        A suffix of a format that is read. None: by the name, or else by the first bytes.
     limits : Limits
         `vertices` and `faces` bound the mesh.
     isolated : bool, optional
@@ -130,7 +136,8 @@ def read_cut(
     elif kind in _ROOMS:
         polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
     else:
-        polygons = by_name("bsm.files.formats.with_trimesh", "read_with_trimesh")(data, path, kind, limits)
+        way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
+        raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
     if kind in _PLAIN:
         beside = Beside(folder, limits)
         metadata, notes = fetched(polygons.metadata, beside.read)

@@ -55,9 +55,8 @@ _LIBRARIES = {
     _OWN: ("bsm.files.mesh", *(f"bsm.files.formats.{kind}" for kind in ("npz", "obj", "off", "ply", "stl", "vtp"))),
     "dae": ("bsm.files.formats.dae", "collada", "lxml.etree"),
     "usd usda usdc usdz": ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel"),
-    "om": ("bsm.files.formats.om", "openmesh"),
     "3mf": ("bsm.files.formats.three_mf", "lib3mf"),
-    "other": ("bsm.files.formats.with_trimesh", "trimesh"),
+    "other": ("bsm.files.mesh",),
 }
 _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner

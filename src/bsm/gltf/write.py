@@ -30,6 +30,7 @@ MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
 _LATEST = 1 << 14  # number of a frame whose time is exact enough in single precision
 _SORTING = ("part", "material")  # attributes of faces that only sort these
+STRENGTH = "KHR_materials_emissive_strength"
 _HALF = 0.5**0.5
 _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
 """The rotations from the axis that a mesh calls up to that of glTF."""
@@ -66,14 +67,17 @@ class _Scene(Growing):
 
     def show(self, mesh: TriangleMesh, stem: str) -> None:
         """Place a mesh; its `primitives` come with the vertices of the mesh that theirs are."""
+        origin = np.zeros(3) if single_suffices(mesh.positions) else np.rint(mesh.positions.mean(axis=0))
+        if origin.any():  # nodes have double precision, in which they place meshes that lie far away
+            mesh = replace(mesh, positions=mesh.positions - origin)
         if not single_suffices(mesh.positions):
             raise MeshError(NO_DOUBLES.format("GLB"))
-        split, origin = split_with_origin(mesh)
+        split, own = split_with_origin(mesh)
         material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, held = _at_vertices(split)
-        placed, expressed = placed_node(mesh.metadata)
+        placed, expressed = placed_node(mesh.metadata, origin)
         names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
         images = formats.images_in(mesh.metadata)
         known = formats.materials_in(mesh.metadata)
@@ -98,7 +102,7 @@ class _Scene(Growing):
             if (which := materials.get(its_material)) is not None:
                 primitive["material"] = which
             self.place({"name": called, "primitives": [primitive]}, name=called, **placed)
-            self.primitives.append((primitive, origin[used]))
+            self.primitives.append((primitive, own[used]))
         written |= {f"part.{number}.name" for number in names}
         rest = {name: value for name, value in mesh.metadata.items() if name not in written}
         extras = {name: value for name, value in rest.items() if isinstance(value, str) or formats.as_numbers(value)}
@@ -119,11 +123,19 @@ class _Scene(Growing):
                     continue
                 written |= {f"image.{value}.data", f"image.{value}.name"}
                 value = {"index": texture, **self._moved(words, name, f"material.{number}", written)}
+            elif isinstance(value, float | list) and (most := np.max(value)) > 1 and name == "emissiveFactor":
+                found["extensions"] = {STRENGTH: {"emissiveStrength": float(most)}}
+                value = np.divide(value, most).tolist()
+                self.use(STRENGTH, required=False)
+            if isinstance(value, float | list) and not 0 <= np.min(value) <= np.max(value) <= 1:
+                self.left_out += (f"{name} beyond 0 to 1 of material {words.get('name', number)}",)
+                value = np.clip(value, 0.0, 1.0).tolist()
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
         cut_out = {"map_d"} if formats.is_cut_out(words) else set()
         unsaid = set() if "metallicRoughnessTexture" in surface else {"map_Pr"}
         cut_out |= {"map_Pm"} if words.get("map_Pm") == words.get("map_Pr") else set()
+        cut_out |= {"d", "Tr"} if formats.opacity_of(words) == 1 else set()
         said = (n for n in words if n in cut_out or (n not in unsaid and formats.gltf_values({n: words[n]})))
         written |= {f"material.{number}.{name}" for name in said}
         return self.add("materials", found) if found else None
@@ -161,11 +173,13 @@ class _Scene(Growing):
         return self.add("textures", texture)
 
 
-def placed_node(metadata: Metadata) -> tuple[Tree, frozenset[str]]:
-    """Return the properties of a node that holds a mesh, and the metadata that they express."""
+def placed_node(metadata: Metadata, origin: Doubles | None = None) -> tuple[Tree, frozenset[str]]:
+    """Return the properties of a node that holds a mesh around an origin, and the metadata that they express."""
     placed = conventions.placement(metadata, "glb")
     turn = _TURNS.get(str(metadata.get("up")).lower())
     node = {"rotation": turn} if turn else {}
+    if origin is not None and origin.any():
+        node["translation"] = (placed.matrix @ origin).tolist()
     return node | ({"scale": [placed.scale] * 3} if placed.scale != 1.0 else {}), placed.held
 
 

@@ -16,7 +16,7 @@ from bsm.files.mesh import GLTF, USD_FORMATS, WRITTEN_FORMATS, read_mesh, writte
 from tests.motion import bending, save_frames
 from tests.shapes import torus
 
-LIBRARIES = {"3mf": "lib3mf", "om": "openmesh", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr")}
+LIBRARIES = {"3mf": "lib3mf", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr")}
 FORMATS = sorted({*WRITTEN_FORMATS, *USD_FORMATS, *GLTF, "dae"})
 LIMITS = Limits(vertices=10_000, faces=10_000)
 

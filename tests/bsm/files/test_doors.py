@@ -115,7 +115,7 @@ def test_materials_of_one_name_are_written_with_different_names(tmp_path):
 def test_two_hundred_materials_with_an_image_each_come_back(tmp_path):
     library, lines = "", ["mtllib a.mtl", THREE]
     for i in range(200):
-        library += f"newmtl m{i}\nKd 0 {i / 200} 0\nNs {i}\nmap_Kd {i}.png\n"
+        library += f"newmtl m{i}\nKd 0 {i / 200} 1\nNs {i}\nmap_Kd {i}.png\n"
         lines += [f"usemtl m{i}", "f 1 2 3"]
         (tmp_path / f"{i}.png").write_bytes(png() + bytes([i]))
     (tmp_path / "a.mtl").write_text(library)
@@ -818,3 +818,55 @@ def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
     story = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * DEFAULT_LIMITS.metadata_bytes})
     with pytest.raises(bsm.OptionError, match="metadata_bytes"):
         bsm.encode(story)
+
+
+@pytest.mark.parametrize(
+    ("mtl", "words"),
+    [
+        ("newmtl A # the body\nkd 0.5\nKD 1,0,0\n", {"Kd": "1 0 0"}),
+        ('NEWMTL A\nKd 0.5\nmap_kd "T X.PNG"\n', {"Kd": "0.5 0.5 0.5", "map_Kd": 0}),
+        ("newmtl A\nmap_Kd t.tga\n", {"map_Kd": 0}),
+    ],
+)
+def test_libraries_as_people_write_them(mtl, words, tmp_path):
+    tga = bytes([0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0, 9, 9, 9])
+    (tmp_path / "t x.png").write_bytes(png())
+    (tmp_path / "T.TGA").write_bytes(tga)
+    (tmp_path / "a.mtl").write_text(mtl)
+    (tmp_path / "a.obj").write_text(f"mtllib A.MTL\n{THREE}usemtl A\nf 1 2 3\n")
+    read = read_mesh(tmp_path / "a.obj")
+    assert materials_in(read.mesh.metadata)[0] == {"name": "A", **words} and not read.notes
+    assert words.get("map_Kd", 1) != 0 or images_in(read.mesh.metadata)[0][1]
+
+
+def test_factors_stay_in_range_and_far_meshes_go_by_a_node(tmp_path):
+    metadata = {"material.0.Kd": "1.5 0 0", "material.0.Ke": "10 10 10", "material.0.d": "1.0"}
+    positions = np.add([[0, 0, 0], [1, 0, 0], [0, 1, 0.1]], [500123.25, 100.5, -4649776.75])
+    left = write_mesh(tmp_path / "a.glb", TriangleMesh(positions, [[0, 1, 2]], (), metadata))
+    assert left == ("baseColorFactor beyond 0 to 1 of material 0",)
+    again = read_mesh(tmp_path / "a.glb").mesh
+    assert again.positions == pytest.approx(positions, abs=1e-6)
+    assert again.metadata["material.0.emissiveFactor"] == "1 1 1"
+    assert again.metadata["material.0.baseColorFactor"] == "1 0 0 1"
+
+
+def test_bodies_that_touch_are_named():
+    corners = np.array(list(np.ndindex(2, 2, 2)), float)
+    faces = np.array([[1, 3, 0], [4, 1, 0], [0, 3, 2], [2, 4, 0], [1, 7, 3], [5, 1, 4],
+                      [5, 7, 1], [3, 7, 2], [6, 4, 2], [2, 7, 6], [6, 5, 4], [7, 5, 6]])  # fmt: skip
+    two = TriangleMesh(np.vstack([corners, np.add(corners, [1, 0, 0])]), np.vstack([faces, faces + 8]))
+    assert any("not a manifold" in note for note in bsm.Encoder(two).notes)
+
+
+@pytest.mark.parametrize("kind", ["ply", "off", "vtp"])
+def test_formats_without_materials_say_so(kind, tmp_path):
+    mesh = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"material.0.baseColorFactor": "1 0 0 1"})
+    assert "baseColorFactor of material 0" in write_mesh(tmp_path / f"a.{kind}", mesh)
+    assert write_mesh(tmp_path / "a.obj", mesh) == () and "Kd 1 0 0" in (tmp_path / "a.mtl").read_text()
+
+
+@pytest.mark.parametrize("kind", ["vtk", "bdf", "inp", "mesh", "msh", "xyz"])
+def test_formats_of_other_libraries_do_not_leak_in(kind, tmp_path):
+    (tmp_path / f"a.{kind}").write_text("1 2 3\n")
+    with pytest.raises(FormatError, match=f"{kind} is not a mesh format"):
+        read_mesh(tmp_path / f"a.{kind}")

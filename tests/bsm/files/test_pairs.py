@@ -34,7 +34,7 @@ WORDS = {
     "texcoord": {"texcoord"},
     "material": {"material"},
 }
-NEEDED = {"om": "openmesh", "3mf": "lib3mf"}
+NEEDED = {"3mf": "lib3mf"}
 FORMATS = [kind for kind in WRITTEN_FORMATS if importlib.util.find_spec(NEEDED.get(kind, "bsm"))]
 
 

@@ -8,8 +8,10 @@ the file's name is "image.0.name", its bytes are "image.0.data". Which face has 
 
 import json
 import math
+import os
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -31,7 +33,14 @@ Material: TypeAlias = dict[str, "str | int | float"]
 
 _ENTRY = re.compile(r"(material|image)\.(\d{1,9})\.(.+)", re.DOTALL)
 _NAMES = re.compile(r"(.+?)\.(?:names|\d{1,9}\.name)")
-_MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl", re.IGNORECASE)
+_MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl")
+_MTL_COLORS = ("Ka", "Kd", "Ks", "Ke", "Tf")
+_MTL = (
+    "Ka Kd Ks Ke Tf Ns Ni d Tr illum Pr Pm Ps Pc Pcr aniso anisor sharpness bump disp decal norm refl "
+    "map_Ka map_Kd map_Ks map_Ke map_Ns map_Pr map_Pm map_Ps map_d map_Bump"
+)
+_OF_MTL = {word.lower(): word for word in _MTL.split()}
+"""Words of MTL as most files write them, by those in lower case."""
 _MTL_OPTIONS = re.compile(
     r"((?:-(?:type|colorspace)\s+\w+\s+|-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)",
     re.IGNORECASE,
@@ -56,6 +65,8 @@ _SIGNATURES = {
     b"v/1\x01": "exr",
     b"#?RADIANCE": "hdr",
 }
+_TGA = re.compile(rb".[\0\1][\1-\3\x09-\x0b].{9}(?!\0\0)..(?!\0\0)..[\x08\x0f\x10\x18\x20].", re.DOTALL)
+"""A TGA has no signature: kinds of its colors, width, height, and bits of a pixel."""
 
 
 def without_materials(metadata: Metadata) -> Metadata:
@@ -72,7 +83,8 @@ def without_names(metadata: Metadata, attributes: Collection[str]) -> Metadata:
 
 def kind_of_image(data: bytes) -> str | None:
     """Return the suffix of an image by its first bytes; None for unknown formats."""
-    return next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
+    found = next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
+    return found or ("tga" if _TGA.match(data) else None)
 
 
 def refers_to_image(parameter: str) -> bool:
@@ -139,16 +151,23 @@ def as_gltf(material: Material) -> Material:
     metal, rough = (material.get(name) for name in ("map_Pm", "map_Pr"))
     if rough is not None and (metal == rough or (metal is None and not any(as_numbers(material.get("Pm", 0))))):
         renamed.setdefault("metallicRoughnessTexture", rough)  # gray: green is the roughness, blue counts as metal
-    if material.keys() & {"Kd", "map_Kd", "map_Pr"}:  # glTF takes what says nothing for a metal
+    if any(_is_mtl(name) for name in material):  # glTF takes what says nothing for a metal, and as black where it glows
         renamed.setdefault("metallicFactor", 0.0 if metal is None else 1.0)
+        if not any(as_numbers(renamed.get("emissiveFactor"))) and "map_Ke" in material:
+            renamed["emissiveFactor"] = "1 1 1"
     color, opacity = as_numbers(material.get("Kd", "")), opacity_of(material)
     if len(color) == 3 or opacity < 1:
-        color = color if len(color) == 3 else [1.0] * 3
+        color = color if len(color) == 3 and not _is_black_beside_image(material) else [1.0] * 3
         renamed.setdefault("baseColorFactor", converted([*color, opacity], linear=True))
     factor = as_numbers(renamed.get("baseColorFactor", ""))
     if (len(factor) == 4 and factor[3] < 1) or is_cut_out(material):
         renamed.setdefault("alphaMode", "BLEND")
     return renamed
+
+
+def _is_black_beside_image(material: Material) -> bool:
+    """Whether a color is black only because an image has the colors, as some programs write."""
+    return "map_Kd" in material and as_numbers(material.get("Kd")) == [0.0] * 3
 
 
 def opacity_of(material: Material) -> float:
@@ -222,9 +241,7 @@ def as_mtl(material: Material) -> Material:
 
 
 def _is_mtl(name: str) -> bool:
-    return re.fullmatch(r"K[adse]|N[is]|d|Tr|Tf|illum|P[rmsc]|Pcr|aniso|anisor|sharpness", name) is not None or (
-        _MTL_IMAGES.fullmatch(name.removesuffix(".options")) is not None
-    )
+    return name in _OF_MTL.values() or _MTL_IMAGES.fullmatch(name.removesuffix(".options")) is not None
 
 
 def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
@@ -237,16 +254,20 @@ def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
             if [word.lower() for word in words] == [b"newmtl"]:
                 current = materials.setdefault("", {})
             continue
-        keyword, rest = map(text_of, words)
+        keyword, rest = text_of(words[0]), re.sub(r"\s#(\s.*)?$", "", text_of(words[1]))
+        keyword = _OF_MTL.get(keyword.lower(), keyword)
         if keyword.lower() == "newmtl":
             current = materials.setdefault(rest, {})
         elif _MTL_IMAGES.fullmatch(keyword):
             match = _MTL_OPTIONS.fullmatch(rest)
             options, name = (match[1].strip(), match[2]) if match else ("", rest)
+            name = re.sub(r'^"(.+)"$', r"\1", name)
             current[keyword] = images.setdefault(name, len(images))
             if options:
                 current[f"{keyword}.options"] = options
         elif value := rest.partition("#")[0].strip():
+            numbers = value.replace(",", " ").split()  # one number is a gray
+            value = " ".join(numbers * 3 if len(numbers) == 1 else numbers) if keyword in _MTL_COLORS else value
             current[keyword] = value
     return materials
 
@@ -298,7 +319,7 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
                 folders |= dict.fromkeys(images, within) if within else {}
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
-    _add_libraries(found, libraries)
+    notes += _add_libraries(found, libraries)
     for key in [key for key in found if key.startswith("image.") and key.endswith(".name")]:
         name, place = str(found[key]), key.removesuffix("name") + "data"
         if place in found:
@@ -314,13 +335,15 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
     return found, notes
 
 
-def _add_libraries(found: dict[str, Value], libraries: Iterable[bytes]) -> None:
-    """Add the materials of libraries, the first of each name: those that faces name, then the others."""
+def _add_libraries(found: dict[str, Value], libraries: Collection[bytes]) -> list[str]:
+    """Add the materials of libraries, the first of each name, those that faces name first; return notes."""
     images: dict[str, int] = {}
-    numbers = {material.get("name", ""): number for number, material in materials_in(found).items()}
+    numbers = {str(material.get("name", "")): number for number, material in materials_in(found).items()}
     materials: dict[str, Material] = {}
     for library in libraries:
         materials = {**parse_mtl(library, images), **materials}
+    absent = [name for name in numbers if name and name not in materials] if libraries else []
+    black = [name for name, material in materials.items() if _is_black_beside_image(material)]
     free = max(numbers.values(), default=-1) + 1
     for name, material in materials.items():
         if name not in numbers:
@@ -328,6 +351,8 @@ def _add_libraries(found: dict[str, Value], libraries: Iterable[bytes]) -> None:
             free += 1
         found |= described({numbers[name]: {"name": name, **material}})
     found |= {f"image.{number}.name": name for name, number in images.items()}
+    notes = {"no library has these materials": absent, "black beside an image, which other formats get white": black}
+    return [f"{note}: {', '.join(names[:_MOST_NAMED])}" for note, names in notes.items() if names]
 
 
 def plain_fields(fields: Mapping[str, Any]) -> tuple[dict[str, Value], list[str]]:
@@ -356,15 +381,16 @@ class Beside:
         self._read: dict[Path, bytes] = {}
 
     def find(self, name: str) -> Path | str:
-        """Return where a file is, by its path or its name alone, or why it is not there."""
+        """Return where a file is, by its path or its name alone, in any case, or why it is not there."""
         if self._folder is None:
             return "the mesh did not come from a file"
         relative, reason = name.replace("\\", "/"), ""
         for candidate in (relative, relative.rpartition("/")[2]):
-            try:
-                return file_beside(self._folder, candidate)
-            except FormatError as error:
-                reason = str(error)
+            for spelled in (candidate, _in_other_case(self._folder, candidate)):
+                try:
+                    return file_beside(self._folder, spelled)
+                except FormatError as error:
+                    reason = reason or str(error)
         return reason
 
     def read(self, name: str) -> bytes | str:
@@ -380,6 +406,17 @@ class Beside:
             self._left -= size
             self._read[path] = path.read_bytes()
         return path if isinstance(path, str) else self._read[path]
+
+
+def _in_other_case(folder: Path, name: str) -> str:
+    """A path below a folder as its files are spelled."""
+    found = Path()
+    for part in Path(name).parts:
+        with suppress(OSError):
+            names = os.listdir(folder / found) if ".." not in (part, *found.parts) else ()
+            part = next((other for other in names if other.lower() == part.lower()), part)
+        found /= part
+    return str(found)
 
 
 _MOST_BYTES = 1 << 15  # of the remarks of one file
@@ -448,6 +485,11 @@ class Written:
     data: bytes
     left_out: tuple[str, ...] = ()
     beside: Mapping[str, bytes] = field(default_factory=dict)
+
+
+def unseen(metadata: Metadata) -> list[str]:
+    """The names of all words of materials but their names: formats without materials show nothing of them."""
+    return [name for name in metadata if name.startswith("material.") and not name.endswith((".name", ".names"))]
 
 
 def left_out(mesh: TriangleMesh, held: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:

@@ -172,7 +172,7 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     numbers = {what: materials.face_numbers(mesh, what) for what in STATES}
     names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
     library = materials.Library(mesh, stem)
-    said = {n: m for n, m in library.materials.items() if len(m) > 1}
+    said = {n: m for n, m in library.materials.items() if m.keys() - {"name"}}
     mtl = materials.write_mtl(said, names["material"], library.images)
     libraries = str(mesh.metadata.get("mtllib", "")).split("\n")
     if mtl:

@@ -1,28 +1,18 @@
-"""OpenMesh: its meshes in memory, and .om files, which it reads and writes itself (the extra `openmesh`)."""
+"""OpenMesh: its meshes in memory (the extra `openmesh`)."""
 
 import os
-import struct
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError, imported
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import MeshError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.metadata import Written, first, left_out, rgba, shown_at_vertices
+from bsm.files.formats.metadata import first, left_out, rgba, shown_at_vertices
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
-from bsm.files.room import require_count
-
-_HEAD = struct.Struct("<2scBIII")  # OM, the kind of faces, the version, and how many vertices, faces and edges
-_ASKED = {"Vertex normals": "vertex_normal", "Vertex colors": "vertex_color", "Face colors": "face_color"}
-_ASKED |= {"Vertex texcoords": "vertex_tex_coord"}
-"""Arguments that ask openmesh for values, by the beginning of its message if a file has none."""
 
 
 def import_openmesh(what: str) -> Any:
@@ -83,43 +73,6 @@ def made_of(mesh: TriangleMesh) -> tuple[Any, tuple[str, ...]]:
         made.request_vertex_texcoords2D()
         made.vertex_texcoords2D()[:] = texcoord.values[:, :2]
     return made, left_out(mesh, (normal, color, texcoord, of_faces), mesh.metadata)
-
-
-def read_om(data: bytes, limits: Limits = DEFAULT_LIMITS) -> Polygons:
-    openmesh = import_openmesh(".om files are read")
-    if len(data) < _HEAD.size or not data.startswith(b"OM"):
-        raise FormatError("this is not an .om file")
-    _, _, _, vertices, faces, _ = _HEAD.unpack_from(data)
-    require_count("vertices", vertices, limits)
-    require_count("faces", faces, limits)
-    if 12 * vertices + 3 * faces > len(data):
-        raise TruncatedError(f"{len(data)} bytes for {vertices} vertices and {faces} faces")
-    asked = dict(_ASKED)
-    with tempfile.TemporaryDirectory() as folder, _quiet():
-        path = Path(folder, "mesh.om")
-        path.write_bytes(data)
-        while True:
-            try:
-                mesh = openmesh.read_polymesh(str(path), **dict.fromkeys(asked.values(), True))
-                break
-            except RuntimeError as error:
-                absent = next((words for words in asked if str(error).startswith(words)), None)
-                if absent is None:
-                    raise FormatError("openmesh cannot read this file") from error
-                del asked[absent]
-    if (there := (mesh.n_vertices(), mesh.n_faces())) != (vertices, faces):
-        raise CorruptError(f"openmesh reads {there[0]} of {vertices} vertices and {there[1]} of {faces} faces")
-    return of_openmesh(mesh)
-
-
-def write_om(mesh: TriangleMesh, _stem: str) -> Written:
-    made, lost = made_of(mesh)
-    held = {"vertex_normal": made.has_vertex_normals(), "vertex_color": made.has_vertex_colors()}
-    held |= {"face_color": made.has_face_colors(), "vertex_tex_coord": made.has_vertex_texcoords2D()}
-    with tempfile.TemporaryDirectory() as folder, _quiet():
-        path = Path(folder, "mesh.om")
-        import_openmesh(".om files are written").write_mesh(str(path), made, binary=True, color_alpha=True, **held)
-        return Written(path.read_bytes(), lost)
 
 
 @contextmanager

@@ -394,9 +394,9 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
         lines += [f"element {element} {len(rows)}", *properties]
         body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
-    return formats.Written(
-        header.encode() + b"".join(body), formats.left_out(mesh, mesh.attributes, omitted), library.beside
-    )
+    own = [name for name in formats.unseen(mesh.metadata) if not name.endswith(("map_Kd", "baseColorTexture"))]
+    lost = formats.left_out(mesh, mesh.attributes, {*omitted, *own})
+    return formats.Written(header.encode() + b"".join(body), lost, library.beside)
 
 
 def table_of(columns: Sequence[tuple[str, Array]]) -> tuple[list[str], Array]:

@@ -234,8 +234,9 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     _call(item, "meshobject_setgeometry", *(each for table in tables for each in (ctypes.c_uint64(len(table)), table)))
     held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
     numbers, materials = formats.face_numbers(mesh, "material"), formats.materials_in(mesh.metadata)
-    if numbers is not None and materials:
-        held |= _paint(library, model, item, numbers.values[:, 0], materials)
+    if materials:
+        which = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
+        held |= _paint(library, model, item, which, materials)
     about = model.GetMetaDataGroup()
     for name in _KNOWN:
         if isinstance(value := mesh.metadata.get(name), str):

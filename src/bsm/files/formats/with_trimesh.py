@@ -1,28 +1,20 @@
-"""Whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
+"""Meshes and scenes of trimesh: the parts, placed where a scene has them, as one mesh."""
 
-import importlib.util
 import io
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import FormatError, how_to_install, imported
+from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
-from bsm.files.room import Doubles, as_library_error
+from bsm.files.room import Doubles
 
-_WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
-_OTHERS = {
-    ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
-    ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
-}
-_ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """The padding after a PNG or JPEG in GLB files."""
@@ -33,25 +25,6 @@ _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "
 def import_trimesh(what: str) -> Any:
     """The library; `DependencyError` where it is missing."""
     return imported("trimesh", f"{what} with trimesh", "formats")
-
-
-def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) -> Polygons:
-    """Read a file with trimesh, which neither merges vertices nor splits them here."""
-    if kind in _ARCHIVES:
-        raise FormatError(f".{kind} files contain files: unpack it, and read its contents")
-    trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
-    if kind not in trimesh.available_formats():
-        complete = all(map(importlib.util.find_spec, ("lib3mf", "collada")))
-        more = "" if complete else f" (3MF, DAE and others are read after: {how_to_install('formats')})"
-        way = next((way for kinds, way in _OTHERS.items() if kind in kinds), f"{_WAY}{more}")
-        raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
-    with as_library_error("trimesh"), np.errstate(all="ignore"):  # a later check refuses infinite values
-        scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
-        found = joined(scene, limits, len(data))
-    metadata = dict(found.metadata)
-    if metadata.get("name") == Path(path or "").name:
-        del metadata["name"]  # trimesh calls it like the file
-    return replace(found, metadata=metadata)
 
 
 def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
