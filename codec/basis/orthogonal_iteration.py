@@ -28,24 +28,23 @@ class DynamicSize:
     """c_i of one block of a chain after the other."""
 
     def __init__(self, lowest: float, highest: float, first: int) -> None:
-        self._lowest, self.highest, self._size = lowest, highest, first
+        self._lowest, self._highest, self._size, self.met = lowest, highest, first, True
 
     @property
     def reach(self) -> int:
         """Columns to try first: more than the predecessor's, as most blocks take hardly more."""
         return self._size + self._size // 4 + 8
 
-    def follow(self, left: float, coefficients: Matrix) -> int | None:
-        """Return c_i by the predecessor's size, shape (c, 3) given, and the squared error left; None: over eps_h."""
+    def follow(self, left: float, coefficients: Matrix) -> int:
+        """Return c_i by the predecessor's size, shape (c, 3) given, and the squared error left, or c, over eps_h."""
         norms = np.sqrt(left + np.append(np.cumsum(np.square(coefficients).sum(axis=1)[::-1])[::-1], 0.0))
-        if norms[-1] > self.highest:
-            return None
+        self.met = bool(norms[-1] <= self._highest)
+        if not self.met:
+            return len(coefficients)
         size = min(max(self._size, 1), len(coefficients))
-        if norms[size] > self.highest:
-            while norms[size] > self.highest:
-                size += 1
-        else:
-            while size > 1 and norms[size] < self._lowest and norms[size - 1] <= self.highest:
-                size -= 1
+        while norms[size] > self._highest:
+            size += 1
+        while size > 1 and norms[size] < self._lowest and norms[size - 1] <= self._highest:
+            size -= 1
         self._size = size
         return size

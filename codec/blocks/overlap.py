@@ -98,11 +98,7 @@ class Blocks:
         return self.members[self.starts[index] : self.starts[index + 1]]
 
     def block(self, index: int) -> Block:
-        return _ordered(self.graph, self.members_of(index))
-
-    def part(self, index: int) -> Block:
-        """Order the rows of the part that one block grew from: a block without overlap."""
-        return _ordered(self.graph, self.members_of(index)[: self.cores[index]])
+        return Block(*Cut(self.graph.offsets, self.graph.neighbors).rows(self.members_of(index)))
 
 
 def block_size(partition: Partition, overlap: float) -> int:
@@ -115,10 +111,6 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
     """Put the parts into a chain and grow each by breadth-first rings to `size` vertices (n_d)."""
     cut = Cut(graph.offsets, graph.neighbors)
     return Blocks(graph, *cut.blocks(partition.labels, partition.parts, size))
-
-
-def _ordered(graph: Graph, members: Indices) -> Block:
-    return Block(*Cut(graph.offsets, graph.neighbors).rows(members))
 
 
 class Blend:
@@ -136,8 +128,3 @@ class Blend:
     def all_positions(self) -> Matrix:
         """Weighted averages of all vertices, all of them known, shape (n, 3)."""
         return self.sums / self.weights[:, None]
-
-
-def degree_weights(degrees: Indices) -> Matrix:
-    """Weight of each row, shape (n_i,): its neighbors inside the block; a row without any counts as one."""
-    return np.maximum(degrees, 1).astype(np.float64)

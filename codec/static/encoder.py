@@ -63,6 +63,7 @@ SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 
 LOOKS = [Contract(WIDEST, look=kept.look) for preset in reversed(PRESETS.values()) if (kept := preset.promise)]
 """The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
+OVER = "eps_h is exceeded in {} of {} blocks: these have as many coefficients as they may have"
 ONE_BLOCK = "the mesh fits in one block: its basis is exact, and no orthogonal iterations follow"
 
 
@@ -122,7 +123,9 @@ class Encoder:
         """The notes about losses that the options do not ask for."""
         doubt = [f"the preset's bound holds, and no other: {self._doubt}"] if self._doubt else []
         unseen = [f"no look is promised: {self._unseen}"] if self._unseen else []
-        return (*self._input.joined.losses, *doubt, *unseen)
+        missed = 0 if self.options.target or not self.options.paper.doi else self._spectral.missed
+        over = [OVER.format(missed, self._input.prepared.blocks.count)] if missed else []
+        return (*self._input.joined.losses, *doubt, *unseen, *over)
 
     @property
     def mesh(self) -> TriangleMesh:
@@ -199,7 +202,7 @@ class Encoder:
         if options.grid_cell is not None:
             return rounded_to_cells(self._input.prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
         with as_of_decoders(options.limits):
-            return self._spectral.base(options.first_step, near.within(0.8)).draft
+            return self._spectral.base(self._spectral.first_step, near.within(0.8)).draft
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """Return the stream, with a comparison of the decoded mesh."""
@@ -282,7 +285,8 @@ class Encoder:
     def _at_step(self, target: Target, near: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
         finest = smallest_step(self._input.prepared.size)
-        return search_step(lambda step: self.attempt(step, near.within()), target, self.options.first_step, finest)
+        first = self._spectral.first_step
+        return search_step(lambda step: self.attempt(step, near.within()), target, first, finest)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and compare the decoded mesh."""

@@ -63,8 +63,8 @@ class Paper:
     predict : bool
         Predict coefficients from known vertices of overlapping blocks.
     doi : (float, float), optional
-        eps_l and eps_h of dynamic orthogonal iterations (DOI), in units of the bounding box's diagonal: c_i follows the
-        error of each block, a Frobenius norm. A bound that cannot be met is an error.
+        eps_l and eps_h of dynamic orthogonal iterations (DOI), in mean edge lengths of the mesh: c_i follows the error
+        of each block, the root mean square of its vertices. With `bits`, a target is reached by scaling both.
 
     Raises
     ------
@@ -209,8 +209,10 @@ class EncodeOptions:
         if self.target is not None:
             self.target._require_kind(TARGETS, "a mesh")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
-        if self.paper.bits is not None and self.target is not None:
-            raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
+        if self.paper.bits is not None and self.paper.doi is None and self.target is not None:
+            raise OptionError(
+                "with a fixed number of bits, a target is reached by doi; it excludes keep and coefficients"
+            )
         if self.exact and (self.grid is not None or self.grid_cell is not None or self.effort == "quick"):
             raise OptionError("exact, grid and effort quick exclude each other")
         if self.grid is not None and self.grid_cell is not None:
@@ -254,9 +256,7 @@ class EncodeOptions:
     @property
     def first_step(self) -> float:
         """The step, or a usual one if it is None."""
-        if self.step is not None:
-            return self.step
-        return STEP
+        return STEP if self.step is None else self.step
 
     @property
     def sets_coding(self) -> bool:
@@ -300,8 +300,8 @@ def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
     return replace(options, **changes)
 
 
-EPS_H = 0.07
-"""eps_h of preset "paper", of a block's Frobenius norm over the diagonal; eps_l is a tenth less."""
+EPS_H = 0.3
+"""eps_h of preset "paper", in mean edge lengths; eps_l is a tenth less."""
 
 
 LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "key_interval": 0}

@@ -41,7 +41,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
     if base.is_grid and (excluded := [*bounds, *grids, *coding]):
         raise OptionError(f"preset {preset} fixes all positions and cannot be combined with {' and '.join(excluded)}")
-    if base.sets_coding and (excluded := [*bounds, *grids]):
+    if base.sets_coding and (excluded := [*(name for name in bounds if name in (*BOUNDS, "contract")), *grids]):
         raise OptionError(f"preset {preset} fixes the coding and cannot be combined with {' and '.join(excluded)}")
     fixed = [*grids, *coding]
     excluded = [name for name in bounds if name in (*BOUNDS, "contract")]

@@ -285,7 +285,8 @@ def _tried(idea: Idea, options: EncodeOptions) -> Any:
 
 
 def _draft(prepared: Prepared, idea: Idea, options: EncodeOptions) -> Draft:
-    return Spectral(prepared, options, overrides=_overrides(idea)).base(options.first_step).draft
+    spectral = Spectral(prepared, options, overrides=_overrides(idea))
+    return spectral.base(spectral.first_step).draft
 
 
 def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepared:

@@ -225,7 +225,7 @@ class TestPictures:
 class TestCommands:
     def test_our_curve_is_what_is_chosen_for_its_measure_and_goes_as_far_as_draco(self):
         mesh = patch(20, 25)
-        curve = our_curve(fine=True)
+        curve = our_curve()
         kinds = {codec.options.target.kind: codec for codec in curve.codecs}
         found = {
             kind: json.loads(json.dumps(measure(codec, mesh, Reference(mesh.positions, mesh.faces))))

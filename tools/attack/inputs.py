@@ -165,7 +165,7 @@ def _static_options(random: Random) -> EncodeOptions:
     elif way == 3:
         given |= {"bits": random.randrange(2, 17), "partition": "metis"}
     elif way == 4:
-        given["doi"] = (5e-4, 2e-3)
+        given["doi"] = (0.05, 0.2)
     else:
         given["step"] = 2.0 ** -random.randrange(3, 16)
     return changed(EncodeOptions(), **{**_some(random, _static_choices(random), 0.15), **given})

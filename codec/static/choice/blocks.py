@@ -7,11 +7,11 @@ from functools import lru_cache, partial
 import numpy as np
 
 from bsm.bitstream.container.header import Header, Layer
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import squares_of
-from bsm.codec.geometry.metrics import Reference
+from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
@@ -111,21 +111,32 @@ class Spectral:
         self._prepared = prepared
         self._options = options
         self._widest = max(1, int(widest * prepared.size))
+        self.missed = 0  # blocks over eps_h
         self._overrides = overrides
 
     def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
-        """The blocks at a step."""
+        """The blocks at a step, or with a fixed number of bits at an eps_h in BSM units; c is as decoders grant it."""
+        while True:
+            try:
+                return self._base(step, progress)
+            except LimitError:
+                if self._options.paper.doi is None or self._widest == 1:
+                    raise
+                self._widest = 2 * self._widest // 3
+
+    def _base(self, step: float, progress: Progress | None) -> RefinementBase:
         prepared, options = self._prepared, self._options
         scheme = self._scheme(step)
         blocks = encode_blocks(
             scheme,
             prepared.positions,
             threads=options.threads,
-            sizing=self._sizing(scheme.coding.width),
+            sizing=self._sizing(scheme.coding.width, step),
             progress=progress,
             charge=patience(options.limits, prepared.graph.size),
         )
         admit(options.limits, prepared, blocks)
+        self.missed = sum(not block.met for block in blocks)
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
         smoothing = options.fixed_smoothing
         header = Header(
@@ -148,7 +159,7 @@ class Spectral:
         """How blocks are coded at a step."""
         rules, bits, size = self._rules(), self._options.paper.bits, self._prepared.size
         if bits is not None:
-            return Scheme(self._prepared.blocks, rules, self._packed(bits, rules))
+            return Scheme(self._prepared.blocks, rules, self._packed(bits, rules, step))
         if step < smallest_step(size):
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
@@ -185,18 +196,30 @@ class Spectral:
         if options.keep is not None:
             return min(max(1, round(options.keep * size)), size)
         if options.paper.doi is not None:
-            return size
+            return min(size, self._widest)
         if options.paper.bits is not None:
             return max(1, round(PAPER_FRACTION * size))
         return self._prepared.spectrum(options.paper.shift).worthwhile_size(step, self._widest)
 
-    def _sizing(self, width: int) -> Sizing:
-        return Sizing(width, min(width, max(1, round(PAPER_FRACTION * self._prepared.size))), self._options.paper.doi)
+    @cached_property
+    def _eps(self) -> tuple[float, float] | None:
+        """eps_l and eps_h in BSM units."""
+        edge, doi = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces), self._options.paper.doi
+        return doi and (edge * doi[0], edge * doi[1])
 
-    def _packed(self, bits: int, rules: ChainRules) -> Packed:
+    @property
+    def first_step(self) -> float:
+        """What a search by `base` begins with."""
+        return self._eps[1] if self._eps and self._options.paper.bits else self._options.first_step
+
+    def _sizing(self, width: int, step: float) -> Sizing:
+        eps = (step * self._eps[0] / self._eps[1], step) if self._eps and self._options.paper.bits else self._eps
+        return Sizing(width, min(width, max(1, round(PAPER_FRACTION * self._prepared.size))), eps)
+
+    def _packed(self, bits: int, rules: ChainRules, step: float) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
         blocks, positions, width = self._prepared.blocks, self._prepared.positions, self._width(0.0)
-        charge, sizing = patience(self._options.limits, len(positions)), self._sizing(width)
+        charge, sizing = patience(self._options.limits, len(positions)), self._sizing(width, step)
 
         def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""

@@ -51,6 +51,7 @@ class CodedBlock:
     decoded: DecodedBlock
     work: float
     memory: float
+    met: bool  # eps_h, if there is one
 
 
 @dataclass(frozen=True)
@@ -78,15 +79,10 @@ def offer(
         coefficients = project(dictionary, residual, dictionary.shape[1])
         if sizes is None:
             return dictionary, coefficients
-        left = float(np.square(residual - reconstruct(dictionary, coefficients)).sum())
-        size = sizes.follow(left, coefficients)
-        if size is not None:
+        left = float(np.square(residual - reconstruct(dictionary, coefficients)).mean())
+        size = sizes.follow(3.0 * left, coefficients / len(residual) ** 0.5)
+        if sizes.met or tried == most:
             return np.ascontiguousarray(dictionary[:, :size]), coefficients[:size]
-        if tried == most:
-            raise OptionError(
-                f"eps_h = {sizes.highest:g} of doi cannot be met: {most} coefficients of a block of {len(residual)} "
-                f"vertices leave an error of {left**0.5:.2g}; give a larger eps_h, or a larger keep"
-            )
         tried = min(2 * tried, most)
 
 
@@ -111,7 +107,8 @@ class ChainEncoder:
         *work, memory = chain.costs(coded)
         chain.commit(coded, decoded)
         packet = packets.Block(index, coded, coding.write(levels))
-        return CodedBlock(packet, DecodedBlock(index, vertices, decoded, weights), sum(work), memory)
+        met = self._sizes is None or self._sizes.met
+        return CodedBlock(packet, DecodedBlock(index, vertices, decoded, weights), sum(work), memory, met)
 
 
 def encode_blocks(

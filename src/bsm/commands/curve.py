@@ -136,7 +136,7 @@ def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Co
 
 def _chosen(names: str, vertices: int, blocks: int | None) -> list[rates.Curve]:
     paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {"ours": (rates.our_curve(fine=True),), "paper": paper, "draco": (rates.draco_curve(),)}
+    groups = {"ours": (rates.our_curve(),), "paper": paper, "draco": (rates.draco_curve(),)}
     groups |= {line.name: (line,) for line in paper}
     unknown = [name for name in names.split(",") if name not in groups]
     if unknown:

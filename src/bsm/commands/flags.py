@@ -114,7 +114,7 @@ SETTINGS = (
     Setting("key_interval", int, "K", "every K-th block starts a chain; 0: only the first (default 8)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    Setting("doi", numbers(2), "EPS_L,EPS_H", "choose coefficients so that the residual is between two thresholds"),
+    Setting("doi", numbers(2), "EPS_L,EPS_H", "choose coefficients so that each block is off by so many mean edges"),
 )
 """Advanced settings of the codec: `--set NAME=VALUE`."""
 

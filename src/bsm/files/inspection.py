@@ -76,10 +76,12 @@ class StreamInfo:
 
     @property
     def is_paper(self) -> bool:
-        """Whether it is coded as with the preset "paper", in that mode alone."""
+        """Whether it has all that the preset "paper" sets; c may differ. Overlaps show in the sum of block sizes."""
         how, header = self.header.constants, self.header
-        plain = header.key_interval == 0 and not (header.smoothing or header.refinement or header.grid)
-        return plain and how.bits > 0 and how.exact == 1 and how.springs == 0
+        plain = not (header.key_interval or header.smoothing or header.refinement or header.grid)
+        grown = self.sizes["partition"] and header.blocks * (header.block_size + 0.5) >= 1.15 * header.vertices
+        own = how.bits, how.exact, how.power, how.iterations, how.shift, how.springs, header.onorm
+        return plain and own == (12, 1, 2, 1, 2.0**-7, 0, 2) and (header.blocks == 1 or bool(grown))
 
     def bpv(self, carried: str = "total") -> float:
         return 8 * self.sizes[carried] / self.header.vertices

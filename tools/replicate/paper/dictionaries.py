@@ -10,10 +10,10 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec.arrays import Basis, Positions
+from bsm.codec.arrays import Basis, Indices, Positions
 from bsm.codec.basis.laplacian import dense_laplacian, solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
-from bsm.codec.blocks.overlap import Blend, Block, degree_weights
+from bsm.codec.blocks.overlap import Blend, Block
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.static.choice.blocks import MOST_APART
 from bsm.codec.static.options import Paper
@@ -116,6 +116,11 @@ class Cut:
     def rate(self, coefficients: int) -> float:
         """Bits per vertex by the paper's formula, 3 q c k / n, of the sum of c over all blocks."""
         return 3 * BITS * coefficients / len(self.model.clean)
+
+
+def degree_weights(degrees: Indices) -> Floats:
+    """Weight of each row: its neighbors inside the block; a row without any counts as one."""
+    return np.maximum(degrees, 1).astype(np.float64)
 
 
 FIRST_AND_OTHERS = (slice(0, 1), slice(1, None))

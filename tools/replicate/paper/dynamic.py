@@ -86,18 +86,17 @@ def codec_rule(cut: Cut, values: Floats, band: float, high: float, power: int = 
     rule, watch, previous = DynamicSize(band * high, high, cut.width), Watch(power), cut.exact[0]
     found, bases = [], list[Floats]()
     for block, exact in zip(cut.blocks, cut.exact, strict=True):
-        positions, size, tried = values[block.vertices], None, watch.calls
+        positions, tried, met = values[block.vertices], watch.calls, False
         if len(previous) != block.size:
             previous = exact
         width = min(rule.reach, block.size)
-        while size is None:
+        while not met:
             columns = cosine_columns(block.size, width)[:, previous.shape[1] :]
             basis = watch.iterated(block, np.hstack((previous, columns)))
             kept = basis.T @ positions
             left = max(float(np.square(positions).sum() - np.square(kept).sum()), 0.0)
             size = rule.follow(left, kept)
-            if size is None and width == block.size:
-                size = width
+            met = rule.met or width == block.size
             width = min(2 * width, block.size)
         rest = positions - basis[:, :size] @ kept[:size]
         previous = basis[:, :size]

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from bsm._core import Cut
 from bsm.codec.arrays import Indices
-from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, grow_blocks, metis_partition
+from bsm.codec.blocks.overlap import Blend, Block, block_size, grow_blocks, metis_partition
 from bsm.codec.denoise.coarse import KEEP, OVERLAP
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.graph import graph_of_faces
-from tools.replicate.paper.dictionaries import Floats, eigenvectors
+from tools.replicate.paper.dictionaries import Floats, degree_weights, eigenvectors
 from tools.replicate.paper.figures import save_boxes, save_surfaces
 from tools.replicate.paper.models import Model, Study
 from tools.replicate.paper.published import BUNNY, JULIO, OVERLAPS, Line, claim, printed
@@ -61,7 +62,9 @@ def three_cases(model: Model, parts: int) -> Cases:
     size = block_size(partition, OVERLAP)
     width = max(1, round(KEEP * size))
     blocks = grow_blocks(graph, partition, size)
-    alone = low_pass(model, [blocks.part(index) for index in range(parts)], width)
+    cut = Cut(graph.offsets, graph.neighbors)
+    cores = [blocks.members_of(index)[: blocks.cores[index]] for index in range(parts)]
+    alone = low_pass(model, [Block(*cut.rows(core)) for core in cores], width)
     grown = low_pass(model, [blocks.block(index) for index in range(parts)], width)
     rows = np.repeat(np.arange(graph.size), np.diff(graph.offsets))
     boundary = np.zeros(graph.size, np.bool_)
