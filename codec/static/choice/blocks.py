@@ -209,7 +209,7 @@ class Spectral:
 
     @property
     def first_step(self) -> float:
-        """What a search by `base` begins with."""
+        """The step, or eps_h, that a search begins with."""
         return self._eps[1] if self._eps and self._options.paper.bits else self._options.first_step
 
     def _sizing(self, width: int, step: float) -> Sizing:

@@ -320,4 +320,5 @@ def coarse_to_fine(study: Study) -> Iterator[Row]:
             f"{angles['coarse, then fine']:.1f} and {angles['fine alone']:.1f} degrees.",
             model,
         ),
+        numbers={"angles": f"{angles['coarse, then fine']:.1f}, not {angles['fine alone']:.1f}"},
     )
