@@ -31,7 +31,6 @@ COMMANDS = {
     "denoise": "remove noise from meshes and sequences",
     "demo": "compress a sample and compare it with the original",
     "curve": "measure rate against error and draw it",
-    "completion": "print a script for shell completion",
 }
 FILES = (
     *("IN", "MESH", "SCENE", "A", "B", "FOLDER", "OUT", "OUT.glb"),
@@ -39,7 +38,7 @@ FILES = (
 )
 """What files and folders are called in the help."""
 _WRITTEN = {"output", "report", "save", "picture", "map", "work"}
-_WITHOUT_FILES = ("info", "compare", "verify", "completion", "curve")
+_WITHOUT_FILES = ("info", "compare", "verify", "curve")
 """Commands that write no file. They accept -f nevertheless, so that scripts can always pass it."""
 _WITH_FORCE = {
     "denoise": "; also write results that lose detail",
@@ -87,8 +86,8 @@ def command_parser(name: str) -> Parser:
     return _complete(Parser(prog=f"bsm {name}", parents=[_common(name)], description=_sentence(name)), name)
 
 
-def program_parser(*, complete: bool = False) -> Parser:
-    """The parser of the program, which knows its commands; with `complete`, also what each takes."""
+def program_parser(*, complete: bool = True) -> Parser:
+    """The parser of the program, for shtab, too; with `complete` it also knows what each command takes."""
     parser = Parser(
         prog="bsm",
         description="Compress, decode and compare triangle meshes and moving meshes.",
@@ -105,7 +104,7 @@ def program_parser(*, complete: bool = False) -> Parser:
 
 def _no_command(words: list[str]) -> int:
     """Print help, the version, or an error that suggests a command."""
-    parser = program_parser()
+    parser = program_parser(complete=False)
     advice = advice_on_command(words) if words else ""
     if words and (advice or not words[0].startswith("-")):
         parser.error(f"unknown command {words[0]}{advice or suggestion(words[0], COMMANDS)}")
@@ -198,8 +197,5 @@ class Parser(argparse.ArgumentParser):
 
     def file_arguments(self) -> Iterator[argparse.Action]:
         for action in self._actions:
-            if action.nargs == argparse.PARSER and isinstance(action.choices, dict):
-                for command in action.choices.values():
-                    yield from command.file_arguments()
-            elif action.metavar in FILES:
+            if action.metavar in FILES:
                 yield action

@@ -317,10 +317,14 @@ def test_inputs_that_differ_in_their_suffix_alone_keep_it(corpus, tmp_path):
     assert "3 of 4 were up to date" in again.stderr and "as it was" not in again.stderr.splitlines()[0]
 
 
-def test_the_table_has_all_rows_and_failures_first():
-    files = [{"input": f"{n}.ply", "output": ""} for n in range(99)] + [{"input": "x", "output": "", "error": "x: bad"}]
-    lines = list(table(files))
-    assert len(lines) == 101 and lines[1].endswith("failed: bad")
+def test_a_table_has_failures_first_and_then_the_largest_errors_in_one_unit():
+    files = [{"input": f"{n}.ply", "max_error_relative": n / 1e4, "max_error": 2.0, "unit": "mm"} for n in range(99)]
+    bad = {"input": "x", "output": "", "error": "x: bad"}
+    lines = list(table([*files, bad]))
+    assert lines[1].endswith("failed: bad") and lines[2].startswith("98.ply") and "2 mm" in lines[2]
+    assert len(lines) == 22 and lines[-1] == "and 80 more, with smaller errors, in the report"
+    assert "0.98 %" in next(line for line in table([*files, {**files[0], "unit": "m"}]) if line.startswith("98.ply"))
+    assert len(list(table([*files[:9], *[bad] * 50]))) == 1 + 50 + 1
 
 
 def test_patterns_behind_file_urls_are_expanded(corpus, tmp_path):

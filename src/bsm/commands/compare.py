@@ -30,7 +30,7 @@ from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, peek_header
-from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, plan_trees
+from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, files_in
 from bsm.jobs.report import largest_error
 from bsm.jobs.task import Facts
 from bsm.lengths import length, metres, unit_of
@@ -102,9 +102,9 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
     """Compare the files of two folders, with a line for each, and the largest error; return the code of a failure."""
     if args.map or args.picture or args.permutation or args.look or args.surface:
         raise OptionError("-r measures vertex errors; leave out --look, --surface, --picture, --map and --permutation")
-    jobs = plan_trees([args.original], None, "", (*MESH_SUFFIXES, *STREAM_SUFFIXES))
+    found = files_in([args.original], (*MESH_SUFFIXES, *STREAM_SUFFIXES))
     done: list[Facts] = []
-    for path in (job.input for job in jobs):
+    for path in (str(path) for _, path in found):
         facts: Facts = {"input": path}
         try:
             facts["output"] = other = _same_name(path, args)
@@ -136,7 +136,8 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
     """The file in B that has the name of one in A, whatever its format."""
     place = Path(args.decoded, Path(path).relative_to(args.original))
     endings = (*STREAM_SUFFIXES, *MESH_SUFFIXES)
-    candidates = [place, *(place.with_suffix(end) for end in endings), Path(f"{place}.bsm")]
+    longer = (Path(f"{place}{end}") for end in endings)
+    candidates = [place, *longer, place.with_suffix(""), *(place.with_suffix(end) for end in endings)]
     found = next((name for name in candidates if name.is_file()), None)
     if found is None:
         raise FileNotFoundError(errno.ENOENT, "no file of this name, in any format", str(place.with_suffix("")))

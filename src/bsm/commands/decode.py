@@ -19,18 +19,20 @@ from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
+from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import WRITTEN_FORMATS, by_name, format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.motion.folder import is_numbered, mesh_files, names_many
 from bsm.files.motion.frames import Shared, describe_runs
-from bsm.files.output import default_output, output_inside, refuse_to_overwrite
+from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.room import PRECISION
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
-from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
+from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Run, run_jobs
-from bsm.jobs.task import Facts, Task, anywhere, came_to
+from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
+from bsm.lengths import metres, unit_of
 
 NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"
 
@@ -47,6 +49,7 @@ class DecodeJob(Task):
     tolerant: bool = False
     limits: str = "default"
     float32: bool = False
+    unit_out: str | None = None
     frames: str | None = None
 
 
@@ -58,12 +61,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "mesh file, - for a pipe, or folder for several inputs (default: IN with .ply). For a sequence: npz "
         "(default), PC2, MDD, GLB, USD, a folder for its frames, or a pattern such as walk/%%04d.obj",
     )
-    add("--format", "", "format of the output (default: by its name, else ply)", choices=SEQUENCE_FORMATS)
+    same = "format of the output (default: by its name, else ply); with -r also same: names and formats of the sources"
+    add("--format", "", same, choices=(*SEQUENCE_FORMATS, "same"))
     part = adder(parser.add_mutually_exclusive_group())
     part("--blocks", "N", "stop after N blocks, and write that part", type=int)
     part("--layers", "N", "stop after N layers: 1 is the base, each refinement adds one", type=int)
     part("--tolerant", "", "continue after damage; list the lost parts and leave them out")
     add("--permutation", "FILE.npy", "restore the order of the input; the file that encode wrote with the same option")
+    add("--unit-out", "UNIT", "scale coordinates from the unit of the stream to m, cm, mm, in, ft, ...")
     add("--float32", "", "round coordinates to single precision, even where their format or place asks for double")
     add_limits_flag(parser)
     add("-r --recursive", "", "decode every stream in folders and their subfolders; OUT gets the same folders")
@@ -77,8 +82,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
         with about(name):
             if not is_scene(name):
                 refuse_mesh(name)
-    if args.recursive:
+    if args.recursive and args.format == "same":
+        jobs = list(map(_as_source, plan_trees(args.inputs, args.output, ".ply", STREAM_SUFFIXES)))
+        refuse_collisions((job.input for job in jobs), (job.output for job in jobs))
+        args.format = None
+    elif args.recursive:
         jobs = plan_trees(args.inputs, args.output, suffix, STREAM_SUFFIXES)
+    elif args.format == "same":
+        raise OptionError("--format same is for folders, with -r; name the output with -o")
     else:
         jobs = plan(args.inputs, args.output, lambda _: suffix, sole_folder=True)
     if args.permutation and len(jobs) > 1:
@@ -89,6 +100,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
     given = args.output and (anywhere(args.output) if args.dask else args.output)
     job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
     return run_jobs(asked(Run, args), job, console, decode_one, jobs)
+
+
+def _as_source(job: Job) -> Job:
+    """Give the output the name of the file that a stream was made of; a format that is not written becomes OBJ."""
+    name = str(inspect_stream(read_chunks(job.input)).metadata.get("source_name", ""))
+    if name != Path(name).name or name.startswith(".") or Path(name).suffix.lower() not in MESH_SUFFIXES:
+        return job
+    name = name if format_of_name(name) else f"{name}.obj"
+    return replace(job, output=no_link(str(Path(job.output).with_name(name))))
 
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
@@ -121,8 +141,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
-    if args.float32:
-        mesh = replace(mesh, metadata={**mesh.metadata, **PRECISION})
+    mesh = _as_asked(args, mesh)
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
@@ -130,6 +149,20 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     with console.progress("writing"):
         file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
+
+
+def _as_asked(args: DecodeJob, mesh: TriangleMesh) -> TriangleMesh:
+    """A mesh in the requested unit and precision."""
+    metadata, scale = dict(mesh.metadata), 1.0
+    metadata.pop("source_name", None)
+    if args.unit_out:
+        own, wanted = metres(unit_of(metadata)), metres(args.unit_out)
+        if own is None or wanted is None:
+            unknown = args.unit_out if wanted is None else unit_of(metadata) or "that of the stream, which names none"
+            raise OptionError(f"--unit-out {args.unit_out}: an unknown unit: {unknown}; give m, cm, mm, in or ft")
+        scale, metadata["unit"] = own / wanted, args.unit_out
+    metadata |= PRECISION if args.float32 else {}
+    return replace(mesh, positions=scale * mesh.positions, metadata=metadata)
 
 
 def _mesh_output(args: DecodeJob) -> tuple[str, str]:
@@ -248,7 +281,7 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     found = next(stream.changing_frames(), None)
     if found is None or found[0] != number:
         raise OptionError(NO_FRAMES)
-    mesh = TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata)
+    mesh = _as_asked(args, TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata))
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}

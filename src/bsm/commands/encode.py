@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     fewer = "try a half, a quarter, ... of the triangles, and keep the smallest file that keeps the promise to the "
     fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"
     add("--simplify", "", fewer)
-    add("--images", "RULE", IMAGES)
+    add("--images", "RULE", f"keep (default), none, or {IMAGES}")
     add("--permutation", "FILE.npy", "write the input vertex of each decoded vertex")
     meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
     add("--meta", "NAME=TEXT", meta, action="append", default=[])
@@ -91,7 +91,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
         metadata[name] = value
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
-    if args.images:
+    if args.images not in (None, "keep", "none"):
         ImageRule.parse(args.images)
         if args.untrusted:
             raise OptionError("--images lets Pillow read images; leave it out with --untrusted")

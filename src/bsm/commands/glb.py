@@ -122,7 +122,7 @@ def _document(path: str, console: Console) -> tuple[Document, int | None]:
     written = written_mesh(mesh, "glb", path)
     if written.left_out:
         console.note(f"{path}: glb cannot hold {', '.join(written.left_out)}")
-    return Document(written.data), size_with_parts(path, mesh.metadata)
+    return Document(written.data), size_with_parts(path, mesh.metadata)[0]
 
 
 def _qualities(args: argparse.Namespace) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """bsm verify: check that streams are complete and can be decoded."""
 
 import argparse
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from bsm.bitstream.errors import FormatError, OptionError, counted
@@ -12,7 +12,7 @@ from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import by_name
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_through, decode_whole, is_scene, refuse_mesh
-from bsm.jobs.plan import STREAM_SUFFIXES, input_names, plan_trees
+from bsm.jobs.plan import STREAM_SUFFIXES, files_in, input_names
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task
 from bsm.tiles.shards import is_tiles, open_tiles
@@ -34,9 +34,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    jobs = [Job(name) for name in input_names(args.inputs)]
-    if args.recursive:
-        jobs = [replace(job, output="") for job in plan_trees(args.inputs, None, "", STREAM_SUFFIXES)]
+    found = (str(path) for _, path in files_in(args.inputs, STREAM_SUFFIXES)) if args.recursive else None
+    jobs = [Job(name) for name in found or input_names(args.inputs)]
     return run_jobs(asked(Run, args), asked(VerifyJob, args), console, verify_one, jobs)
 
 

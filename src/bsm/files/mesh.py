@@ -190,17 +190,18 @@ def unknown_suffix(path: str | os.PathLike[str], *more: str, kind: str | None = 
     return OptionError(f"{path}: {fault}; use one of .{', .'.join((*more, *WRITTEN_FORMATS))}")
 
 
-def size_with_parts(path: str, metadata: Metadata) -> int | None:
-    """The bytes of a file and of those beside it that it names: materials, images, buffers; None if not known."""
+def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str, int]]:
+    """The bytes of a file with those beside it that it names: materials, images, buffers; and the sizes of these."""
     size = pipes.size_of(path)
     if size is None or is_url(path) or path == "-":
-        return size
+        return size, {}
     names = {*str(metadata.get("mtllib", "")).split("\n"), *(name for name, _ in images_in(metadata).values())}
     if Path(path).suffix.lower() == ".gltf":
         with suppress(BsmError):
             names = {*by_name("bsm.gltf.document", "read_document")(path).files}
     found = set(map(Beside(Path(path).resolve().parent, Limits()).find, filter(None, names)))
-    return size + sum(part.stat().st_size for part in found if isinstance(part, Path))
+    parts = {str(part): part.stat().st_size for part in found if isinstance(part, Path)}
+    return size + sum(parts.values()), parts
 
 
 def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:

@@ -9,11 +9,11 @@ import stat
 import tempfile
 import threading
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from types import FrameType
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from bsm.bitstream.errors import OptionError
 from bsm.files import pipes
@@ -113,18 +113,26 @@ def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool, 
 
 
 @contextmanager
-def _signals_wait() -> Iterator[None]:
-    """Hold signals until a new file has an owner that removes it; the main thread handles them."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    came: list[int] = []
-    before = {s: signal.signal(s, lambda number, _: came.append(number)) for s in (signal.SIGINT, signal.SIGTERM)}
+def handled(signals: Iterable[signal.Signals], handler: Any) -> Iterator[None]:
+    """Handle signals in another way for a while; they reach the main thread only."""
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        before = {each: signal.signal(each, handler) for each in signals}
     try:
         yield
     finally:
-        for signum, handler in before.items():
-            signal.signal(signum, handler)
+        for each, usual in before.items():
+            signal.signal(each, usual)
+
+
+@contextmanager
+def _signals_wait() -> Iterator[None]:
+    """Hold signals until a new file has an owner that removes it."""
+    came: list[int] = []
+    try:
+        with handled((signal.SIGINT, signal.SIGTERM), lambda number, _: came.append(number)):
+            yield
+    finally:
         for number in came:
             signal.raise_signal(number)
 
@@ -266,21 +274,13 @@ def _rename_unless_present(name: str, target: Path) -> None:
         os.unlink(name)
 
 
-@contextmanager
-def termination_as_exception() -> Iterator[None]:
-    """Let SIGTERM unwind the stack, as Ctrl-C does; signals reach the main thread only."""
+def termination_as_exception() -> AbstractContextManager[None]:
+    """Let SIGTERM unwind the stack, as Ctrl-C does."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         raise Terminated(128 + number)
 
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGTERM, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    return handled((signal.SIGTERM,), stop)
 
 
 def default_output(path: str, suffix: str) -> str:

@@ -3,7 +3,7 @@
 import math
 import re
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from itertools import count
@@ -13,13 +13,11 @@ from typing import Any
 from bsm import __version__
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.arrays import Order, Positions
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.static.targets import ANY_ANGLE
 from bsm.comparison import write_permutation
-from bsm.console import Console, Progress, finite
+from bsm.console import Console, finite
+from bsm.files.formats.metadata import images_in
 from bsm.files.images import ImageRule, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
@@ -36,7 +34,6 @@ READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only sequences have; with them a GLB is read as a sequence."""
 _GENERATION = re.compile(r" generation=(\d{1,6})")
-_BOUNDS = ("farthest", "angle", "visual", "look")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +51,7 @@ class EncodeJob(Task):
     provenance: bool | None = None
     simplify: bool = False
     untrusted: bool = False
+    recursive: bool = False
     dry_run: bool = False
     images: str | None = None
 
@@ -83,9 +81,10 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     if source.dropped and job.options.get("preset") == "lossless" and not job.force:
         lost = ", ".join(source.dropped)
         raise HarmError(f"lossless would lose contents that no stream holds: {lost}; --force leaves them out")
-    mesh = with_metadata(source.mesh, chosen, job.metadata)
-    if job.images:
-        mesh = replace(mesh, metadata=with_smaller_images(mesh.metadata, ImageRule.parse(job.images)))
+    origin = {"source_name": Path(job.input).name} if job.recursive else {}
+    mesh = with_metadata(source.mesh, chosen, {**origin, **job.metadata})
+    left_out = source.mesh.metadata.keys() - mesh.metadata.keys()
+    mesh = replace(mesh, metadata=_images_of(job, mesh.metadata))
     if lengths := in_own_unit(job.options, mesh.metadata, mesh):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
     begin = time.perf_counter()
@@ -101,23 +100,24 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         found = encode_source(mesh, chosen, progress, simplify=job.simplify)
         encoder, result = found.encoder, found.attempt
         file.writelines(result.frames)
-        _write_order(job, encoder.vertex_order)
+        if job.permutation:  # before the stream has its name, so that no stream stands beside another's
+            write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     seconds = time.perf_counter() - begin
     images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
     smaller = "" if job.images or 2 * images < result.size else "; --images webp:85 makes them smaller"
-    left_out = source.mesh.metadata.keys() - mesh.metadata.keys() - {PROVENANCE}
     notes = [
         *source.notes,
         *generations,
         *found.notes,
         *encoder.notes,
         *(["left out: materials, images"] if left_out else []),
+        *(["left out: images"] if job.images == "none" else []),
         *([f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []),
         *([f"no look is promised; measured: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
     vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
     errors, numbers = _errors(found, job.simplify, *asked_unit(job.options, mesh.metadata))
-    taken, bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
+    (taken, parts), bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     other = encoder.binding not in ("", "look") and found.apart is None
@@ -130,10 +130,20 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{binds}{errors}; "
         f"{seconds:.2f} s",
     )
+    names = {"input": job.input, "output": None if job.dry_run else job.output}
     counts = {"vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
+    apart = {"input_parts": parts} if parts else {}
     ends = {"look": encoder.look, "binding": encoder.binding, "seconds": seconds, "notes": notes}
-    return {"input": job.input, "output": None if job.dry_run else job.output, **counts, **sizes, **numbers, **ends}
+    return {**names, **counts, **sizes, **apart, **numbers, **ends}
+
+
+def _images_of(job: EncodeJob, metadata: Metadata) -> Metadata:
+    """Return metadata with images as the job wants them."""
+    if job.images == "none":
+        images = {f"image.{number}.data" for number in images_in(metadata)}
+        return {name: value for name, value in metadata.items() if name not in images}
+    return metadata if job.images in (None, "keep") else with_smaller_images(metadata, ImageRule.parse(job.images))
 
 
 def _errors(found: Encoded, simplify: bool, unit: str, per_own: float) -> tuple[str, Facts]:
@@ -179,12 +189,12 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         open_output(job.output, overwrite=overwrite, follow=job.follow) as file,
         console.progress("encoding") as progress,
     ):
-        frames = source.frames if source.meshes is None else source.meshes
-        given = _staged(zip(frames, numbers), source.count, chosen, progress)
-        for chunk in encoder.chunks(given, progress):
+        frames: Any = source.meshes or source.frames
+        for chunk in encoder.chunks((frame for frame, _ in zip(frames, numbers)), progress):
             size += file.write(chunk)
             file.flush()
-        _write_order(job, encoder.vertex_order)
+        if job.permutation:  # before the stream has its name, so that no stream stands beside another's
+            write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
     notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else [])]
@@ -210,28 +220,10 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     return {**names, **counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
 
 
-def _write_order(job: EncodeJob, order: Order) -> None:
-    """Write what `--permutation` asks for before the stream has its name, so that no stream stands beside another's."""
-    if job.permutation:
-        write_permutation(job.permutation, order, overwrite=job.force)
-
-
 def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str) -> None:
     for note in notes:
         console.note(f"{job.input}: {note}")
     console.note(f"{job.input} -> {job.output}: {summary}")
-
-
-def _staged(
-    frames: Iterator[tuple[Positions | TriangleMesh, int]], all_frames: int, chosen: SequenceOptions, progress: Progress
-) -> Iterator[Positions | TriangleMesh]:
-    """Yield the frames; begin a stage of the progress with each GOP."""
-    for frame, number in frames:
-        longest = chosen.longest(len(frame.positions if isinstance(frame, TriangleMesh) else frame))
-        if not chosen.low_delay and number and number % longest == 0:
-            gops = f" of {-(-all_frames // longest)}" if all_frames else ""
-            progress.stage(f"encoding GOP {1 + number // longest}{gops}")
-        yield frame
 
 
 def with_provenance(
@@ -252,16 +244,10 @@ def with_provenance(
 
 
 def _words(path: str, given: Mapping[str, Any], options: Any, generation: int) -> str:
-    promise, target = options.promise, options.target
-    parts = [f"bsm {__version__}", given.get("preset") or ("balanced" if promise else "none")]
-    bounds = {name: getattr(promise, name, None) for name in _BOUNDS} if promise else {}
-    if promise and not promise.absolute:
-        bounds["farthest"] = f"{100 * promise.farthest:g}%"
-    shown = {name: f"{value:g}" if isinstance(value, float) else value for name, value in bounds.items()}
-    parts += [f"{name}={value}" for name, value in shown.items() if value not in (None, "inf", f"{ANY_ANGLE:g}")]
-    parts += [f"{target.kind}={target.value:g}"] if target else []
+    parts = [f"bsm {__version__}", given.get("preset") or ("balanced" if options.promise else "none")]
+    plain = {name: value for name, value in given.items() if name != "preset" and isinstance(value, str | int | float)}
+    parts += [f"{name}={value}" for name, value in plain.items() if value is not False]
     parts += [f"generation={generation}"] if generation > 1 else []
-    parts += ["simplify"] if given.get("simplify") else []
     if Path(path).is_file():
         digest = sha256()
         for chunk in read_chunks(path):

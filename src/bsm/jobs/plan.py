@@ -44,23 +44,28 @@ def plan(
 STREAM_SUFFIXES = (".bsm",)
 
 
+def files_in(folders: Sequence[str], read: Sequence[str] = MESH_SUFFIXES) -> list[tuple[str, Path]]:
+    """Return the files that are read in folders and subfolders, each after its folder."""
+    for folder in folders:
+        if pipes.is_url(folder) or not Path(folder).is_dir():
+            raise OptionError(f"{folder}: not a local folder; --recursive searches local folders")
+    every = ((folder, path) for folder in folders for path in sorted(Path(folder).rglob("*")))
+    found = [(folder, path) for folder, path in every if path.suffix.lower() in read and path.is_file()]
+    if not found:
+        what = "streams" if read == STREAM_SUFFIXES else "mesh files"
+        raise OptionError(f"no {what} in {', '.join(folders)} or subfolders ({', '.join(read)})")
+    return found
+
+
 def plan_trees(
     folders: Sequence[str], output: str | None, suffix: str, read: Sequence[str] = MESH_SUFFIXES
 ) -> list[Job]:
     """Return a job for each file that is read in folders and subfolders; `output` gets the same subfolders."""
     jobs = []
-    for folder in folders:
-        if pipes.is_url(folder) or not Path(folder).is_dir():
-            raise OptionError(f"{folder}: not a local folder; --recursive searches local folders")
-        for path in sorted(Path(folder).rglob("*")):
-            if path.suffix.lower() in read and path.is_file():
-                place = path if output is None else Path(output, path.relative_to(folder))
-                root = folder if output is None else output
-                jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix))), follow=root))
+    for folder, path in files_in(folders, read):
+        place = path if output is None else Path(output, path.relative_to(folder))
+        jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix))), follow=output or folder))
     jobs = apart(jobs, lambda _: suffix)
-    if not jobs:
-        what = "streams" if read == STREAM_SUFFIXES else "mesh files"
-        raise OptionError(f"no {what} in {', '.join(folders)} or subfolders ({', '.join(read)})")
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
     for parent in {Path(job.output).parent for job in jobs}:
         parent.mkdir(parents=True, exist_ok=True)

@@ -6,6 +6,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from bsm.jobs.task import Facts, Job, Task, Work
 
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
 _EVERY = 1.0  # seconds between two versions of a report, at least
+_SHOWN = 20  # rows of a table, if fewer failed
 _SHARE = 0.02  # largest share of the time for writing reports
 
 
@@ -86,6 +88,7 @@ _FIELDS: Mapping[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
     **dict.fromkeys(("seconds", "max_error_relative", "max_error", "kg"), lambda value: type(value) in (int, float)),
     **dict.fromkeys(("input", "output", "output_sha256", "unit"), lambda value: isinstance(value, str)),
+    "input_parts": lambda value: all(type(size) is int for size in value.values()),
     "error": lambda value: isinstance(value, str) and bool(value.strip()),
     "exit": lambda value: type(value) is int and 0 < value < 256,
 }
@@ -140,8 +143,11 @@ def digest_of(path: str) -> str | None:
 
 
 def totals(files: Sequence[Facts]) -> Facts:
-    done = [facts for facts in files if "output_sha256" in facts]
+    done = [facts for facts in files if facts.keys() - {"input", "output"} and "error" not in facts]
+    parts: dict[str, int] = dict(chain.from_iterable(facts.get("input_parts", {}).items() for facts in done))
+    again = sum(sum(facts.get("input_parts", {}).values()) for facts in done) - sum(parts.values())
     taken, given = (sum(facts.get(key) or 0 for facts in done) for key in ("input_bytes", "output_bytes"))
+    taken -= again  # a file beside several inputs counts once
     return {
         "files": len(files),
         "done": len(done),
@@ -171,21 +177,25 @@ def largest_error(files: Sequence[Facts]) -> str:
 
 
 def table(files: Sequence[Facts]) -> Iterator[str]:
-    """Bytes, ratio, error and time of each file, failures first; lines of text."""
-    rows = sorted(files, key=lambda facts: "error" not in facts)
+    """Bytes, ratio, error and time of files, failures first, then the largest errors; lines of text."""
+    rows = sorted(files, key=lambda facts: ("error" not in facts, -(facts.get("max_error_relative") or 0.0)))
+    rows = rows[: max(_SHOWN, sum("error" in facts for facts in rows))]
+    one = len({facts.get("unit") for facts in files if "max_error_relative" in facts}) == 1
     width = max([len(facts["input"]) for facts in rows] + [5])
     yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
     for facts in rows:
-        yield f"{facts['input']:{width}} {_cells(facts)}"
+        yield f"{facts['input']:{width}} {_cells(facts, one)}"
+    if left := len(files) - len(rows):
+        yield f"and {left} more, with smaller errors, in the report"
 
 
-def _cells(facts: Facts) -> str:
+def _cells(facts: Facts, one_unit: bool = True) -> str:
     if "error" in facts:
         return f"failed: {facts['error'].splitlines()[-1].removeprefix(facts['input'] + ': ')}"
     taken, given, farthest, kg = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative", "kg"))
     sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
     ratio = f"{taken / given:.2f}" if taken and given else ""
-    length = f"{facts['max_error']:.3g} {facts['unit']}" if facts.get("unit") else ""
+    length = f"{facts['max_error']:.3g} {facts['unit']}" if facts.get("unit") and one_unit else ""
     share = f"{100 * farthest:.3g} %" if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
     error = length or share
     seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"

@@ -15,7 +15,7 @@ from bsm.console import Console, print_json
 from bsm.exits import exit_of, report_error, worded
 from bsm.files import pipes
 from bsm.files.output import refuse_collisions, refuse_to_overwrite
-from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, largest_error, options_of, read_report, recorded, table
+from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table, totals
 from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
 from bsm.lengths import UnitError
 
@@ -65,9 +65,11 @@ def run_jobs(
 
     done = run_many(run, asked, console, work, jobs, ended)
     good = [facts for facts in done if "error" not in facts]
-    taken, given = (sum(facts.get(key) or 0 for facts in good) for key in ("input_bytes", "output_bytes"))
-    sizes = f", {came_to(taken, given)}" if taken and given else ""
-    sizes += f", largest error {worst}" if (worst := largest_error(good)) else ""
+    summed = totals(good)
+    sizes = (
+        f", {came_to(taken, given)}" if (taken := summed["input_bytes"]) and (given := summed["output_bytes"]) else ""
+    )
+    sizes += f", largest error {worst}" if (worst := summed["largest_error"]) else ""
     if asked_once > 1:
         console.note(f"{asked_once} files in all have no unit")
     for line in table(done) if run.report is not None else ():

@@ -19,7 +19,7 @@ from typing import Any
 
 from bsm.bitstream.errors import DependencyError, imported
 from bsm.exits import exit_of
-from bsm.files.output import Terminated, termination_as_exception
+from bsm.files.output import Terminated, handled, termination_as_exception
 from bsm.jobs.task import Outcome, Outcomes, Task, Tasks, Work, far_outcome
 
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
@@ -62,7 +62,7 @@ def _until_one_dies(work: Work, tasks: Tasks, pools: Pools) -> Generator[tuple[i
                 while whole and len(futures) < AHEAD * processes() and (given := next(tasks, None)):
                     number, task = given
                     handed[number] = task
-                    with _interrupts_ignored():
+                    with handled((signal.SIGINT,), signal.SIG_IGN):  # by processes that start here
                         futures[pool.submit(_task, work, task)] = number
             except BrokenProcessPool:
                 whole = False
@@ -133,19 +133,6 @@ def _end_with_parent() -> None:
         os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
-
-
-@contextmanager
-def _interrupts_ignored() -> Iterator[None]:
-    """Make processes that are started here ignore Ctrl-C from their first moment on."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _task(work: Work, task: Task) -> Outcome:

@@ -281,7 +281,7 @@ def given_at(path: str) -> Given:
     if PurePath(path).suffix.lower() == ".bsm":
         decode_whole(iter([data]))  # says what is wrong with it
     found = read_mesh(path)
-    return Given(path, found, size_with_parts(path, found.mesh.metadata))
+    return Given(path, found, size_with_parts(path, found.mesh.metadata)[0])
 
 
 def given_in(name: str, data: bytes) -> Given:

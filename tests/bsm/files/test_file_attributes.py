@@ -434,7 +434,8 @@ def test_images_that_are_found_count_as_input_by_whatever_name(tmp_path, name):
     (tmp_path / "red.png").write_bytes(png())
     metadata = read_mesh(tmp_path / "a.obj").mesh.metadata
     assert metadata["image.0.data"] == png()
-    taken = size_with_parts(str(tmp_path / "a.obj"), metadata)
+    taken, parts = size_with_parts(str(tmp_path / "a.obj"), metadata)
+    assert {path.rpartition("/")[2] for path in parts} == {"a.mtl", "red.png"}
     assert taken == sum((tmp_path / part).stat().st_size for part in ("a.obj", "a.mtl", "red.png"))
 
 
