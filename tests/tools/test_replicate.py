@@ -391,6 +391,14 @@ def test_numbers_of_the_documents_are_those_that_were_measured():
         assert quotes.with_passages(document, text) == text, f"{document}: run python -m tools.replicate --docs"
 
 
+def test_every_commit_of_the_measured_page_is_in_the_repository():
+    if not stages.git("rev-parse", "HEAD"):
+        pytest.skip("this is not a checkout")
+    commits = {*re.findall(r"Commit\s+([0-9a-z-]+)", report.PAGE.read_text(encoding="utf-8"))}
+    assert commits
+    report.require_commits({"page": [{"run": {"commit": commit}} for commit in commits]})
+
+
 def test_numbers_in_decibels_stand_only_in_what_is_measured():
     for document in ("codec/PAPER.md", "docs/how-it-works.md"):
         text = (quotes.ROOT / document).read_text(encoding="utf-8")
