@@ -284,8 +284,7 @@ class Encoder:
 
     def _at_step(self, target: Target, near: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
-        finest = smallest_step(self._input.prepared.size)
-        first = self._spectral.first_step
+        first, finest = self._spectral.first_step, smallest_step(self._input.prepared.size)
         return search_step(lambda step: self.attempt(step, near.within()), target, first, finest)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:

@@ -210,9 +210,7 @@ class EncodeOptions:
             self.target._require_kind(TARGETS, "a mesh")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
         if self.paper.bits is not None and self.paper.doi is None and self.target is not None:
-            raise OptionError(
-                "with a fixed number of bits, a target is reached by doi; it excludes keep and coefficients"
-            )
+            raise OptionError("with bits, a target is reached by doi; it excludes keep and coefficients")
         if self.exact and (self.grid is not None or self.grid_cell is not None or self.effort == "quick"):
             raise OptionError("exact, grid and effort quick exclude each other")
         if self.grid is not None and self.grid_cell is not None:

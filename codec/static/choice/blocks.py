@@ -191,12 +191,13 @@ class Spectral:
     def _width(self, step: float) -> int:
         """c: the option's value, or as many coefficients as are worth coding at this step."""
         options, size = self._options, self._prepared.size
+        most = size if options.paper.doi is None else self._widest
         if options.coefficients is not None:
-            return min(options.coefficients, size)
+            return min(options.coefficients, most)
         if options.keep is not None:
-            return min(max(1, round(options.keep * size)), size)
+            return min(max(1, round(options.keep * size)), most)
         if options.paper.doi is not None:
-            return min(size, self._widest)
+            return most
         if options.paper.bits is not None:
             return max(1, round(PAPER_FRACTION * size))
         return self._prepared.spectrum(options.paper.shift).worthwhile_size(step, self._widest)
