@@ -275,6 +275,17 @@ def public_functions():
                 yield f"{name}.{owner}", function
 
 
+def test_each_page_of_the_site_is_linked_from_another():
+    pages = [path for folder in (ROOT / "docs", ROOT / "docs" / "guides") for path in sorted(folder.glob("*.md"))]
+    links = {
+        (page.parent / link).resolve()
+        for page in pages
+        for link in re.findall(r"\]\(([\w./-]+\.md)(?:#[\w-]+)?\)", page.read_text("utf-8"))
+        if (page.parent / link).resolve() != page.resolve()
+    }
+    assert not [str(page) for page in pages if page.resolve() not in links and page.name != "index.md"]
+
+
 def test_docstrings_of_public_arrays_name_shapes():
     """One cannot call what takes an array without knowing how many rows and columns it has."""
     found = {name: it for name, it in public_functions() if ARRAYS.search(str(it.__annotations__))}

@@ -190,7 +190,7 @@ def test_a_dry_run_reports_and_writes_nothing(tmp_path, capsys):
         (("--effort", "bst"), 2, "unknown value bst; did you mean best?"),
         (("--set", "partition=mtis"), 2, "unknown value 'mtis' of partition; did you mean metis?"),
         (("--preset", "fin"), 2, "did you mean fine?"),
-        (("--size", "280"), 10, "preset none reaches it with look "),
+        (("--size", "260"), 10, "preset none reaches it with look "),
     ],
 )
 def test_errors_name_the_way_out(tmp_path, capsys, words, code, advice):

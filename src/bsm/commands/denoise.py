@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
+        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, USD, folder, pattern",
         "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
         "encoded near-lossless",
     )

@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--format", "FORMAT", known, choices=formats)
     add("--untrusted", "", "read files from strangers: in a process of its own, which ends at 1 GiB or 10 s (Linux)")
     add("--dry-run", "", "encode, check and report, but write no file")
-    fewer = "try a half, a quarter, ... of the triangles, and keep the smallest file that keeps the promise to the "
+    fewer = "try fewer triangles in steps of 16 %%, and keep the smallest file that keeps the promise to the "
     fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"
     add("--simplify", "", fewer)
     add("--images", "RULE", f"keep (default), none, or {IMAGES}")
