@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import bsm
 from bsm.cli import main
 from bsm.files.mesh import read_mesh
 from bsm.files.sequence import open_sequence
@@ -39,8 +40,8 @@ def materials_of(source):
 
 
 EXPECTED = {
-    "Red": {"baseColorFactor": "0.8 0.1 0.05 1", "metallicFactor": "1", "roughnessFactor": "0.5"},
-    "Painted": {"metallicFactor": "0", "roughnessFactor": "0.25"},
+    "Red": {"baseColorFactor": "0.8 0.1 0.05 1", "metallicFactor": "1", "roughnessFactor": "0.5", "doubleSided": 1},
+    "Painted": {"metallicFactor": "0", "roughnessFactor": "0.25", "doubleSided": 1},
 }
 
 
@@ -120,3 +121,75 @@ def test_one_material_needs_no_subsets(tmp_path):
     assert found.metadata["material.0.baseColorFactor"] == "1 1 0.5 0.25"
     assert "material.0.emissiveFactor" not in found.metadata
     assert not any(attribute.name == "material" for attribute in found.attributes)
+
+
+STAGE = """#usda 1.0
+def Mesh "G" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+    point3f[] points = [(0,0,0),(1,0,0),(0,1,0)]
+    int[] faceVertexCounts = [3]
+    int[] faceVertexIndices = [0,1,2]
+    texCoord2f[] primvars:map1 = [(0,0),(1,0),(0,1)] (interpolation = "vertex")
+    texCoord2f[] primvars:map2 = [(0,0),(1,0),(0,1)] (interpolation = "vertex")
+    rel material:binding = </M>
+}
+def Material "M" {
+    color3f inputs:tint = (0, 1, 0)
+    token outputs:surface.connect = </M/S.outputs:surface>
+    def Shader "S" { uniform token info:id = "UsdPreviewSurface"
+        %s
+        token outputs:surface
+    }
+    def Shader "T" { uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @in/W.png@
+        float2 inputs:st.connect = </M/X.outputs:result>
+        float4 inputs:bias = (0.1, 0, 0, 0)
+        float outputs:g
+        float outputs:b
+        float3 outputs:rgb
+    }
+    def Shader "X" { uniform token info:id = "UsdTransform2d"
+        float2 inputs:in.connect = </M/R.outputs:result>
+        float2 inputs:scale = (2, 3)
+        float2 outputs:result
+    }
+    def Shader "R" { uniform token info:id = "UsdPrimvarReader_float2"
+        string inputs:varname = "map2"
+        float2 outputs:result
+    }
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words", "left"),
+    [
+        ("", {"baseColorFactor": "0.18 0.18 0.18 1"}, ["shader UsdTransform2d"]),
+        ("color3f inputs:diffuseColor.connect = </M.inputs:tint>", {"baseColorFactor": "0 1 0 1"}, []),
+        ("float inputs:ior = 1.3", {}, ["ior of UsdPreviewSurface"]),
+        (
+            "color3f inputs:emissiveColor.connect = </M/T.outputs:rgb>",
+            {"emissiveFactor": "1 1 1", "emissiveTexture": 0},
+            ["bias of UsdUVTexture", "varname of UsdPrimvarReader_float2"],
+        ),
+        (
+            "float inputs:roughness.connect = </M/T.outputs:g>\nfloat inputs:metallic.connect = </M/T.outputs:b>",
+            {},
+            ["texture of metallic", "texture of roughness"],
+        ),
+    ],
+)
+def test_defaults_and_inputs_of_surfaces(inputs, words, left, tmp_path):
+    """Defaults are values, interfaces are followed, and each input without a place in a mesh is named."""
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "W.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    (tmp_path / "a.usda").write_text(STAGE % inputs)
+    read = read_mesh(tmp_path / "a.usda")
+    found = {key.removeprefix("material.0."): value for key, value in read.mesh.metadata.items()}
+    assert words.items() <= found.items() and all(name in read.dropped for name in left)
+    assert {"metallicFactor": "0", "roughnessFactor": "0.5", **words}.items() <= found.items()
+
+
+def test_a_broken_stage_is_told_with_its_line(tmp_path):
+    (tmp_path / "a.usda").write_text('#usda 1.0\ndef Mesh "a" {\n this is broken\n}\n')
+    with pytest.raises(bsm.FormatError, match=r"a\.usda:3"):
+        read_mesh(tmp_path / "a.usda")

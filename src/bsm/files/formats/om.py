@@ -1,9 +1,5 @@
 """OpenMesh: its meshes in memory (the extra `openmesh`)."""
 
-import os
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -50,8 +46,7 @@ def made_of(mesh: TriangleMesh) -> tuple[Any, tuple[str, ...]]:
     """An `openmesh.TriMesh`, with vertices split where corners differ, and the names of its losses."""
     openmesh = import_openmesh("such meshes are made")
     mesh = split_by_attributes(mesh)
-    with _quiet():
-        made = openmesh.TriMesh(mesh.positions, mesh.faces)
+    made = openmesh.TriMesh(mesh.positions, mesh.faces)
     if made.n_faces() != len(mesh.faces):
         lost = len(mesh.faces) - made.n_faces()
         raise MeshError(
@@ -73,21 +68,3 @@ def made_of(mesh: TriangleMesh) -> tuple[Any, tuple[str, ...]]:
         made.request_vertex_texcoords2D()
         made.vertex_texcoords2D()[:] = texcoord.values[:, :2]
     return made, left_out(mesh, (normal, color, texcoord, of_faces), mesh.metadata)
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Keep openmesh, which prints a line for each edge that it refuses, from writing to the terminal."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    saved = {number: os.dup(number) for number in (1, 2)}
-    sink = os.open(os.devnull, os.O_WRONLY)
-    try:
-        for number in saved:
-            os.dup2(sink, number)
-        yield
-    finally:
-        for number, copy in saved.items():
-            os.dup2(copy, number)
-            os.close(copy)
-        os.close(sink)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -29,6 +30,7 @@ from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between,
 from bsm.files.room import Doubles, Ints, as_format_error, as_library_error, require_count, single_suffices
 from bsm.lengths import metres
 
+_COORDINATES = "st"  # what texture coordinates are called
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
 _INPUTS = {
     "diffuseColor": ("Color3f", "baseColorFactor", "baseColorTexture"),
@@ -41,8 +43,11 @@ _INPUTS = {
 }
 """The kind of an input of a surface, and what glTF calls its number and its texture."""
 _USUAL = {"diffuseColor": [1.0] * 4, "emissiveColor": [0.0] * 3}
+_DEFAULTS = {"diffuseColor": [0.18] * 3, "metallic": [0.0], "roughness": [0.5]}
+_READ = {_SURFACE: (*_INPUTS, "opacity"), _TEXTURE: ("file", "st", "scale", "sourceColorSpace"), _READER: ("fallback",)}
+_AS_USUAL = ("repeat", "useMetadata", "(-1, -1, -1, 0)", "(0, 0, 0, 0)", _COORDINATES, "UVMap")
+"""The inputs that are read, of each kind of shader, and values that change nothing in others."""
 _NO_TIME = float("nan")  # as usd-core has it
-_COORDINATES = "st"  # what texture coordinates are called
 _MOST_SETS = 1 << 12  # of the faces of parts: each is a prim
 
 
@@ -56,21 +61,25 @@ class Materials:
         self._shade, self._geom, self._path = pxr.UsdShade, pxr.UsdGeom, path
         self._known: dict[tuple[tuple[str, str | int | float], ...], int] = {}
         self._images: dict[str, int] = {}
+        self._set, self.left = "", dict[str, None]()
 
     def of_faces(self, prim: Any, faces: int, time: Any) -> tuple[Ints, list[tuple[str, Ints]]]:
         """Return the number of each face's material, one for all without; and the sets of faces without a material."""
         numbers, sets = np.full(faces, -1, np.int64), list[tuple[str, Ints]]()
+        given = self._geom.PrimvarsAPI(prim).FindPrimvarsWithInheritance()
+        self._set = next((p.GetPrimvarName() for p in given if str(p.GetTypeName()).startswith("texCoord2")), "")
+        double = bool(self._geom.Mesh(prim).GetDoubleSidedAttr().Get())
         for subset in self._geom.Subset.GetAllGeomSubsets(self._geom.Imageable(prim)):
             if subset.GetElementTypeAttr().Get() != self._geom.Tokens.face:
                 continue
             places = np.array(subset.GetIndicesAttr().Get(time) or [], np.int64)
             places = places[(places >= 0) & (places < faces)]
             if self._bound(subset.GetPrim()):
-                numbers[places] = self._number(subset.GetPrim())
+                numbers[places] = self._number(subset.GetPrim(), double)
             else:
                 sets.append((str(subset.GetPrim().GetDisplayName() or subset.GetPrim().GetName()), places))
         if (numbers < 0).any():
-            numbers[numbers < 0] = self._number(prim)
+            numbers[numbers < 0] = self._number(prim, double)
         return numbers, sets
 
     def metadata(self, limits: Limits) -> tuple[dict[str, formats.Value], list[str]]:
@@ -85,31 +94,38 @@ class Materials:
     def _bound(self, prim: Any) -> Any:
         return self._shade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
 
-    def _number(self, prim: Any) -> int:
+    def _number(self, prim: Any, double: bool) -> int:
         material = self._bound(prim)
-        words = self._words(material) if material else {}
+        words = (self._words(material) if material else {}) | ({"doubleSided": 1} if double else {})
         return self._known.setdefault(tuple(words.items()), len(self._known))
 
     def _words(self, material: Any) -> formats.Material:
         words: formats.Material = {"name": str(material.GetPrim().GetName())}
         surface = material.ComputeSurfaceSource()[0]
+        for shader in map(self._shade.Shader, filter(self._shade.Shader, material.GetPrim().GetAllChildren())):
+            kind = str(shader.GetIdAttr().Get())
+            inputs = {str(given.GetBaseName()): str(given.Get()) for given in shader.GetInputs()}
+            read, same = _READ.get(kind, ()), (*_AS_USUAL, self._set)
+            names = [f"{name} of {kind}" for name, value in inputs.items() if name not in read and value not in same]
+            self.left |= dict.fromkeys(names if kind in _READ else [f"shader {kind}"])
         if not surface or surface.GetIdAttr().Get() != _SURFACE:
             return words
         sizes = {name: 3 if kind == "Color3f" else 1 for name, (kind, _, _) in _INPUTS.items()}
-        values = {name: self._value(surface, name, size) for name, size in sizes.items()}
+        values = {name: self._value(surface, name, size) or _DEFAULTS.get(name) for name, size in sizes.items()}
+        self.left |= {f"texture of {name}": None for name in ("metallic", "roughness") if self._texture(surface, name)}
         for name, (_, _, painted) in _INPUTS.items():
             texture = self._texture(surface, name) if painted else None
             if texture is None:
                 continue
             image = texture.GetInput("file").Get() if texture.GetInput("file") else None
             if image is not None and image.path:
-                words[painted] = self._images.setdefault(str(image.path), len(self._images))
-            if name == "diffuseColor":
+                inside, folder = str(image.resolvedPath).rpartition("["), Path(self._path).resolve().parent
+                path = inside[2].rstrip("]") if inside[1] else os.path.relpath(inside[2] or folder / image.path, folder)
+                words[painted] = self._images.setdefault(path, len(self._images))
+            if name in ("diffuseColor", "emissiveColor"):
                 values[name] = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
         usual = (("opacity", 1.0), ("opacityThreshold", 0.0))
         opacity, cut = (self._value(surface, name, 1) or [value] for name, value in usual)
-        if opacity != [1.0] and values["diffuseColor"] is None:
-            values["diffuseColor"] = [0.18] * 3  # as UsdPreviewSurface has it
         if color := values["diffuseColor"]:
             color += opacity
         if cut[0] > 0 or opacity[0] < 1 or self._texture(surface, "opacity") is not None:
@@ -120,15 +136,16 @@ class Materials:
     def _texture(self, shader: Any, name: str) -> Any:
         """The texture that an input takes its value from, if it takes it from one."""
         given = shader.GetInput(name)
-        if not given or not given.HasConnectedSource():
+        if not given or not given.HasConnectedSource() or not (sources := given.GetValueProducingAttributes()):
             return None
-        source = self._shade.Shader(given.GetConnectedSources()[0][0].source.GetPrim())
+        source = self._shade.Shader(sources[0].GetPrim())
         return source if source and source.GetIdAttr().Get() == _TEXTURE else None
 
     @staticmethod
     def _value(shader: Any, name: str, width: int) -> list[float] | None:
         given = shader.GetInput(name)
-        value = given.Get() if given else None
+        sources = given.GetValueProducingAttributes() if given else []
+        value = sources[0].Get() if sources else None
         numbers = np.array([] if value is None else value, np.float64).reshape(-1)
         return numbers.tolist() if len(numbers) == width and np.isfinite(numbers).all() else None
 
@@ -160,6 +177,9 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
             Path(str(folder), files[number]).write_bytes(data)
     written = {f"image.{number}.{what}" for number in files for what in ("name", "data")}
     bound: dict[int, Any] = {}
+    if words and all(known.get("doubleSided") for known in words.values()):
+        mesh.CreateDoubleSidedAttr(True)
+        written |= {f"material.{number}.doubleSided" for number in words}
     for number, known in words.items():
         name = pxr.Tf.MakeValidIdentifier(str(known.get("name") or f"material_{number}"))
         place = mesh.GetPath().AppendChild(name)
@@ -226,11 +246,12 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
     written.add("alphaMode")
     if factor is not None and factor[3] < 1.0 and mode != "OPAQUE":
         surface.CreateInput("opacity", types.Float).Set(factor[3])
+    words = {"metallicFactor": 1.0, "roughnessFactor": 1.0, **words}  # which are others where nothing is said
     if mode == "MASK" and "alphaCutoff" not in words:
         surface.CreateInput("opacityThreshold", types.Float).Set(0.5)
     for name, (kind, known, painted) in _INPUTS.items():
-        value: Any = words.get(known)
         image = images.get(words.get(painted, -1))
+        value: Any = words.get(known, [1.0] * 3 if name == "diffuseColor" and image is None else None)
         if value is None and image is None:
             continue
         given = surface.CreateInput(name, getattr(types, kind))
@@ -494,7 +515,11 @@ class _Stage:
         self._limits, self._size, self._runs = limits, os.path.getsize(path), runs
         self.pxr = pxr = import_usd()
         with as_library_error("usd-core"), _quiet(pxr):
-            self.stage = pxr.Usd.Stage.Open(path)
+            try:
+                self.stage = pxr.Usd.Stage.Open(path)
+            except pxr.Tf.ErrorException as error:  # which names its own source before the place in the file
+                said = re.findall(r" : '(.*?)'(?=\s*(?:Error in|$))", " ".join(str(error).split()))
+                raise FormatError(f"usd-core cannot read this file: {' '.join(said)[:300]}") from error
         if not all(layer.timeCodesPerSecond > 0 for layer in self.stage.GetUsedLayers()):  # usd-core would not end
             raise FormatError("timeCodesPerSecond of this stage, or of a layer of it, is not above 0")
         if any(prim.IsA(pxr.UsdSkel.Root) for prim in self.stage.Traverse()):
@@ -634,7 +659,7 @@ class _Stage:
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits)
         metadata = {"up": up, "unit": conventions.unit_named(unit), **named, **found.metadata, **of_materials}
-        left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out)
+        left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out) | materials.left
         notes = [*found.notes, *absent, *self.notes]
         if frozen := dict.fromkeys(name for part in self.parts for name in part.shape.frozen):
             notes.append(f"{', '.join(frozen)}: as the first frame has them, for they are not values of vertices")
