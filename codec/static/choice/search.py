@@ -20,7 +20,6 @@ from bsm.codec.static.targets import ANY_ANGLE, SLACK, STEEPEST, TRIES, Contract
 from bsm.codec.static.ways.grid import FIRST, SAMPLE
 from bsm.codec.threads import Crew, threads_of
 
-REFINED = 3  # rounds of spending the bytes that congruent parts save
 RUNGS = 6  # an octave: steps of grids, the same for all promises, as some make more parts congruent by chance
 SHAPED = 0.85  # bytes of a grid whose places are chosen over those of a rounded one: hardly ever less
 ALIKE = 1.02  # bytes over the least, within which normals choose where a visual error is bounded
@@ -151,37 +150,38 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             point = rounded(self._prepared, 1)
             return point if self._size(point) <= most_bytes else None
-        bounds, found, saved = Bounds(self._measures, contract), list[tuple[float, Draft]](), 0.0
-        for _ in range(REFINED):
-            plain = self._best(bounds, most_bytes, saved)
-            if plain is None:
-                break
-            if self._size(plain.congruent) <= most_bytes:
-                found.append((bounds.quality(plain), plain.congruent))
-            saved = self._size(plain.draft) - self._size(plain.congruent)
-            if saved < LEAST_SAVED * most_bytes:
-                break
-        return paying(self._prepared, min(found, key=itemgetter(0))[1]) if found else None
-
-    def _best(self, bounds: Bounds, most_bytes: float, saved: float) -> Candidate | None:
-        """The best candidate that takes at most `most_bytes`, a grid `saved` more, without congruent parts."""
-        grid = Gridded(self._prepared, bounds)
-        found = [made for made in grid.made() if self._size(made.draft) <= most_bytes + saved]
-        grid = grid.in_frame()
+        kept, near = Bounds(self._measures, contract), Bounds(self._measures, replace(contract, look=1.0))
+        first = (usual := Gridded(self._prepared, near)).at(usual.first)
+        parts, size = first.congruent.header.transforms, self._size(first.congruent)
+        # A step twice as wide, which looks about twice as far off, saves three bits of a vertex.
+        octaves = min(max(8.0 * (size - most_bytes) / (3.0 * self._prepared.graph.size), -12.0), 6.0)
+        bounds = Bounds(self._measures, replace(contract, look=2.0**octaves))
+        grid = Gridded(self._prepared, bounds).in_frame()
+        grid.transforms = parts if size < (1.0 - LEAST_SAVED) * self._size(first.draft) else -1
+        found = [*grid.made()]
         for way in self._ways(bounds, grid, Refined(self._prepared, self._options, bounds)):
-            fitting: dict[float, Candidate] = {}
+            found += self._fitting(way, most_bytes, tickets=RUNGS if way is grid and parts else 0)
+        drafts = (candidate.congruent for candidate in sorted(filter(kept.keeps, found), key=kept.quality))
+        draft = next((draft for draft in drafts if self._size(draft) <= most_bytes), None)
+        return None if draft is None else paying(self._prepared, draft)
 
-            def excess(fineness: float, way: Way = way, fitting: dict[float, Candidate] = fitting) -> float:
-                candidate = way.at(1.0 / fineness)
-                over = math.log(self._size(candidate.draft) / (most_bytes + saved * isinstance(way, Gridded)))
-                if over <= 0.0:
-                    fitting[fineness] = candidate
-                return over
+    def _fitting(self, way: Way, most_bytes: float, tickets: int) -> list[Candidate]:
+        """The finest candidate of at most so many bytes that was found; and some near it, which may look better."""
+        repeats, fitting = isinstance(way, Gridded) and way.transforms >= 0, dict[float, Candidate]()
 
-            with suppress(LimitError):
-                secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
-            found += [fitting[finest] for finest in sorted(fitting)[-1:]]
-        return min(filter(bounds.keeps, found), key=bounds.quality, default=None)
+        def excess(fineness: float) -> float:
+            candidate = way.at(1.0 / fineness)
+            over = math.log(self._size(candidate.congruent if repeats else candidate.draft) / most_bytes)
+            if over <= 0.0:
+                fitting[fineness] = candidate
+            return over
+
+        with suppress(LimitError):  # blocks that decoders would refuse
+            secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
+            finest = max(fitting, default=0.0)
+            for aside in range(-tickets // 3, tickets) if finest else ():
+                excess(finest * 2.0 ** (-(aside + 0.5) / (4.0 * RUNGS)))
+        return list(fitting.values()) if tickets else [fitting[finest] for finest in sorted(fitting)[-1:]]
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
+from bsm import PRESETS, look
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -98,6 +99,14 @@ def test_a_size_is_spent_on_what_congruent_parts_save():
     less, more = (Encoder(mesh, replace(target, congruence=both)).result() for both in (False, True))
     assert more.size <= 2200 and more.header.congruence > 0
     assert more.comparison.theta_deg < 0.9 * less.comparison.theta_deg
+
+
+@pytest.mark.parametrize("mesh", [copies(bumpy(6), mirrors()[:1]), bumpy(9, 40, 24)], ids=["two", "one"])
+def test_the_best_stream_of_a_size_looks_as_good_as_the_promise_of_that_size(mesh):
+    usual = encode(mesh)
+    best = encode(mesh, replace(PRESETS["none"], target=Target("size", float(len(usual)))))
+    assert len(best) <= len(usual)
+    assert look(mesh, decode(best)).distance <= 1.2 * look(mesh, decode(usual)).distance
 
 
 def test_the_search_finds_a_turn():
