@@ -1,8 +1,10 @@
 """What a file says comes back, or a note names what does not: names, groups, polygons, headers, and other libraries."""
 
 import gzip
+import io
 import struct
 import warnings
+import zipfile
 
 import numpy as np
 import pytest
@@ -870,3 +872,21 @@ def test_formats_of_other_libraries_do_not_leak_in(kind, tmp_path):
     (tmp_path / f"a.{kind}").write_text("1 2 3\n")
     with pytest.raises(FormatError, match=f"{kind} is not a mesh format"):
         read_mesh(tmp_path / f"a.{kind}")
+
+
+def test_paint_sets_and_part_numbers_of_3mf_are_named():
+    pytest.importorskip("lib3mf")
+    sets = (
+        "<t:trianglesets><t:triangleset name='Top' identifier='t'><t:ref index='0'/></t:triangleset></t:trianglesets>"
+    )
+    core = "http://schemas.microsoft.com/3dmanufacturing"
+    archive = zipfile.ZipFile(io.BytesIO(three_mf("", "<item objectid='1'/>")))
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as other:
+        for name in archive.namelist():
+            text = archive.read(name).decode()
+            text = text.replace("<object ", "<object partnumber='P-7' ").replace("</triangles>", f"</triangles>{sets}")
+            text = text.replace("<model ", f"<model xmlns:t='{core}/trianglesets/2021/07' ")
+            other.writestr(name, text.replace("<triangle ", "<triangle paint_color='4' "))
+    dropped = read_mesh(packed.getvalue(), "3mf").dropped
+    assert {"part numbers", "sets of triangles", "paint_color of triangles"} <= {*dropped}

@@ -2,7 +2,10 @@
 written as one object with the colors of its materials."""
 
 import ctypes
+import io
 import math
+import re
+import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Literal
@@ -16,7 +19,7 @@ from bsm.files import conventions
 from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
-from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_library_error, single_suffices
+from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.lengths import metres
 
 _UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
@@ -24,6 +27,7 @@ _SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of these in meters
 _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")
 _OTHERS = {"Composite": "composite materials", "Multi": "layers of materials"}
 _UUID, _MOST_WARNINGS = 32944, 4  # a warning of each file by most slicers; warnings that notes name
+_OWN = re.compile(rb"<(?:\w+:)?triangle\b[^<>]*?\s((?!v[123]\b|p[123]\b|pid\b)[\w:]+)\s*=")  # attributes of slicers
 _ELSE = "write PLY, OBJ or OFF"
 _Painted = Literal["color", "texcoord"]
 
@@ -35,7 +39,11 @@ def read_3mf(data: bytes, limits: Limits) -> Polygons:
     given = ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8))
     with as_library_error("lib3mf", "this 3MF file"):
         _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), given)
-        return _Model(library, model, limits).joined(reader, len(data))
+        found = _Model(library, model, limits).joined(reader, len(data))
+    with as_format_error("3MF"), zipfile.ZipFile(io.BytesIO(data)) as package:
+        models = (package.read(name) for name in package.namelist() if name.lower().endswith(".model"))
+        own = dict.fromkeys(name.decode(errors="replace") for model in models for name in _OWN.findall(model))
+    return replace(found, dropped=(*found.dropped, *(f"{name} of triangles" for name in own)))
 
 
 def _call(owner: Any, name: str, *arguments: Any) -> None:
@@ -116,10 +124,9 @@ class _Model:
             item, kinds = self._objects[number], self._library
             points = _table(item, "meshobject_getvertices", kinds.Position)["Coordinates"].astype(np.float64)
             corners = _table(item, "meshobject_gettriangleindices", kinds.Triangle)["Indices"].astype(np.int64)
-            if item.BeamLattice().GetBeamCount():
-                self._left["beams"] = None
-            if item.HasSlices(False):
-                self._left["slices"] = None
+            held = {"beams": item.BeamLattice().GetBeamCount(), "slices": item.HasSlices(False)}
+            held |= {"part numbers": item.GetPartNumber(), "sets of triangles": item.GetTriangleSetCount()}
+            self._left |= {name: None for name, there in held.items() if there}
             if (use := item.GetType().name) not in ("Model", "Other"):
                 self._left[f"the object type {use}"] = None
             columns, materials = self._painted(item, len(corners))
