@@ -331,9 +331,20 @@ INLINE void learn_errors(const Work *w, int32_t value) {
     if (*count < SCALE_LIMIT) *count += 1;
 }
 
+/* The slots of the contexts of a value, which are filled when they are first used. */
+INLINE void begin_contexts(const ValueModel *model, const Expectation *e) {
+    for (int i = 0; i < e->contexts; i++) {
+        int32_t row = i * CONTEXT_SIZE + e->context[i];
+        for (int node = 0; !model->begun[row] && node < VALUE_NODES; node++)
+            model->slots.data[row * VALUE_NODES + node] = 1u << 31;
+        model->begun[row] = 1;
+    }
+}
+
 OFTEN int32_t ISA(code_value)(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value) {
     Work w;
     w.coder = coder, w.model = model, w.e = e;
+    begin_contexts(model, e);
     int32_t typical = find_scales(&w), asked[MOST_ASKS];
     int asks;
     if (!ask(&w, &value, asked, &asks)) {

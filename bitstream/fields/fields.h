@@ -74,6 +74,7 @@ static const int TWIN_AT[TWIN_PREDICTIONS] = {3, 5, 1, 2};
 
 typedef struct {
     Words slots;   /* CONTEXTS x CONTEXT_SIZE x VALUE_NODES */
+    uint8_t *begun; /* whether each of these contexts has its first slots: few do in a small mesh */
     Words hits;    /* HIT_CONTEXTS x MODEL_ROW: how often a prediction is exact */
     Ints2 weights; /* VALUE_NODES + WEIGHT_SETS * KINDS rows of WEIGHT_ROW, VALUE_INPUTS of which are used */
     Ints2 scales;  /* SCALE_CONTEXTS rows of MODEL_ROW: mean sizes of errors in 1/4096, and how many were seen */

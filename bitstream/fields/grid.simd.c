@@ -32,11 +32,7 @@ typedef struct { /* what is known of a vertex before its axes */
 /* Learn from a value, all weights or, with twins, one in turn. */
 INLINE int32_t take_all(Forecast *f, int32_t error, Twins *t) {
     int32_t gap = error - f->shift;
-    if (!t) {
-        learn_wide(f->guess, TERMS, f->term, error, f->typical);
-        learn_wide(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical);
-        return gap;
-    }
+    if (!t) return take(f, error);
     learn_wide_in_turn(f->guess, TERMS, f->term, error, f->typical, t->values % TERMS);
     learn_wide_in_turn(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical, t->values % HINTS);
     t->values++;

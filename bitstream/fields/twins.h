@@ -9,6 +9,7 @@ enum {
     TRANSFORM_ROW = 8, /* numbers of a transform: its kind, the largest component, three others, a shift */
     AXIS_KINDS = 48,
     MOST_CANDIDATES = 12,
+    ECHOES = 4, /* of a vertex, at most */
     MOST_ECHOES = 1 << 13, /* flaps that are remembered, a power of two */
     ECHO_HEADS = 1 << 14,
     ECHO_VISITS = 4, /* of one chain */

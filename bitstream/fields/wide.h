@@ -23,26 +23,12 @@ INLINE void take_sample_wide(Learner *l, int terms, const int32_t *term, int32_t
     fade_and_add(l->product, all * target >> down);
 }
 
-/* The same as `learn` and `learn_in_turn`. */
-INLINE void learn_wide(Learner *l, int terms, const int32_t *term, int32_t target, int32_t scale) {
-    take_sample_wide(l, terms, term, target, scale);
-    Terms unmet = terms_at(l->product) * ONE - RIDGE * (terms_at(l->weight) - terms_at(l->start));
-    for (int i = 0; i < terms; i++) unmet -= terms_at(l->square[i]) * l->weight[i];
-    int64_t left[LEARNER_ROW];
-    *(UnalignedTerms *)left = unmet;
-    for (int i = 0; i < terms; i++) { /* one by one: the next waits for each */
-        int64_t old = l->weight[i], better = old + left[i] / (l->square[i][i] + RIDGE);
-        l->weight[i] = within(better, -MOST_WEIGHT, MOST_WEIGHT);
-        for (int j = i + 1; j < terms; j++) left[j] -= l->square[i][j] * (l->weight[i] - old);
-    }
-}
-
+/* The same as `learn_in_turn`. */
 INLINE void learn_wide_in_turn(
     Learner *l, int terms, const int32_t *term, int32_t target, int32_t scale, int turn) {
     take_sample_wide(l, terms, term, target, scale);
     solve_for(l, terms, turn);
 }
 #else
-#define learn_wide learn
 #define learn_wide_in_turn learn_in_turn
 #endif

@@ -1,11 +1,7 @@
 /* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
 #include "bitstream/payloads/corners.h"
 
-enum {
-    MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES,
-    TWIN_SLOTS = (TWIN_CONTEXTS + 2) * CONTEXT_SIZE * VALUE_NODES,
-    UNLEARNED_HIT = 1 << 28, SLOT_WEIGHT = 6000,
-};
+enum { CONTEXT_ROWS = CONTEXTS * CONTEXT_SIZE, UNLEARNED_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
 
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
     int64_t size = 3 * faces.rows;
@@ -32,13 +28,12 @@ bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order) {
 }
 
 bool make_value_model(Arena *arena, ValueModel *model, bool of_twins) {
-    int64_t slots = of_twins ? TWIN_SLOTS : MODEL_SLOTS;
-    if (!take_words(arena, slots, &model->slots) || !take_words(arena, HIT_CONTEXTS * MODEL_ROW, &model->hits)
+    if (!take_words(arena, CONTEXT_ROWS * VALUE_NODES, &model->slots)
+        || !TAKE_ZEROS(arena, CONTEXT_ROWS, model->begun) || !take_words(arena, HIT_CONTEXTS * MODEL_ROW, &model->hits)
         || !zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, WEIGHT_ROW, &model->weights)
         || !zero_ints2(arena, SCALE_CONTEXTS, MODEL_ROW, &model->scales)
         || (of_twins && !zero_ints2(arena, TWIN_ROWS, TWIN_ROW, &model->twins)))
         return false;
-    for (int64_t i = 0; i < model->slots.size; i++) model->slots.data[i] = 1u << 31;
     for (int64_t i = 0; i < model->hits.size; i++) model->hits.data[i] = UNLEARNED_HIT;
     for (int row = 0; row < VALUE_NODES; row++) {
         int32_t *weight = model->weights.data + row * WEIGHT_ROW;

@@ -32,7 +32,7 @@ static bool charge_grid(Context *context, const Header *header) {
 static bool begin_twins(GridField *field, Arena *arena) {
     int64_t n = field->header->vertices, transforms = transforms_of(field->header), images = 2 * transforms;
     Twins *twins;
-    if (!TAKE_ZEROS(arena, 1, twins) || !TAKE(arena, MOST_ECHOES, twins->echo)
+    if (!TAKE_ZEROS(arena, 1, twins) || !TAKE(arena, least(MOST_ECHOES, ECHOES * n + 1), twins->echo)
         || !TAKE_ZEROS(arena, ECHO_HEADS, twins->echo_head)
         || !zero_ints2(arena, transforms, TRANSFORM_ROW, &field->transforms))
         return false;

@@ -24,7 +24,7 @@ README = """# bsmdec: decoder for BSM streams of triangle meshes and mesh sequen
 From the archive to a mesh:
 
     tar xf bsmdec-*.tar.gz
-    cc -O2 bsmdec-*/obj.c bsmdec-*/bsmdec.c -lm -o obj && ./obj mesh.bsm > mesh.obj
+    cc -O3 bsmdec-*/obj.c bsmdec-*/bsmdec.c -lm -o obj && ./obj mesh.bsm > mesh.obj
 
 `bsmdec.h` documents the whole interface. The library needs GCC or Clang and nothing else. To install it:
 
@@ -100,7 +100,7 @@ def _try_archive(inside: Path, stream: Path) -> None:
     made = inside.parent / "made"
     made.mkdir()
     prefix, build = made / "prefix", made / "build"
-    _run(["cc", "-O2", "obj.c", "bsmdec.c", "-lm", "-o", made / "alone"], inside)
+    _run(["cc", "-O3", "obj.c", "bsmdec.c", "-lm", "-o", made / "alone"], inside)
     _run(["cmake", "-S", inside, "-B", build], made)
     _run(["cmake", "--build", build], made)
     _run(["cmake", "--install", build, "--prefix", prefix], made)

@@ -13,7 +13,7 @@ from pathlib import Path
 from tools.release.wheels import clean
 
 TARGET = "x86_64-windows-gnu"
-FLAGS = ("-std=gnu11", "-O2", "-ffp-contract=off")
+FLAGS = ("-std=gnu11", "-O3", "-ffp-contract=off")
 README = """# bsmdec for Windows on x86-64
 
 The decoder of BSM streams as a DLL for any compiler and engine, MSVC included. It needs Windows 10 or later.
