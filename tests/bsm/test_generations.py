@@ -106,6 +106,22 @@ def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_gener
     assert bsm.decode(bsm.encode(bsm.load(source), metadata=own)).metadata == own
 
 
+@pytest.mark.parametrize("kind", ["ply", "obj", "off", "glb", "npz"])
+def test_a_decoded_file_says_so_and_the_next_stream_which_generation_it_is(kind, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    bsm.save(torus(20, 12), "a.ply")
+    assert "generation" not in printed(capsys, "encode", "a.ply").err
+    for generation in (2, 3):
+        printed(capsys, "decode", "a.bsm", "-f", "-o", f"b.{kind}")
+        assert (
+            f"generation {generation}: errors add up" in printed(capsys, "encode", f"b.{kind}", "-f", "-o", "a.bsm").err
+        )
+    assert bsm.decode("a.bsm").metadata["provenance"] == f"bsm {bsm.__version__} generation=3"
+    printed(capsys, "encode", "a.ply", "-f", "--preset", "lossless")
+    printed(capsys, "decode", "a.bsm", "-f", "-o", f"b.{kind}")
+    assert "generation" not in printed(capsys, "encode", f"b.{kind}", "-f", "-o", "a.bsm").err
+
+
 def test_frames_say_how_they_were_made(tmp_path, capsys):
     frames = np.stack([torus(12, 8).positions + 0.1 * t for t in range(3)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=torus(12, 8).faces)

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm import __version__
+from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits_of, refuse_two_on_one_pipe
@@ -33,7 +35,10 @@ from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
 from bsm.lengths import metres, unit_of
+from bsm.libraries import PROVENANCE
 
+SAYING = ("ply", "obj", "off", "glb", "npz")  # formats of files that say that they were decoded
+WITH_FLOATS = 2  # of `Header.light`
 NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"
 
 
@@ -141,7 +146,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
-    mesh = _as_asked(args, mesh)
+    mesh = _as_asked(args, mesh, kind, header)
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
@@ -151,10 +156,12 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
 
 
-def _as_asked(args: DecodeJob, mesh: TriangleMesh) -> TriangleMesh:
-    """A mesh in the requested unit and precision."""
+def _as_asked(args: DecodeJob, mesh: TriangleMesh, kind: str, header: Header | None) -> TriangleMesh:
+    """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
     metadata, scale = dict(mesh.metadata), 1.0
     metadata.pop("source_name", None)
+    if kind in SAYING and (header is None or header.light != WITH_FLOATS):
+        metadata.setdefault(PROVENANCE, f"bsm {__version__}")
     if args.unit_out:
         own, wanted = metres(unit_of(metadata)), metres(args.unit_out)
         if own is None or wanted is None:
@@ -281,7 +288,7 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     found = next(stream.changing_frames(), None)
     if found is None or found[0] != number:
         raise OptionError(NO_FRAMES)
-    mesh = _as_asked(args, TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata))
+    mesh = _as_asked(args, TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata), kind, None)
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}

@@ -240,7 +240,9 @@ def with_provenance(
         + ("" if exact else ": errors add up, so encode the original if you have it")
     ]
     kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
-    return kept if asked is False else {**kept, PROVENANCE: _words(path, given, options, generation)}, notes
+    whole = asked or " sha256=" in str(metadata[PROVENANCE])
+    words = _words(path, given, options, generation) if whole else f"bsm {__version__} generation={generation}"
+    return kept if asked is False else {**kept, PROVENANCE: words}, notes
 
 
 def _words(path: str, given: Mapping[str, Any], options: Any, generation: int) -> str:
