@@ -35,16 +35,14 @@ GLTF = ("glb", "gltf")  # read by `bsm.gltf`
 _CONTENTS = {"obj": "an OBJ", "off": "", "ply": "a PLY", "glb": "a GLB, JSON"}  # by their first bytes
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
-
-
 _WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
 _FOREIGN = {
     ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
     ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
     ("zip", "gz", "bz2", "xz", "tar", "tgz"): "it contains files: unpack it, and read its contents",
 }
-_ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
-_ROOMS |= {"3mf": "bsm.files.formats.three_mf"}
+_ROOMS = {kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}
+_ROOMS |= {"glb": "bsm.gltf.write", "3mf": "bsm.files.formats.three_mf"}
 
 
 def by_name(module: str, function: str) -> Any:

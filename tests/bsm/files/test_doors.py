@@ -727,6 +727,12 @@ def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
     assert attribute(mesh, "material").values[:, 0].tolist() == [0, 0, 0, 1, 1, 1]
     found = at_corners(mesh, attribute(mesh, "texcoord"))
     assert found[1].tolist() == [[0, 0], [1, 1], [0, 0]] and not found[0].any()
+    text = (tmp_path / "a.dae").read_text().replace("<source>s</source>", "<source>s</source><wrap_s>MIRROR</wrap_s>")
+    for number in ("0", "1"):
+        use = f"<bind_vertex_input semantic='x' input_semantic='TEXCOORD' input_set='{number}'/></instance_material>"
+        (tmp_path / "b.dae").write_text(text.replace("target='#mm'/>", f"target='#mm'>{use}"))
+        dropped = read_mesh(tmp_path / "b.dae").dropped
+        assert "wrap MIRROR of textures" in dropped and ("the texcoord set of textures" in dropped) == (number == "1")
 
 
 def test_a_3mf_file_has_colors_materials_and_an_error_where_its_build_is_empty(tmp_path):

@@ -126,12 +126,14 @@ class _Scene:
         material = bound.get(primitive.material)
         name = None if material is None else str(material.id)
         if name not in self.materials:
-            self.materials[name] = {} if material is None else self._words(material)
+            first = str(next((source[3] for source in primitive.sources.get("TEXCOORD", ())), 0) or 0)
+            others = {symbol for use in node.materials for symbol, _, number in use.inputs if str(number or 0) != first}
+            self.materials[name] = {} if material is None else self._words(material, others)
         shape, number = self.shape(primitive), list(self.materials).index(name)
         named = replace(shape, materials=shape.materials + number, name=str(node.geometry.name or node.geometry.id))
         return named.placed(matrix)
 
-    def _words(self, material: Any) -> Material:
+    def _words(self, material: Any, others: set[str]) -> Material:
         """A material in the words of libraries of OBJ, which are those of COLLADA."""
         effect, found = material.effect, dict[str, Any](name=str(material.name or material.id))
         for given, word in (_COLORS | _NUMBERS).items():
@@ -144,6 +146,9 @@ class _Scene:
             if isinstance(value := getattr(effect, given), self._collada.material.Map):
                 name = str(value.sampler.surface.image.path)
                 image = self._beside.read(unquote(name))
+                ways = {str(one.text) for one in value.sampler.xmlnode.iter() if _tag(one).startswith("wrap_")}
+                self.absent |= dict.fromkeys(f"wrap {way} of textures" for way in sorted(ways - {"WRAP"}))
+                self.absent |= {"the texcoord set of textures": None} if value.texcoord in others else {}
                 if isinstance(image, bytes) and kind_of_image(image):
                     found[word] = number = self._numbers.setdefault(name, len(self._numbers))
                     self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
