@@ -48,7 +48,6 @@ static bool code_component(RangeCoder *coder, const ValueModel *model, const Cor
     e.prediction[5] = (int32_t)least(*next, most) * FINE;
     e.prediction[6] = mean;
     e.scale = b.number > 0 ? divided(errors + spread, b.number) + 1 : FINE * most / 4;
-    e.asks = MOST_ASKS;
     int32_t alike = (near[0] == near[1]) + 2 * (near[1] == near[2]) + 4 * (near[0] == last) + 8 * (*usual == near[0]);
     int32_t later = (int32_t)least(j, 1), bucket = size_class(e.scale);
     e.scale_context = bucket * MOST_COMPONENTS + j;

@@ -206,7 +206,6 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
     settle(&e, -far, far, off);
 
     e.scale = f.typical;
-    e.asks = MOST_ASKS;
     e.scale_context = (bucket * 2 + twin) * PAIR + j;
     e.hit_context = (j == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + p->number * 2 + twin;
     e.context[0] = (bucket * BASES + p->number) * PAIR + j;

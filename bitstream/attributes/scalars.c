@@ -93,7 +93,6 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     settle(&e, 0, far, off);
 
     e.scale = f.typical;
-    e.asks = MOST_ASKS;
     e.scale_context = (bucket * 2 + (twin >= 0)) * MOST_COMPONENTS + j;
     e.hit_context = (j == 0 ? 0 : own->hits != 0 ? 2 : 1) * 8 + p->number * 2 + (twin >= 0);
     e.context[0] = (bucket * BASES + p->number) * MOST_COMPONENTS + j;

@@ -154,7 +154,6 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     settle(&e, 0, far, off);
 
     e.scale = f.typical;
-    e.asks = MOST_ASKS;
     e.scale_context = (bucket * BASES + number) * AXES + j;
     e.hit_context = (j == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + number * 2 + (twin >= 0);
     e.context[0] = (bucket * BASES + number) * AXES + j;

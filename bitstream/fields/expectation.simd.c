@@ -225,7 +225,7 @@ INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
         asked[*asks] = e->refuted[*asks];
         open &= ~hits_of(e, asked[*asks]);
     }
-    while (*asks < e->asks && open != 0) {
+    while (*asks < MOST_ASKS && open != 0) {
         int best = 0;
         uint32_t rate = 0;
         for (int j = 0; j < PREDICTIONS; j++) {

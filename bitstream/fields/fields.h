@@ -84,7 +84,6 @@ typedef struct {
 typedef struct { /* filled by the front-end */
     int32_t prediction[MODEL_ROW]; /* below 2^28 in magnitude; the last is the best guess */
     int32_t scale;                   /* what to expect of the size of its error, in 1/16; 0 .. 2^28 */
-    int32_t asks;                    /* predictions that may be asked for, at most MOST_ASKS */
     int32_t scale_context, hit_context, context[CONTEXTS], set;
     int32_t contexts;                /* CONTEXTS or TWIN_CONTEXTS */
     int32_t refuted[MOST_ASKS], refutations; /* what the value is known not to be */

@@ -254,7 +254,6 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
 
     int kind = flaps * STEPS + step;
     e.scale = typical;
-    e.asks = MOST_ASKS;
     e.scale_context = bucket;
     e.hit_context = (step == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + flaps * 2 + (p->error_near[j] < FINE);
     e.context[0] = bucket * 12 + kind;
