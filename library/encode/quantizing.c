@@ -222,6 +222,8 @@ static bool round_floats(Context *context, const Table *t, bsmenc_quality qualit
     }
     if (!(step >= 1e-300 && step <= 1e300))
         return FAIL(context, MISUSED, "the step of values is beyond the range of numbers; keep them exact");
+    for (int j = 0; j < t->components && q->declaration.semantic == BSMDEC_NORMAL; j++)
+        low[j] = step * __builtin_floor(low[j] / step); /* a normal of no length keeps none */
     for (int j = 0; j < t->components; j++)
         if ((high[j] - low[j]) / step > MOST_LEVEL)
             return FAIL(context, MISUSED, "the bound is too fine for the range of values; keep them exact");

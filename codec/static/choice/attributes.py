@@ -154,14 +154,17 @@ class Input:
             return "" if bounds.keeps(made) else bounds.had, None, bounds.binding(made)
         shown = [metric.bare(decoded).distance]
         shown += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
-        bound = max(*shown, metric.distance(decoded))  # whatever quality was asked for normals
+        bound = others = max(*shown, metric.distance(decoded))
         if (sent := self.shown_normals) is not None:
             shaded = metric.shaded(decoded, self.carried[sent].normals(decoded))
-            bound = bound if self.free_normals is None else max(*shown, *shaded)
+            if self.wanted[sent][1].way != "recompute":  # which viewers may do, too
+                bound = max(bound if self.free_normals is None else 0.0, *shown, *shaded)
             shown.append(shaded[0])
         elif self._own_normals is not None:  # which viewers compute
             given = self._measuring(self._own_normals).look
             shown.append(given.compare(replace(self.prepared.mesh, positions=decoded)).distance if given else 0.0)
+        if self.free_normals is None and bounds.keeps(made, others) and not bounds.keeps(made, bound):
+            raise TargetError(f"{contract} cannot be kept with this quality of normals; the look is {bound:.3g}")
         binding = bounds.binding(made, bound)
         return "" if bounds.keeps(made, bound) else bounds.had, max(shown), binding
 

@@ -126,10 +126,7 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
 
 
 def _too_little(asked: dict[str, Any]) -> LimitError:
-    return LimitError(
-        f"reading this file takes more than {asked['memory']:,} bytes of memory (Limits.memory, most_memory), or than "
-        "this system gives (ulimit -v)"
-    )
+    return LimitError(f"reading takes more than {asked['memory']:,} bytes of memory (Limits.memory, ulimit -v)")
 
 
 def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
@@ -137,9 +134,7 @@ def _end_of(number: int, words: bytes, asked: dict[str, Any]) -> BsmError:
     if number == signal.SIGABRT and b"bad_alloc" in words:
         return _too_little(asked)
     if number == signal.SIGXCPU:
-        return LimitError(
-            f"reading takes more than {asked['seconds']} s of processor time (Limits.work, most_work, ulimit -t)"
-        )
+        return LimitError(f"reading takes more than {asked['seconds']} s of processor time (Limits.work, ulimit -t)")
     if number == signal.SIGALRM:
         return LimitError(f"reading this file takes more than {_PATIENCE * asked['seconds']} s")
     if number == signal.SIGKILL:

@@ -107,3 +107,16 @@ def test_places_in_a_texture_that_repeats_are_kept_although_pictures_do_not_show
     mesh = replace(MESH, attributes=(Attribute("uv", places.astype(np.float32), "vertex", "texcoord"),))
     found = bsm.decode(bsm.encode(mesh, keep_order=True, threads=1)).attributes[0].values
     assert np.abs(found - places).max() < 1.0 / 128.0
+
+
+@pytest.mark.parametrize("quality", ["2bits", "20deg", "0.5", "100%"])
+def test_a_quality_of_normals_that_breaks_the_look_is_refused(quality: str) -> None:
+    with pytest.raises(bsm.TargetError, match="this quality of normals"):
+        encode(shaded(MESH), EncodeOptions(attributes=(("normal", quality),)))
+
+
+@pytest.mark.parametrize("quality", ["0.01", "1%", "10bits", "exact"])
+def test_normals_of_no_length_keep_none(quality: str) -> None:
+    given = shaded(MESH, 30)
+    found = bsm.decode(encode(given, EncodeOptions(attributes=(("normal", quality),)))).attributes[0].values
+    assert (np.linalg.norm(found, axis=1) == 0.0).sum() == 30
