@@ -464,20 +464,54 @@ def test_two_files_that_are_sent_are_compared(tmp_path):
     expected = compared("b.bsm", stream, bsm.load(tmp_path / "a.ply"), size=len(given))
     with serving() as server:
         ours = {"Host": server.host, "Origin": f"http://{server.host}", "Content-Length": str(len(given + stream))}
-        query = f"?preset=small&name=a.ply&name=b.bsm&first={len(given)}"
+        query = f"?preset=small&name=a.ply&size={len(given)}&name=b.bsm&size={len(stream)}"
         answer = sent(server, ours, given + stream, query)
         entry = json.loads(answer.splitlines()[-1])["entry"]
         assert (entry["name"], entry["facts"]["look"]) == ("b.bsm", expected.facts["look"])
         shown = [(layer["title"], layer["detail"], layer["size"]) for layer in entry["layers"][:2]]
         assert shown == [("Original", "a.ply", len(given)), ("BSM", "b.bsm", len(stream))]
         assert urllib.request.urlopen(server.address + entry["layers"][1]["url"]).read() == stream
-        assert b" 411 " in sent(server, ours, query=query.replace("first=", "first=-")).splitlines()[0]
-        swapped = json.loads(sent(server, ours, given + stream, query.replace("first=", "first=9")).splitlines()[-1])
-        assert [*swapped] == ["error"]
+        assert b" 411 " in sent(server, ours, query=query.replace("size=", "size=-")).splitlines()[0]
+        swapped = f"?preset=small&name=a.ply&size=9&name=b.bsm&size={len(given + stream) - 9}"
+        assert [*json.loads(sent(server, ours, given + stream, swapped).splitlines()[-1])] == ["error"]
     frames, faces = bending(5)
     np.savez(tmp_path / "sway.npz", positions=frames, faces=faces)
     *_, mixed = uploaded([("sway.npz", (tmp_path / "sway.npz").read_bytes()), ("b.bsm", stream)], "small")
     assert "both" in mixed["error"]
+
+
+def test_files_that_belong_together_are_read_together():
+    mesh = torus(8, 6)
+    vertices = "".join(f"v {x} {y} {z}\n" for x, y, z in mesh.positions.tolist())
+    corners = "".join(f"f {a + 1}/1 {b + 1}/1 {c + 1}/1\n" for a, b, c in mesh.faces.tolist())
+    obj = f"mtllib looks/a.mtl\nvt 0 0\nusemtl red\n{vertices}{corners}".encode()
+    png = base64.b64decode(
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNkYPhfDwAChwGA60e6kgAAAABJRU5ErkJggg=="
+    )
+    sides = [("shop/looks/a.mtl", b"newmtl red\nmap_Kd p.png\n"), ("shop/looks/p.png", png), ("shop/notes.txt", b"")]
+    *_, whole = uploaded([("shop/a.obj", obj), *sides], "small")
+    assert isinstance(whole, Content) and whole.name == "a.obj"
+    assert bsm.decode(whole.layers[1].stream).metadata["image.0.data"] == png
+    *_, lone = uploaded([("a.obj", obj), ("../../a.txt", b"")], "small")
+    assert isinstance(lone, Content) and "image.0.data" not in bsm.decode(lone.layers[1].stream).metadata
+
+
+def test_frames_that_are_dropped_are_a_sequence(tmp_path):
+    frames, faces = bending(4)
+    (tmp_path / "run.bsm").write_bytes(bsm.encode_sequence(frames, faces))
+    assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "run.pc2")]) == 0
+    names = []
+    for number, frame in enumerate(frames):
+        names.append(f"run{number}.ply")
+        bsm.save(bsm.TriangleMesh(frame, faces), tmp_path / names[-1])
+    *_, run = uploaded([(name, (tmp_path / name).read_bytes()) for name in reversed(names)], "small")
+    assert isinstance(run, Content) and run.name == "run*.ply"
+    cache = [("moves.pc2", (tmp_path / "run.pc2").read_bytes()), (names[0], (tmp_path / names[0]).read_bytes())]
+    *_, moves = uploaded(cache, "small")
+    assert isinstance(moves, Content)
+    for content in (run, moves):
+        back, _ = bsm.decode_sequence(content.layers[1].stream)
+        assert np.array(back).shape == np.array(frames).shape
 
 
 def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):
@@ -532,7 +566,7 @@ def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypat
         assert b" 404 " in sent(server, ours, query="?preset=../etc").splitlines()[0]
         with server.encoding:
             assert b" 503 " in sent(server, ours, data).splitlines()[0]
-        answer = sent(server, ours, data, f"?preset=small&first={len(data)}&name=a.ply")  # as the page asks
+        answer = sent(server, ours, data, f"?preset=small&size={len(data)}&name=a.ply")  # as the page asks
         lines = [json.loads(line) for line in answer.partition(b"\r\n\r\n")[2].splitlines()]
         paths = [layer["url"] for layer in lines[-1]["entry"]["layers"]]
         stream = urllib.request.urlopen(server.address + paths[1]).read()

@@ -3,6 +3,7 @@
 import math
 import multiprocessing
 import signal
+import tempfile
 import time
 from bisect import bisect_left
 from collections.abc import Callable, Generator, Mapping, Sequence
@@ -10,7 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from multiprocessing.connection import Connection
-from pathlib import PurePath
+from pathlib import Path, PurePath, PurePosixPath
 from typing import Any
 
 import numpy as np
@@ -28,8 +29,10 @@ from bsm.comparison import in_order_of, pair, paired_frames
 from bsm.console import Progress
 from bsm.exits import worded
 from bsm.files.formats.polygons import MeshFile
-from bsm.files.mesh import read_mesh, size_with_parts
-from bsm.files.motion.frames import Frames
+from bsm.files.mesh import format_of_name, read_mesh, size_with_parts
+from bsm.files.motion.caches import CACHES
+from bsm.files.motion.folder import common_name
+from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
@@ -269,10 +272,10 @@ class Given:
         return self.source, Frames(faces, len(positions), iter(positions))
 
 
-def given_at(path: str) -> Given:
-    """Open a sequence, a stream or a mesh file."""
-    if frames := open_sequence(path):
-        return Given(path, frames, size_of(path))
+def given_at(path: str, limits: Limits = DEFAULT_LIMITS, mesh: str | None = None) -> Given:
+    """Open a sequence, of which `mesh` may have the faces, a stream or a mesh file."""
+    if frames := open_sequence(path, None, Wanted(mesh=mesh) if mesh else None, limits):
+        return Given(path, frames, None if PurePath(path).suffix == "" else size_of(path))
     data = b"".join(read_chunks(path))
     if MAGIC.startswith(data[: len(MAGIC)]):
         return Given(path, data, len(data))
@@ -280,16 +283,20 @@ def given_at(path: str) -> Given:
         raise FormatError(NO_STREAM)
     if PurePath(path).suffix.lower() == ".bsm":
         decode_whole(iter([data]))  # says what is wrong with it
-    found = read_mesh(path)
+    found = read_mesh(path, limits=limits)
     return Given(path, found, size_with_parts(path, found.mesh.metadata)[0])
 
 
-def given_in(name: str, data: bytes) -> Given:
-    """Open a file that was sent."""
+def given_among(paths: Sequence[str], folder: str) -> list[Given]:
+    """Open files that were sent together: one or two with all that they name, or the frames of a sequence."""
     limits = Limits.service()
-    frames = open_sequence(data, "npz", limits=limits) if name.lower().endswith(".npz") else None
-    found = frames or (data if MAGIC.startswith(data[: len(MAGIC)]) else read_mesh(data, limits=limits))
-    return Given(PurePath(name).name, found, len(data))
+    caches = [path for path in paths if PurePath(path).suffix[1:].lower() in CACHES]
+    shown = caches or [path for path in paths if path.lower().endswith((".bsm", ".npz")) or format_of_name(path)]
+    if len(shown) > 2:
+        frames = replace(given_at(folder, limits), name=PurePath(common_name(shown)).name)
+        return [replace(frames, size=sum(size_of(path) or 0 for path in shown))]
+    meshes = [path for path in paths if format_of_name(path)] if caches else []
+    return [given_at(path, limits, meshes[0] if meshes else None) for path in shown or paths[:1]]
 
 
 def against(before: Given, given: Given, limits: Limits) -> Content:
@@ -307,7 +314,7 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
     return replace(content, layers=layers, facts={**content.facts, **said} | ({} if stream else {"draco": None}))
 
 
-def _work(pipe: Connection, files: Sequence[tuple[str, bytes]], preset: str) -> None:
+def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> None:
     """Encode an upload in a process, or compare two; send reports, then the result or an error message."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -315,23 +322,45 @@ def _work(pipe: Connection, files: Sequence[tuple[str, bytes]], preset: str) -> 
         pipe.send({"stage": stage, "share": share})
 
     try:
-        first, second = given_in(*files[0]), given_in(*files[-1]) if len(files) > 1 else None
-        report("comparing" if second else "encoding", 0.0)
-        if second:
-            pipe.send(against(first, second, Limits.service()))
+        first, *others = given_among(paths, folder)
+        report("comparing" if others else "encoding", 0.0)
+        name = PurePath(first.name).name
+        if others:
+            pipe.send(against(first, others[0], Limits.service()))
         elif isinstance(first.source, bytes):
-            raise FormatError(f"{first.name} is a stream, which the page opens by itself, or empty")
+            raise FormatError(f"{name} is a stream, which the page opens by itself, or empty")
         else:
-            pipe.send(made(first.name, len(files[0][1]), first.source, preset, report))
+            pipe.send(made(name, first.size, first.source, preset, report))
     except (BsmError, MemoryError) as error:
-        pipe.send({"error": worded(error)})
+        pipe.send({"error": worded(error).replace(f"{folder}/", "")})
+
+
+def _put(folder: str, name: str, data: bytes) -> str:
+    """Write a file that was sent, at its place in a folder that was dropped."""
+    inside = [
+        part for part in PurePosixPath(name.replace("\\", "/").replace("\0", "")).parts if part not in ("/", "..")
+    ]
+    path = Path(folder, *inside or ["mesh"])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data)
+    return str(path)
 
 
 def uploaded(files: Sequence[tuple[str, bytes]], preset: str) -> Generator[dict[str, Any] | Content]:
-    """Encode a file dropped on the page, or compare two, in a process that ends with this generator; yield reports."""
+    """Encode files dropped on the page, or compare two, in a process that ends with this generator; yield reports."""
+    with tempfile.TemporaryDirectory(prefix="bsm-") as folder:
+        try:
+            paths = [_put(folder, name, data) for name, data in files]
+        except OSError as error:
+            yield {"error": worded(error).replace(f"{folder}/", "")}
+        else:
+            yield from _reports(paths, folder, preset)
+
+
+def _reports(paths: Sequence[str], folder: str, preset: str) -> Generator[dict[str, Any] | Content]:
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
-    process = context.Process(target=_work, args=(there, files, preset), daemon=True)
+    process = context.Process(target=_work, args=(there, paths, folder, preset), daemon=True)
     process.start()
     there.close()
     try:

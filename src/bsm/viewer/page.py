@@ -3,6 +3,7 @@
 import base64
 import gzip
 import hashlib
+import itertools
 import json
 import os
 import re
@@ -318,14 +319,14 @@ class _Handler(BaseHTTPRequestHandler):
         """Encode the mesh of an upload, and say line by line in JSON how far that is."""
         url = urlsplit(self.path)
         asked = parse_qs(url.query)
-        names, first = asked.get("name", ["mesh"]), asked.get("first", ["0"])[0]
+        names, sizes = asked.get("name", ["mesh"]), asked.get("size", [self.headers.get("Content-Length", "")])
         length = self.headers.get("Content-Length", "")
         # Pages of others may send here, too, but not in our name.
         if self.headers.get("Origin") != f"http://{self.server.host}":
             self.send_error(HTTPStatus.FORBIDDEN)
         elif url.path != UPLOAD or asked.get("preset", [""])[0] not in PRESETS:
             self.send_error(HTTPStatus.NOT_FOUND)
-        elif not _LENGTH.fullmatch(length) or not _LENGTH.fullmatch(first):
+        elif not all(map(_LENGTH.fullmatch, (length, *sizes))) or sum(map(int, sizes)) != int(length):
             self.send_error(HTTPStatus.LENGTH_REQUIRED)
         elif int(length) > MOST_BYTES:
             self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
@@ -335,7 +336,8 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
             try:
-                parts = [data] if len(names) == 1 else [data[: int(first)], data[int(first) :]]
+                ends = list(itertools.accumulate(map(int, sizes)))
+                parts = [data[end - int(size) : end] for end, size in zip(ends, sizes, strict=True)]
                 files = list(zip(names, parts, strict=False))
                 self._answer(self._reported(files, asked["preset"][0]), "text/plain")
             finally:

@@ -16,6 +16,27 @@ export function contentOf(files: File[], streams: Uint8Array[], facts: Content["
     return { name: files[main].name, main, facts, layers: files.map(({ name, size }, i) => ({ title: title(name, i), detail: main > 0 ? name : "", size, bytes: streams[i] })) };
 }
 
+const paths = new WeakMap<File, string>();
+/** The place of a file in the folder that was dropped. */
+export const pathOf = (file: File): string => paths.get(file) ?? file.name;
+const namesOf = (files: File[]): string => (files.length > 3 ? `${files.length} files` : files.map(({ name }) => name).join(" and "));
+
+/** The files of folders and of all in these. */
+async function filesIn(entries: FileSystemEntry[]): Promise<File[]> {
+    const found = entries.map(async (entry): Promise<File[]> => {
+        if (entry.isFile) {
+            const file = await new Promise<File>((keep, fail) => (entry as FileSystemFileEntry).file(keep, fail));
+            paths.set(file, entry.fullPath);
+            return [file];
+        }
+        const reader = (entry as FileSystemDirectoryEntry).createReader();
+        const inside: FileSystemEntry[] = [];
+        for (let some; (some = await new Promise<FileSystemEntry[]>((keep, fail) => reader.readEntries(keep, fail))).length > 0; ) inside.push(...some);
+        return filesIn(inside);
+    });
+    return (await Promise.all(found)).flat();
+}
+
 export class Upload {
     private working = new AbortController();
 
@@ -36,8 +57,9 @@ export class Upload {
         root.addEventListener("drop", (event) => {
             event.preventDefault();
             drop.hidden = true;
-            const files = [...(event.dataTransfer?.files ?? [])];
-            if (files.length > 0) void this.take(files);
+            const entries = [...(event.dataTransfer?.items ?? [])].flatMap((item) => item.webkitGetAsEntry() ?? []);
+            const given = [...(event.dataTransfer?.files ?? [])];
+            void (entries.some(({ isDirectory }) => isDirectory) ? filesIn(entries) : Promise.resolve(given)).then((files) => (files.length > 0 ? this.take(files) : undefined));
         });
     }
 
@@ -49,11 +71,11 @@ export class Upload {
         const { form } = this;
         this.cancel();
         const { signal } = (this.working = new AbortController());
-        const names = files.map(({ name }) => name).join(" and ");
+        const names = namesOf(files);
         form.say("problem", "");
         try {
-            if (files.length > 2) throw new Error("Open one file, or two to compare them.");
-            if (isStream(files[0]) && !files.every(isStream)) files.reverse(); // a mesh is the original of a stream
+            if (files.length > 2 && (!this.encode || files.every(isStream))) throw new Error("Open one file, or two to compare them.");
+            if (files.length === 2 && isStream(files[0]) && !isStream(files[1])) files.reverse(); // a mesh is the original of a stream
             const isHere = files.every(isStream) && (files.length === 1 || !this.encode);
             const content = isHere ? contentOf(files, await Promise.all(files.map(bytesIn)), {}) : await this.encoded(files, signal);
             const bytes = await bytesOf(content.layers[content.main]);
@@ -74,7 +96,7 @@ export class Upload {
         [form.part("invite").hidden, form.part("work").hidden] = [true, false];
         const bar = form.root.querySelector("progress")!;
         const report = (stage: string, share: number): void => {
-            form.say("stage", `${files.map(({ name }) => name).join(" and ")}: ${stage}`);
+            form.say("stage", `${namesOf(files)}: ${stage}`);
             if (share > 0) bar.value = share;
             else bar.removeAttribute("value");
         };

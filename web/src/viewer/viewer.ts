@@ -3,12 +3,13 @@ import { Pool } from "../pool";
 import type { Job, Report, Result } from "./encoder";
 import type { Content } from "./facts";
 import { bytesOf, encoder, fetched, inlined, served } from "./inlined";
-import { bytesIn, contentOf, type Encode, isStream } from "./upload";
+import { bytesIn, contentOf, type Encode, isStream, pathOf } from "./upload";
 import { View } from "./view";
 
 declare const LICENSES: string;
 
 const MOST_BYTES = 2 ** 26;
+const READ = /\.(bsm|ply|obj|stl|glb)$/i; // by a page without a server
 const BITS = ["14 bits", "12 bits", "16 bits", "lossless"]; // what the encoder of pages offers
 
 /** What a widget knows of its other half in Python (https://anywidget.dev/en/afm). */
@@ -31,7 +32,7 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
 const encode: Encode = async (files, preset, report, signal) => {
     const body = new Blob(files);
     if (body.size > MOST_BYTES) throw new Error(`More than ${MOST_BYTES >> 20} MiB; use bsm encode, bsm tile, or bsm view --original.`);
-    const query = new URLSearchParams([["preset", preset], ["first", `${files[0].size}`], ...files.map(({ name }) => ["name", name])]);
+    const query = new URLSearchParams([["preset", preset], ...files.flatMap((file) => [["name", pathOf(file)], ["size", `${file.size}`]])]);
     const decoder = new TextDecoder();
     let text = "";
     for await (const piece of piecesOf(await fetched(`upload?${query}`, { method: "POST", body, signal }))) {
@@ -59,6 +60,13 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
 
 /** Encode a file, or two without loss, which are compared. */
 const encodeHere: Encode = async (files, preset, report, signal) => {
+    const meshes = files.filter(({ name }) => READ.test(name));
+    const others = files.filter((file) => !meshes.includes(file)).map(({ name }) => name);
+    if (meshes.length > 0 && others.length > 0) {
+        const content = await encodeHere(meshes, preset, report, signal);
+        return { ...content, facts: { ...content.facts, less: true, notes: [`Left out: ${others.join(", ")}. bsm view reads them.`, ...(content.facts.notes ?? [])] } };
+    }
+    if (files.length > 2) throw new Error("This page opens one mesh, or two to compare them; bsm view opens sequences of files.");
     const [begin, isPair, found] = [performance.now(), files.length > 1, [] as Result[]];
     for (const file of files) {
         const bytes = isStream(file) && (await bytesIn(file));
