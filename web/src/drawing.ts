@@ -32,7 +32,7 @@ export interface BegunPicture {
 
 /**
  * Vertices that have moved or whose normals have, shape (k,), with what they are now, and the corners of faces that can be
- * drawn from now on. `origin`: the block that each came with, -1 if it is not there; `refined`: whether refinement has moved it.
+ * drawn from now on. `origin`: the block that each came with, -1 if it is not there.
  */
 export interface GrownPicture {
     type: "grown";
@@ -40,7 +40,6 @@ export interface GrownPicture {
     positions: Float32Array;
     normals: Float32Array;
     origin: Int32Array;
-    refined: Uint8Array;
     index: Uint32Array;
     blocks: number;
 }
@@ -82,7 +81,6 @@ export class Drawing {
     private points = new Float32Array(0);
     private normals = new Float32Array(0);
     private origin: Int32Array = new Int32Array(0);
-    private refined = new Uint8Array(0);
     /** How many corners of each face are not there. */
     private waiting = new Uint8Array(0);
     private around: { starts: Int32Array; members: Int32Array } = { starts: new Int32Array(1), members: new Int32Array(0) };
@@ -142,13 +140,13 @@ export class Drawing {
             this.renewNormal(vertex);
         });
         const [positions, normals] = [this.points, this.normals].map((numbers) => spread(numbers, 3, vertices));
-        const [origin, refined] = [vertices.map((vertex) => this.origin[vertex]), Uint8Array.from(vertices, (vertex) => this.refined[vertex])];
+        const origin = vertices.map((vertex) => this.origin[vertex]);
         const index = this.cornersOf(this.drawable);
         this.drawable = [];
         this.shown = performance.now();
         this.show(
-            { type: "grown", vertices, positions, normals, origin, refined, index, blocks: this.blocks },
-            [vertices, positions, normals, origin, refined, index].map(({ buffer }) => buffer),
+            { type: "grown", vertices, positions, normals, origin, index, blocks: this.blocks },
+            [vertices, positions, normals, origin, index].map(({ buffer }) => buffer),
         );
     }
 
@@ -160,7 +158,6 @@ export class Drawing {
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         if (!this.growing) return;
         this.show({ type: "begun", vertices: size, corners: faces.length, loose });
-        this.refined = new Uint8Array(size);
         this.isTouched = new Uint8Array(size);
         this.waiting = new Uint8Array(faces.length / 3).fill(3);
         this.around = inverse(faces, size);
@@ -182,7 +179,6 @@ export class Drawing {
             else origin[vertex] = this.blocks;
         }
         if (event.type === "block") this.blocks++;
-        else if (growing) for (const vertex of vertices) this.refined[vertex] = 1;
         if (growing && performance.now() - this.shown > PAUSE) this.flush();
     }
 

@@ -7,19 +7,10 @@ export function isPage(bytes: Uint8Array): boolean {
     return /^\s*<(!|html)/i.test(new TextDecoder().decode(bytes.subarray(0, 64)));
 }
 
-/** The bytes at an address: of a file where files can be read, for pages of files also the way that web views allow. */
+/** The bytes at an address, of a file where files can be read. */
 async function bytesAt(url: URL): Promise<ArrayBuffer | Uint8Array<ArrayBuffer>> {
     const builtin = globalThis.process?.getBuiltinModule?.bind(globalThis.process);
     if (url.protocol === "file:" && builtin) return new Uint8Array(await builtin("node:fs/promises").readFile(builtin("node:url").fileURLToPath(url.href)));
-    if (url.protocol === "file:" && globalThis.XMLHttpRequest) {
-        return new Promise((keep, fail) => {
-            const request = Object.assign(new XMLHttpRequest(), { responseType: "arraybuffer" as const });
-            request.onload = () => keep(request.response as ArrayBuffer);
-            request.onerror = () => fail(new Error(`${url}: this page may read no files; serve it by http, or name the decoder's place`));
-            request.open("GET", url);
-            request.send();
-        });
-    }
     const response = await fetch(url);
     if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}; the decoder's files must lie there`);
     return response.arrayBuffer();

@@ -36,9 +36,6 @@ export class BSMGeometry extends BufferGeometry {
     readonly metadata: Metadata = new Map();
     /** The block that each vertex came with, -1 as long as it is not there; only of a geometry that grows. */
     origin = new Int32Array(0);
-    /** Whether refinement has moved each vertex, and how many it has; only of a geometry that grows. */
-    refined = new Uint8Array(0);
-    refinedVertices = 0;
     /** Blocks, or chunks of a grid, that are there. */
     blocks = 0;
     /** Attributes that are there, and are drawn once the mesh is whole. */
@@ -117,7 +114,6 @@ export class BSMGeometry extends BufferGeometry {
         this.points = new Float32Array(3 * vertices);
         this.normals = new Float32Array(3 * vertices);
         this.origin = new Int32Array(vertices).fill(-1);
-        this.refined = new Uint8Array(vertices);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         this.setAttribute("position", new BufferAttribute(this.points, 3));
         this.setAttribute("normal", new BufferAttribute(this.normals, 3));
@@ -126,7 +122,7 @@ export class BSMGeometry extends BufferGeometry {
         this.progress.onConnectivity?.(this);
     }
 
-    private grow({ vertices, positions, normals, origin, refined, index, blocks }: GrownPicture): void {
+    private grow({ vertices, positions, normals, origin, index, blocks }: GrownPicture): void {
         this.refuseIfWhole();
         const { points: p, normals: n } = this;
         for (let row = 0; row < vertices.length; row++) {
@@ -134,8 +130,6 @@ export class BSMGeometry extends BufferGeometry {
             [p[to], p[to + 1], p[to + 2]] = [positions[from], positions[from + 1], positions[from + 2]];
             [n[to], n[to + 1], n[to + 2]] = [normals[from], normals[from + 1], normals[from + 2]];
             this.origin[vertices[row]] = origin[row];
-            this.refinedVertices += refined[row] - this.refined[vertices[row]];
-            this.refined[vertices[row]] = refined[row];
         }
         const corners = this.getIndex();
         corners?.array.set(index, this.drawn);

@@ -195,7 +195,7 @@ test("a whole geometry refuses growth", () => {
     const geometry = new BSMGeometry();
     const empty = { index: new Uint32Array(0), positions: new Float32Array(0), normals: new Float32Array(0), attributes: [], pieces: [], center: [0, 0, 0] as [number, number, number], radius: 0, low: [0, 0, 0], high: [0, 0, 0] };
     geometry.accept({ type: "whole", shape: empty, run: 0 });
-    const grown = { type: "grown" as const, vertices: new Int32Array(0), positions: new Float32Array(0), normals: new Float32Array(0), origin: new Int32Array(0), refined: new Uint8Array(0), index: new Uint32Array(0), blocks: 1 };
+    const grown = { type: "grown" as const, vertices: new Int32Array(0), positions: new Float32Array(0), normals: new Float32Array(0), origin: new Int32Array(0), index: new Uint32Array(0), blocks: 1 };
     assert.throws(() => geometry.accept(grown), /whole and cannot grow/);
     assert.throws(() => geometry.accept({ type: "begun", vertices: 1, corners: 3, loose: { vertices: new Int32Array(0), positions: new Float64Array(0) } }), /whole and cannot grow/);
 });

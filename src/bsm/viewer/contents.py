@@ -2,6 +2,7 @@
 
 import math
 import multiprocessing
+import shutil
 import signal
 import tempfile
 import time
@@ -46,6 +47,7 @@ NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o 
 PRESETS = ("small", "balanced", "fine", "near-lossless")
 _EVERY = 0.1  # seconds between two reports of a process
 _ENCODING = 0.7  # of the time that a mesh takes
+_LONGEST = 60  # letters of a name
 _FINEST = 20  # bits of a grid along the longest side
 _FINE = 1e-4  # step of an original sequence that is drawn, of the diagonal
 _MOST_COLORS = 1 << 23  # errors of vertices in frames that a page gets
@@ -337,10 +339,8 @@ def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> N
 
 def _put(folder: str, name: str, data: bytes) -> str:
     """Write a file that was sent, at its place in a folder that was dropped."""
-    inside = [
-        part for part in PurePosixPath(name.replace("\\", "/").replace("\0", "")).parts if part not in ("/", "..")
-    ]
-    path = Path(folder, *inside or ["mesh"])
+    parts = PurePosixPath(name.replace("\\", "/").replace("\0", "")).parts
+    path = Path(folder, *[part[-_LONGEST:] for part in parts if part not in ("/", "..")] or ["mesh"])
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(data)
     return str(path)
@@ -348,18 +348,10 @@ def _put(folder: str, name: str, data: bytes) -> str:
 
 def uploaded(files: Sequence[tuple[str, bytes]], preset: str) -> Generator[dict[str, Any] | Content]:
     """Encode files dropped on the page, or compare two, in a process that ends with this generator; yield reports."""
-    with tempfile.TemporaryDirectory(prefix="bsm-") as folder:
-        try:
-            paths = [_put(folder, name, data) for name, data in files]
-        except OSError as error:
-            yield {"error": worded(error).replace(f"{folder}/", "")}
-        else:
-            yield from _reports(paths, folder, preset)
-
-
-def _reports(paths: Sequence[str], folder: str, preset: str) -> Generator[dict[str, Any] | Content]:
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
+    folder = tempfile.mkdtemp(prefix="bsm-")
+    paths = [_put(folder, name, data) for name, data in files]
     process = context.Process(target=_work, args=(there, paths, folder, preset), daemon=True)
     process.start()
     there.close()
@@ -376,3 +368,4 @@ def _reports(paths: Sequence[str], folder: str, preset: str) -> Generator[dict[s
         process.kill()
         process.join()
         here.close()
+        shutil.rmtree(folder, ignore_errors=True)

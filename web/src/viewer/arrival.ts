@@ -82,12 +82,11 @@ export class Arrival {
     }
 }
 
-function statusOf({ header, blocks, refinedVertices, carried }: BSMGeometry, missed: number): string {
+function statusOf({ header, blocks, carried }: BSMGeometry, missed: number): string {
     if (!header) return "";
     const parts = header.blocks ? `${blocks} of ${header.blocks} blocks` : `${blocks} chunks of a grid`;
-    const quality = header.refinement.length > 0 ? `, ${Math.floor((100 * refinedVertices) / header.vertices)} % refined` : "";
     const entered = missed > 0 ? `, entered at frame ${missed + 1}` : "";
     const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames${entered}` : "";
     const attributes = header.attributes > 0 ? `, ${carried.length} of ${header.attributes} attributes` : "";
-    return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
+    return `${parts}, ${counted(header.vertices)} vertices${frames}${attributes}`;
 }

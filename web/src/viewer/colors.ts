@@ -1,12 +1,11 @@
-/** Colors of vertices: their errors, blocks, or refinement. */
+/** Colors of vertices: their errors, or blocks. */
 import { Color } from "three";
 import type { BSMGeometry } from "../geometry";
 
-export type Scheme = "plain" | "own" | "blocks" | "refined" | "error";
+export type Scheme = "plain" | "own" | "blocks" | "error";
 
 export const LEGENDS: Partial<Record<Scheme, string>> = {
     blocks: "Order in which blocks arrive",
-    refined: "Vertices that refinement has moved",
     error: "Distance from the original",
 };
 
@@ -28,10 +27,10 @@ export function topOf(off: ArrayLike<number>, diagonal: number): number {
 
 /** Colors of all drawn vertices, shape (n, 3); undefined where a mesh has nothing of the kind. */
 export function colorsOf(geometry: BSMGeometry, scheme: Scheme, off?: Float32Array, top = 1): Float32Array | undefined {
-    const { header, origin, refined, parted } = geometry;
+    const { header, origin, parted } = geometry;
     if (scheme === "plain" || scheme === "own" || !header) return undefined;
     const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
-    const shares = { blocks: (vertex: number) => origin[vertex] / last, refined: (vertex: number) => refined[vertex], error: (vertex: number) => off![vertex] / top };
+    const shares = { blocks: (vertex: number) => origin[vertex] / last, error: (vertex: number) => off![vertex] / top };
     const drawn = geometry.getAttribute("position").count;
     const count = scheme === "error" ? (off?.length ?? 0) : origin.length;
     if (count === 0 || (parted ?? { length: count }).length !== drawn) return undefined; // of a later run

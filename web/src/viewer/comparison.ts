@@ -197,8 +197,7 @@ export class Comparison {
             const far = `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`;
             return element("li", percent((share * top) / diagonal), element("small", far));
         };
-        const ends = scheme === "blocks" ? ["first", "last"] : ["not", "refined"];
-        const ticks = scheme === "error" ? [0, 0.5, 1].map(tick) : ends.map((text) => element("li", text));
+        const ticks = scheme === "error" ? [0, 0.5, 1].map(tick) : ["first", "last"].map((text) => element("li", text));
         form.part("scale").querySelector("ol")!.replaceChildren(...ticks);
     }
 

@@ -100,7 +100,7 @@ export function factsOf({ layers, main, facts }: Content, length: number, { fram
     if (angle !== undefined) rows.push(["Mean normal error", `${angle.toFixed(2)}°`]);
     if (draco) rows.push(["Draco at the same look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
     if (seconds !== undefined) rows.push(["Encoded in", spent(SECOND * seconds)]);
-    if (took !== undefined) rows.push(["Decoded in", spent(took)]);
+    if (took !== undefined) rows.push(["Decoded and drawn in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);

@@ -12,7 +12,7 @@ import { Form } from "./form";
 import { listenToKeys } from "./keys";
 import { SequenceBar } from "./sequence";
 import { Stage } from "./stage";
-import { TileSet, wholeOf } from "./tiles";
+import { TileSet } from "./tiles";
 import { Upload, type Encode } from "./upload";
 import template from "./view.html";
 
@@ -43,8 +43,6 @@ export class View {
     /** Frames before the one at which a stream was entered. */
     private missed = 0;
     private over = true;
-    /** Milliseconds of decoding without drawing. */
-    private alone?: number;
     private closed = false;
     private tiles?: TileSet;
     private looked?: string;
@@ -121,7 +119,6 @@ export class View {
         form.part("arrival").hidden = form.part("colors").hidden = content.tiles !== undefined;
         form.control("keep").hidden = content.facts.seconds === undefined; // there is a file of it already
         this.content = content;
-        this.alone = undefined;
         this.arrival.clear();
         this.meshes.open(content);
         this.restart();
@@ -333,28 +330,19 @@ export class View {
 
     /** Fetch the meshes to compare with. */
     private async accompany(): Promise<void> {
-        const { arrival, content, meshes, pool } = this;
+        const { content, meshes, pool } = this;
         const mine = (): boolean => this.content === content && !this.closed;
         meshes.accompanied = true;
         await meshes.accompany(pool, mine);
         if (!mine()) return;
         this.sequence.plot(content.facts);
         this.headline();
-        if (content.layers.length > 1 && arrival.whole && this.geometry.frames.length === 0) {
-            // Once more without drawing, to say how long decoding alone takes.
-            const begin = performance.now();
-            const geometry = await wholeOf(pool, arrival.bytes.slice());
-            geometry.dispose();
-            if (!mine()) return;
-            this.alone = performance.now() - begin;
-            this.headline();
-        }
     }
 
     private headline(): void {
-        const { alone, arrival, content, form, geometry } = this;
+        const { arrival, content, form, geometry } = this;
         if (content.tiles) return;
-        const facts = factsOf(content, arrival.length, geometry, alone ?? arrival.complete);
+        const facts = factsOf(content, arrival.length, geometry, arrival.complete);
         const before = facts.plain === undefined ? [] : [element("s", `${sized(facts.plain)} → `)];
         form.part("figures").replaceChildren(...before, facts.size > 0 ? sized(facts.size) : "");
         form.say("claim", facts.claim);

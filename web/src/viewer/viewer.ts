@@ -9,7 +9,6 @@ import { View } from "./view";
 declare const LICENSES: string;
 
 const MOST_BYTES = 2 ** 26;
-const READ = /\.(bsm|ply|obj|stl|glb)$/i; // by a page without a server
 const BITS = ["14 bits", "12 bits", "16 bits", "lossless"]; // what the encoder of pages offers
 
 /** What a widget knows of its other half in Python (https://anywidget.dev/en/afm). */
@@ -60,13 +59,7 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
 
 /** Encode a file, or two without loss, which are compared. */
 const encodeHere: Encode = async (files, preset, report, signal) => {
-    const meshes = files.filter(({ name }) => READ.test(name));
-    const others = files.filter((file) => !meshes.includes(file)).map(({ name }) => name);
-    if (meshes.length > 0 && others.length > 0) {
-        const content = await encodeHere(meshes, preset, report, signal);
-        return { ...content, facts: { ...content.facts, less: true, notes: [`Left out: ${others.join(", ")}. bsm view reads them.`, ...(content.facts.notes ?? [])] } };
-    }
-    if (files.length > 2) throw new Error("This page opens one mesh, or two to compare them; bsm view opens sequences of files.");
+    if (files.length > 2) throw new Error("This page opens one mesh, or two to compare them; bsm view opens sequences and meshes with their files.");
     const [begin, isPair, found] = [performance.now(), files.length > 1, [] as Result[]];
     for (const file of files) {
         const bytes = isStream(file) && (await bytesIn(file));
