@@ -2,7 +2,6 @@
 import { BufferAttribute, Matrix3, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Matrix4, type Mesh, type Object3D, type Texture } from "three";
 import { kindOf, refuse, wholes, type AttributeInput, type MeshInput } from "./encoding";
 
-type AnyAttribute = BufferAttribute | InterleavedBufferAttribute;
 type Values = Float32Array | Float64Array;
 interface Part {
     geometry: BufferGeometry;
@@ -13,7 +12,6 @@ interface Part {
 
 const REFUSED = { isSkinnedMesh: "skins", isInstancedMesh: "instances", isBatchedMesh: "batches", isLOD: "levels of detail" };
 const GETTERS = ["getX", "getY", "getZ", "getW"] as const;
-const WIDEST = GETTERS.length;
 
 const semanticOf = (name: string): AttributeInput["semantic"] => (name === "normal" ? "normal" : name.startsWith("color") ? "color" : /^(uv|texcoord)\d*$/.test(name) ? "texcoord" : "generic");
 
@@ -30,7 +28,7 @@ export function meshOf(given: BufferGeometry | Object3D, note: (text: string) =>
     const attributes = names.flatMap((name): AttributeInput[] => {
         const own = parts.flatMap(({ geometry }) => geometry.attributes[name] ?? []);
         const components = own[0].itemSize;
-        if (own.length < parts.length || components > WIDEST || own.some(({ itemSize }) => itemSize !== components)) return left.add(name), [];
+        if (own.length < parts.length || components > GETTERS.length || own.some(({ itemSize }) => itemSize !== components)) return left.add(name), [];
         const kinds = [...new Set(own.map(({ array, normalized }) => `${kindOf(array)} ${normalized}`))].join();
         const asShares = semanticOf(name) === "color" && /^uint(8|16) true$/.test(kinds);
         return [{ name, components, semantic: semanticOf(name), values: joined(parts.map((part) => valuesOf(part, name, asShares))) }];
@@ -76,7 +74,7 @@ function facesOf({ geometry, material, matrix }: Part, materials: Material[]): {
 
 /** The numbers that an attribute stands for, where its object is; `asShares`: integers stay shares of their range. */
 function valuesOf({ geometry, matrix }: Part, name: string, asShares: boolean): ArrayLike<number> {
-    const attribute = geometry.attributes[name] as AnyAttribute;
+    const attribute = geometry.attributes[name] as BufferAttribute | InterleavedBufferAttribute;
     const { array, count, itemSize, normalized } = attribute;
     const isPlace = name === "position";
     const isMoved = matrix !== undefined && (isPlace || /^(normal|tangent)$/.test(name)) && !matrix.equals(matrix.clone().identity());

@@ -3,7 +3,7 @@
 import base64
 import gzip
 import hashlib
-import itertools
+import io
 import json
 import os
 import re
@@ -336,9 +336,8 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
             try:
-                ends = list(itertools.accumulate(map(int, sizes)))
-                parts = [data[end - int(size) : end] for end, size in zip(ends, sizes, strict=True)]
-                files = list(zip(names, parts, strict=False))
+                body = io.BytesIO(data)
+                files = [(name, body.read(int(size))) for name, size in zip(names, sizes, strict=False)]
                 self._answer(self._reported(files, asked["preset"][0]), "text/plain")
             finally:
                 self.server.encoding.release()

@@ -3,7 +3,7 @@ import {
     type BufferAttribute, type BufferGeometry, type DataTexture, DirectionalLight, DoubleSide, Group, type Material, MathUtils, Mesh, MeshBasicMaterial,
     MeshStandardMaterial, NeutralToneMapping, PlaneGeometry, PMREMGenerator, Scene, Vector3, WebGLRenderer,
 } from "three";
-import { Camera, frontOf, type Points } from "./camera";
+import { Camera, frontOf } from "./camera";
 import { GROUND, shadowOf, studio } from "./light";
 import { freeAreas } from "./room";
 
@@ -138,9 +138,8 @@ export class Stage {
         let depth = Infinity;
         over(() => (depth = Math.min(depth, point.applyMatrix4(turned.matrixWorld).y)), BOUNDED);
         [this.depth, this.ground.position.y] = [depth, depth];
-        const some: Points = (act) => over(act, AIMED);
         const [matrix, front] = [turned.matrixWorld.clone(), frontOf(normals).applyEuler(turned.rotation)];
-        this.aim = () => camera.aim(some, matrix, front, freeAreas(this.canvas.closest<HTMLElement>(".bsm")!, this.mode === "split" ? 2 : 1));
+        this.aim = () => camera.aim((act) => over(act, AIMED), matrix, front, freeAreas(this.canvas.closest<HTMLElement>(".bsm")!, this.mode === "split" ? 2 : 1));
         if (!camera.touched) this.aim();
     }
 
