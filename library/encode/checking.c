@@ -59,6 +59,7 @@ static bool check_options(Context *context, const bsmenc_options *o) {
 static Span text_of(const char *text) { return (Span){(const uint8_t *)text, (int64_t)strlen(text)}; }
 
 static bool check_metadata(Context *context, const bsmenc_mesh *mesh) {
+    if (mesh->metadata_count > 0 && mesh->metadata == NULL) return FAIL(context, MISUSED, "mesh.metadata is NULL");
     for (size_t i = 0; i < mesh->metadata_count; i++) {
         const bsmdec_metadata *entry = mesh->metadata + i;
         bool text = entry->type == BSMDEC_TEXT, sized = text || entry->type == BSMDEC_BYTES;
@@ -139,6 +140,7 @@ static bool check_attributes(Encoder *encoder) {
     int64_t count = (int64_t)mesh->attribute_count;
     if (count >= MOST_ATTRIBUTES) return FAIL(context, MISUSED, "a stream has # attributes at most, not #",
         MOST_ATTRIBUTES - 1, count);
+    if (count > 0 && mesh->attributes == NULL) return FAIL(context, MISUSED, "mesh.attributes is NULL");
     if (!TAKE(&encoder->writer.arena, count, encoder->attributes)
         || !TAKE_ZEROS(&encoder->writer.arena, count, encoder->carried))
         return false;

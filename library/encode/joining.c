@@ -3,9 +3,10 @@
 
 #ifdef BSMDEC_WRITES
 
-static uint64_t hash_of(const int64_t *row, int width) {
-    uint64_t hash = 0;
-    for (int i = 0; i < width; i++) hash = ((hash ^ hash >> 29) ^ (uint64_t)row[i]) * UINT64_C(0xBF58476D1CE4E5B9);
+/* The seed differs from run to run, so nobody can choose rows of one hash. */
+static uint64_t hash_of(const int64_t *row, int width, uint64_t seed) {
+    uint64_t hash = seed;
+    for (int i = 0; i < width; i++) hash = ((hash ^ hash >> 29) ^ (uint64_t)row[i]) * (seed << 1 | 1);
     return hash ^ hash >> 32;
 }
 
@@ -15,10 +16,11 @@ int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratc
     Mark mark = mark_of(scratch);
     while (size < 2 * count) size *= 2;
     if (!take_ints(scratch, size, &place) || !take_ints(scratch, count, &first)) return -1;
+    uint64_t seed = (uint64_t)(uintptr_t)place.data * UINT64_C(0xBF58476D1CE4E5B9);
     for (int64_t i = 0; i < size; i++) place.data[i] = -1;
     for (int64_t i = 0; i < count; i++) {
         const int64_t *row = rows + width * i;
-        uint64_t at = hash_of(row, width) & (uint64_t)(size - 1);
+        uint64_t at = hash_of(row, width, seed ^ seed >> 32) & (uint64_t)(size - 1);
         for (; place.data[at] >= 0; at = (at + 1) & (uint64_t)(size - 1)) {
             const int64_t *other = rows + width * (int64_t)first.data[place.data[at]];
             int same = 0;
