@@ -7,7 +7,6 @@ it. Whatever is wrong is a `FormatError` or `LimitError`.
 import os
 import struct
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing
 from mmap import mmap
 from typing import Any
 
@@ -76,7 +75,7 @@ def leave(memory: int, found: MeshFile | Frames | BsmError | None) -> None:
     table = _COUNT.pack(len(rows)) + b"".join(rows)
     if len(table) + total > os.fstat(memory).st_size:
         raise MemoryError
-    with closing(mmap(memory, len(table) + total)) as view:
+    with mmap(memory, len(table) + total) as view:
         for data in (table, *parts):
             view.write(data)
 

@@ -66,7 +66,6 @@ _WRITING = 0o1103  # flags of open: O_WRONLY, O_RDWR, O_CREAT, O_TRUNC
 _THREAD, _CLONE3, _NOT_KNOWN = 0x10000, 435, 38  # clone3 has its flags where no filter sees them: clone does it then
 _QUESTIONS = {"ioctl": (0x5401, 0x5451), "fcntl": (1, 2, 3, 1030)}  # TCGETS, FIOCLEX; F_GETFD to _GETFL, _DUPFD_CLOEXEC
 _REFUSED = 3000  # and the number of a call: the error of one that is refused
-_KNOWN = ("PATH", "LANG", "HOME")  # of the environment; other variables may be keys of a service
 _QUIET = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PXR_WORK_THREAD_LIMIT": "1", "MALLOC_ARENA_MAX": "1"}
 
 
@@ -163,7 +162,7 @@ class _Server:
     def __init__(self) -> None:
         self._socket, there = socket.socketpair()
         paths = (str(Path(importlib.import_module("bsm").__file__ or "").parents[1]), os.environ.get("PYTHONPATH", ""))
-        known = {name: os.environ[name] for name in _KNOWN if name in os.environ}
+        known = {name: os.environ[name] for name in ("PATH", "LANG", "HOME") if name in os.environ}
         environment = known | _QUIET | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
         if not re.match("python|pypy", os.path.basename(sys.executable or "")):
             raise FileNotFoundError("sys.executable is not Python")  # but a program that has Python in it
@@ -344,8 +343,7 @@ def _close_calls() -> None:
     known = ctypes.create_string_buffer(struct.pack("@HP", len(code) // 8, ctypes.addressof(code)))
     control = ctypes.CDLL(None, use_errno=True).prctl
     control.argtypes = (ctypes.c_int, *4 * (ctypes.c_ulong,))
-    ends_with_watcher, no_new_privileges = (1, signal.SIGKILL, 0, 0, 0), (38, 1, 0, 0, 0)
-    for call in (ends_with_watcher, no_new_privileges, (22, 2, ctypes.addressof(known), 0, 0)):
+    for call in ((1, signal.SIGKILL, 0, 0, 0), (38, 1, 0, 0, 0), (22, 2, ctypes.addressof(known), 0, 0)):
         if control(*call):
             raise UnsupportedError(f"the kernel does not filter calls: {os.strerror(ctypes.get_errno())}")
 
