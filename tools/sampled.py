@@ -41,15 +41,16 @@ def box(*sides: float) -> Field:
     return field
 
 
-def voxelized(field: Field, cells: int, thick: float = 1.0, reach: float = 1.0, copies: int = 1) -> Scan:
+def voxelized(field: Field, cells: int, thick: float = 1.0, reach: float = 1.0, copies: float = 1.0) -> Scan:
     """The surface of a binary volume of `cells` cells a side, the slices along z `thick` cells thick and stored as
-    `copies` thinner ones."""
+    `copies` thinner ones, which are the nearest slice."""
     step = 2.0 * reach / (cells - 2 * MARGIN)
     steps = step * np.array([1.0, 1.0, thick])
     counts = np.array([cells, cells, round(cells / thick)])
     origin = -0.5 * steps * (counts - 1)
     ticks = [low + size * np.arange(count) for low, size, count in zip(origin, steps, counts, strict=True)]
-    inside = np.repeat(field(np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)) < 0.0, copies, axis=2)
+    nearest = ((np.arange(round(counts[2] * copies)) + 0.5) / copies).astype(int).clip(max=counts[2] - 1)
+    inside = (field(np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)) < 0.0)[:, :, nearest]
     steps[2] /= copies
     origin[2] -= 0.5 * (copies - 1) * steps[2]
     positions, faces = isosurface(np.where(inside, 0.5, -0.5), steps, origin)

@@ -149,8 +149,7 @@ def choose(
     filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
     # The networks were not trained on the noise that the temporal filter leaves, and would take shape away with it.
     learnt = (len(positions) <= MOST_TAUGHT or finding.kind != "white") and finding.kind != "unsteady"
-    finishes = [each for each in FINISHES if filters is CANDIDATES or each == "none"]
-    finishes = [each for each in finishes if learnt or each != "learnt"]
+    finishes = [each for each in FINISHES if each == "none" or (filters is CANDIDATES and (learnt or each == "flat"))]
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
@@ -162,14 +161,12 @@ def choose(
     known = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, known)
     rehearsal = Rehearsal(mesh, surface, known, level, filters[0], named("goal", GOALS, goal))
-    winner = rehearsal.compete(filters, finishes, lambda stage, share: progress(stage, BEGUN + ROUND * share))
+    winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, BEGUN + ROUND * done))
     steadied = finding.kind == "unsteady"
     if not steadied:
         # The result of some filters is a better guess. A third round would repeat its own mistakes.
         rehearsal.again(winner)
-        winner = rehearsal.compete(
-            filters, finishes, lambda stage, share: progress(stage, BEGUN + ROUND * (1.0 + share))
-        )
+        winner = rehearsal.compete(filters, finishes, lambda name, done: progress(name, BEGUN + ROUND * (1.0 + done)))
     expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
     doubts = {
@@ -222,7 +219,6 @@ def treat(
     if not choice.steps:
         return noisy, choice
     finding, touched = finding.reaching(surface.topology, choice.noise.slides), finding.levels > 0.0
-    surface.expect(step.filter for step in choice.steps)
     filtered = surface.filtered(noisy, finding)
     full = np.where(touched[:, None], filtered.finished(filtered.mean(choice.steps), choice.finish), noisy)
     full = full if finding.bound is None else finding.bound.within(noisy, full)

@@ -189,16 +189,12 @@ class Rehearsal:
                 break
             chosen.append(alone[found])
             best = Outcome(tuple(member.steps[0] for member in chosen), errors[found], means[found])
-        steps = best.steps[:1] if len(set(best.steps)) == 1 else best.steps
         finished = []
         for finish in finishes:
             result = self._within(self._trial.finished(best.result, finish), self.noisy)
-            finished.append(Outcome(steps, self._goal(self.truth, result), result, finish))
+            finished.append(Outcome(best.steps, self._goal(self.truth, result), result, finish))
         best = min(finished, key=lambda outcome: outcome.error)
-        for outcome in reversed(finished):
-            if outcome.error * EASIER[outcome.finish] <= best.error:
-                return outcome
-        return best
+        return next(each for each in reversed(finished) if EASIER[each.finish] * each.error <= best.error)
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
         if self._finding.bound is not None:

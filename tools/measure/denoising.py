@@ -45,6 +45,7 @@ PARTS = ("block", "fandisk_6475", "twelve_dodecahedron", "trim_star", "sharpsphe
 STEPS = (0.5, 1.0, 2.0, 3.0)
 SLICES, SLICED, ORGANS = (3.0, 4.0, 6.0, 8.0), 72, (4, 10, 11, 16)
 """Of slices, cells across and a side; and seeds of `made_shape`."""
+UNEVEN = (2.3, 4.94, 6.7)  # cells across slices that are stored as whole cells
 
 GOALS = {"default": ("shading", 1.0), "--for shape": ("shape", 1.0), "--strength 0.8": ("shading", 0.8)}
 NOISES = {"white": gaussian_along_normals, "correlated": correlated_along_normals}
@@ -76,10 +77,9 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
     solids = {"ball": ball, "torus": torus, "box": box(0.6, 0.5, 0.4)}
     for thick, (shape, field) in product(SLICES, solids.items()):
         yield f"slices of {thick:g} cells, {shape}", partial(voxelized, field, SLICED, thick)
-        yield (
-            f"slices of {thick:g} cells, stored singly, {shape}",
-            partial(voxelized, field, 50, thick, 1.0, int(thick)),
-        )
+        yield f"slices of {thick:g} cells, stored singly, {shape}", partial(voxelized, field, 50, thick, 1.0, thick)
+    for thick, (shape, field) in product(UNEVEN, solids.items()):
+        yield f"uneven slices of {thick:g} cells, {shape}", partial(voxelized, field, SLICED, thick, 1.0, thick)
     shaped = partial(made_shape, cells=40)
     for thick, seed in product(SLICES, ORGANS):
         yield f"slices of {thick:g} cells, made {seed}", partial(_made, shaped, seed, voxelized_mesh, SLICED, thick)

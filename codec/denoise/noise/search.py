@@ -128,7 +128,7 @@ def _cells(positions: Positions, probe: Probe, edge: float) -> Finding | None:
     where = "x, y and z" if np.array_equal(cells.frame, np.eye(3)) else "axes of its own"
     reason = f"stairs along {where} of a binary volume of cells of {sizes}; no vertex leaves its half-cell"
     if cells.thick > 1:
-        reason = f"stairs along {where} of a volume of slices, {cells.thick} cells thick, of cells of {sizes}"
+        reason = f"stairs along {where} of a volume of slices, {cells.thick:.3g} cells thick, of cells of {sizes}"
     return Finding("cells", float(np.median(levels)), levels, edge, reason, bound=cells)
 
 

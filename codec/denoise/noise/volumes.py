@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 from scipy import sparse
 
-from bsm.codec.arrays import Floats, Positions
+from bsm.codec.arrays import Floats, Order, Positions
 from bsm.codec.denoise.noise.causes import FEW_VALUES, FEWEST_VALUES, Box, rounding_step
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Topology
@@ -32,7 +32,7 @@ class Cells(Box):
     """Cells of a binary volume along the rows of `frame`, and how far each vertex may move along these."""
 
     steps: Floats
-    thick: int = 1  # cells of a slice
+    thick: float = 1.0  # cells of a slice
     thin: float = 0.0  # share of the stairs along an axis that bound walls of one cell
 
     @property
@@ -96,21 +96,32 @@ def _cells(places: Positions, frame: Floats) -> Cells | None:
         stairs = numbers[between[:, axis]] @ scales
         thin = max(thin, 2.0 * float(np.isin(stairs + 2 * scale, stairs).mean())) if len(stairs) else thin
     levels = [np.unique(numbers[between[:, axis], axis]) for axis in range(3)]
-    heights = np.array([int(np.gcd.reduce(np.diff(level))) // 2 if len(level) > 1 else 0 for level in levels])
-    steps, thick = 2.0 * halves, 1
+    steps, thick = 2.0 * halves, 1.0
     half = np.where(between, halves, halves.min())
-    axis = int(heights.argmax())
-    others = np.delete(np.arange(3), axis)
-    # Stairs that somebody built have broad steps along other axes as well, or few of them.
-    many = len(levels[axis]) > FEW_VALUES and all(len(levels[k]) >= FEWEST_VALUES for k in others)
-    if many and heights[axis] > 1 and (heights[others] == 1).all():
-        thick = int(heights[axis])
+    gaps = [int(np.diff(level).min()) // 2 if len(level) > 1 else 0 for level in levels]
+    axis = int(np.argmax(gaps))
+    planes = levels[axis]
+    # Stairs that somebody built have broad steps along other axes as well, or few and equal ones.
+    few = FEW_VALUES - (len(np.unique(np.diff(planes))) > 1)
+    fine = all(len(levels[k]) >= FEWEST_VALUES and gaps[k] == 1 for k in range(3) if k != axis)
+    if fine and len(planes) > few and gaps[axis] > 1 and (thick := slice_thickness(planes)) > 1.0:
         steps[axis] *= thick
-        aside = np.abs((numbers[:, axis] - levels[axis][0]) % (2 * thick) - thick) > 1
+        place = np.clip(np.searchsorted(planes, numbers[:, axis]), 1, len(planes) - 1)
         # Only the middle of a slice was sampled.
+        aside = np.abs(numbers[:, axis] - 0.5 * (planes[place - 1] + planes[place])) > 1.0
         half[aside | between[:, axis]] = np.inf
         half[aside | between[:, axis], axis] = thick * halves[axis]
     return Cells(frame, half, steps, thick, thin)
+
+
+def slice_thickness(planes: Order) -> float:
+    """Cells of even slices of which planes, ascending in half-cells, are the ends, rounded to cells; 1 of others."""
+    heights, gaps = 0.5 * (planes - planes[0]), 0.5 * np.diff(planes)
+    thick, begin = float(gaps[gaps <= gaps.min() + 1.0].mean()), 0.0
+    for _ in range(3):
+        numbers = np.round((heights - begin) / thick)
+        thick, begin = np.polyfit(numbers, heights, 1)
+    return float(thick) if np.abs(heights - begin - thick * numbers).max() < 1.0 else 1.0
 
 
 def _frames(positions: Positions, topology: Topology) -> list[Floats]:

@@ -36,8 +36,6 @@ FINE = ("guided", "bilateral-normal")
 HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
 STREAM = "bsm"
-_GUIDES = {"patches": "guided", "own": "bilateral"}
-_FINISHES = {"learnt": "with learnt normals", "flat": "flat, with sharp edges, where that fits the noise"}
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 
@@ -56,7 +54,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, USD, folder, pattern",
+        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, USD, folder, pattern. From"
+        " 8 frames on, noise that changes with the frames is removed in time first",
         "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
         "encoded near-lossless",
     )
@@ -241,10 +240,8 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     yield line
     for step, times in Counter(choice.steps).items():
         chosen = step.filter
-        coarse = f"hand-over of {chosen.hand_over}, c = {100 * chosen.keep:g} % of a block"
-        other = {"none": "no hand-over", "rays": f"flattened along rays by {chosen.keep:g}"}
-        begun = coarse if chosen.needs_coarse else other.get(chosen.hand_over, "fewest bends")
-        way = f"{step.iterations} iterations of the {_GUIDES[chosen.guide]} normal filter"
+        begun = f"hand-over: {chosen.hand_over}" + (f", c/n {chosen.keep:g}" if chosen.needs_coarse else "")
+        way = f"{step.iterations} iterations of the normal filter (guide: {chosen.guide})"
         yield f"chosen     {100.0 * times / len(choice.steps):.0f} % {begun}; {way}, sigma_r {chosen.sigma_r:g}"
     if choice.finish != "none":
-        yield f"finished   {_FINISHES[choice.finish]}"
+        yield f"finish     {choice.finish}"

@@ -78,14 +78,15 @@ def test_cells_are_known_from_vertices_halfway_between_them_only() -> None:
         assert find_cells(clean, Topology(faces, len(clean))) is None
 
 
-@pytest.mark.parametrize(("thick", "most"), [(3, 6.0), (4, 6.0), (6, 8.0)])
-def test_slices_that_were_stored_as_several_thin_ones_are_known(thick: int, most: float) -> None:
+@pytest.mark.parametrize(("thick", "most"), [(2.3, 6.0), (3.0, 6.0), (4.0, 6.0), (4.75, 8.0), (6.0, 8.0)])
+def test_slices_that_were_stored_as_several_thin_ones_are_known(thick: float, most: float) -> None:
     pytest.importorskip("vtkmodules")
-    made = voxelized(ball, 46, float(thick), copies=thick)
+    made = voxelized(ball, 46, thick, copies=thick)
     cells = find_cells(made.positions, Topology(made.faces, len(made.positions)))
-    assert cells is not None and cells.thick == thick and cells.flatness == pytest.approx(thick)
+    assert cells is not None and cells.thick == pytest.approx(thick, rel=0.04)
+    assert cells.flatness == pytest.approx(cells.thick)
     result, choice = denoise_automatically(made.positions, made.faces)
-    assert f"slices, {thick} cells thick" in choice.reason and not choice.reliable
+    assert f"slices, {cells.thick:.3g} cells thick" in choice.reason and not choice.reliable
     assert made.angle(result) < most and made.rms(result) < 0.5 * made.rms(made.positions)
 
 
