@@ -18,7 +18,7 @@ ROUNDS, STEPS, EXACT, STAND_OUT = 6, 120, 1e-5, 2.0
 
 def flattened(given: Positions, places: Positions, topology: Topology, weight: float, power: float) -> Positions:
     """Positions, shape (n, 3), of fewer bends over the places, shape (n, 3), near the given ones."""
-    middle, edge = given.mean(axis=0), mean_edge_length(places, topology.faces) or 1.0
+    middle, edge = given.mean(axis=0), mean_edge_length(given, topology.faces) or 1.0
     found = fewer_bends((given - middle) / edge, (places - middle) / edge, topology, weight, power)
     return np.asarray(middle + edge * found)
 
