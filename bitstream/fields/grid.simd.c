@@ -306,7 +306,8 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
     int32_t *x = g->values.data + AXES * (int64_t)v;
     look_around(&w->corners, g, v, last, &p);
     if (g->twins) seek_images(g->twins, &w->corners, &g->values, &p.around, v, p.base);
-    if (g->twins && g->twins->asks_whole && code_whole(&w->coder, g->twins, &p.around, v, p.base, p.error_near, g->largest.data, x)) {
+    if (g->twins && g->twins->asks_whole
+        && code_whole(&w->coder, g->twins, &p.around, v, p.base, p.error_near, g->largest.data, x)) {
         for (int j = 0; j < AXES; j++) {
             g->gaps.data[AXES * (int64_t)v + j] = FINE * x[j] - p.base[j];
             mark_seen(g->seen.data + j * g->seen.columns, x[j]);

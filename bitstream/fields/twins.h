@@ -62,8 +62,9 @@ typedef struct Twins {
     int32_t candidates, known_axes, axis[3], value[3];
     int32_t echoed[2][3], echo_class; /* of flaps alike, weighed and the best; 0: there is none */
     Frame frame[2]; /* of the first two flaps */
-    /* Whether vertices are where images are, if that is asked: the model, the latest answers of each image, a bit each; of each vertex
-     * whether it is in the first cell (0: not asked, 1: no, 2: yes); cells in which the vertex at hand is not. */
+    /* Whether vertices are where images are, if that is asked: the model, the latest answers of each image, a bit
+     * each; of each vertex whether it is in the first cell (0: not asked, 1: no, 2: yes); cells in which the vertex at
+     * hand is not. */
     bool asks_whole;
     uint32_t whole_slot[2 * WHOLE_CONTEXTS * CONTEXT_SIZE];
     int32_t whole_weight[WHOLE_ROWS * WHOLE_CONTEXTS], latest[MOST_IMAGES], missed[MOST_MISSES][3], misses;
