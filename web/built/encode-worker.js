@@ -1,1 +1,1 @@
-import{serve as o}from"./encode.js";o();
+import{serve as o}from"./encoding.js";o();
