@@ -16,13 +16,11 @@ KERNEL int64_t nearest_levels(ConstLongs targets, Ints2 ways, Bytes2 origins, In
     for (int64_t i = 0; i < count; i++)
         if (targets.data[i] > MAX_LEVEL * INT64_C(256) || targets.data[i] < -MAX_LEVEL * INT64_C(256)) return MISUSED;
 
-    double errors[2][STATES], *old = errors[1], *new = errors[0];
-    for (int s = 0; s < STATES; s++) new[s] = s == 0 ? 0.0 : NEVER;
+    double errors[2][STATES];
+    for (int s = 0; s < STATES; s++) errors[0][s] = s == 0 ? 0.0 : NEVER;
     for (int64_t i = 0; i < count; i++) {
         int64_t target = targets.data[i] < 0 ? -targets.data[i] : targets.data[i];
-        double *swap = old;
-        old = new;
-        new = swap;
+        double *old = errors[i & 1], *new = errors[~i & 1];
         for (int s = 0; s < STATES; s++) new[s] = NEVER;
         for (int state = 0; state < STATES; state++) {
             if (old[state] == NEVER) continue;
@@ -40,7 +38,7 @@ KERNEL int64_t nearest_levels(ConstLongs targets, Ints2 ways, Bytes2 origins, In
     }
     int state = 0;
     for (int s = 1; s < STATES; s++)
-        if (new[s] < new[state]) state = s;
+        if (errors[count & 1][s] < errors[count & 1][state]) state = s;
     for (int64_t i = count; i-- > 0;) {
         int32_t level = ways.data[STATES * i + state];
         levels.data[i] = targets.data[i] >= 0 ? level : -level;
