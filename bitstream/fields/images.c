@@ -48,7 +48,7 @@ bool code_whole(RangeCoder *coder, Twins *t, const Around *around, int32_t v, co
     int32_t hits = around->flaps > 0 ? (t->hit[f->a] * 3 + t->hit[f->b]) * 3 + t->hit[f->c] : 0;
     int32_t errors = sum_class((int64_t)near[0] + near[1] + near[2], 15);
     for (int i = 0; i < t->candidates && t->misses < MOST_MISSES; i++) {
-        int32_t *cell = t->missed[t->misses], next[AXES];
+        int32_t *cell = t->missed[t->misses], next[AXES] = {0};
         find_cell(t->candidate + i, largest, cell);
         if (t->misses > 0 && same_cell(cell, t->missed[0])) continue;
         if (i + 1 < t->candidates) find_cell(t->candidate + i + 1, largest, next);

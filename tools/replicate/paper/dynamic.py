@@ -184,8 +184,8 @@ def dynamic(study: Study) -> Iterator[Row]:
             "There are very few abrupt changes of c",
             max(jump for band in BANDS for jump in jumps[LIKE_TEXT, band]) <= 25.0,
             f"in percent of the mean c, at {', '.join(f'{f:g}' for f in factors)} of that error, with eps_l = "
-            f"{BANDS[0]:g} eps_h and then {BANDS[1]:g}, the largest change is {worded[LIKE_TEXT]} by Algorithm 2, and "
-            f"{worded[CODEC]} by the codec's rule.",
+            f"{BANDS[0]:g} eps_h and then {BANDS[1]:g}, the largest change is {worded[LIKE_TEXT]} by Algorithm 2. "
+            f"It is {worded[CODEC]} by the codec's rule.",
             model,
         ),
         f"With eps_l = {BANDS[0]:g} eps_h, the codec's rule takes {price[BANDS[0]]:+.0f} % of Algorithm 2's "
