@@ -137,8 +137,8 @@ def times(study: Study) -> Iterator[Row]:
                 f"OI is {published[25][4]} to {published[10][4]} times faster",
                 min(once) >= published[25][4],
                 f"one iteration of R^3 with one Onorm is {min(once):.0f} to {max(once):.0f} times faster. R^3 twice "
-                f"with an Onorm after each R is {min(speeds):.0f} to {max(speeds):.0f} times faster, with cutting in both "
-                f"sums {min(whole):.0f} to {max(whole):.0f} times.",
+                f"with an Onorm after each R is {min(speeds):.0f} to {max(speeds):.0f} times faster, with cutting in "
+                f"both sums {min(whole):.0f} to {max(whole):.0f} times.",
                 model,
             ),
             numbers={
