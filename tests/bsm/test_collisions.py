@@ -13,7 +13,7 @@ NO_FILES = {
     *("N", "K", "H", "S", "X,Y,Z", "X,Y,Z,X,Y,Z", "A:B", "NAME", "NAME=TEXT", "NAME=HOW", "NAME=VALUE", "FIELD=VALUE"),
     "NAME=QUALITY",
     "quick|normal|best",
-    *("ADDRESS", "LIST", "RULE", "FRACTION", "SIZE", "DEGREES", "DB", "PERCENT", "FORMAT", "TEXT", "FPS"),
+    *("ADDRESS", "LIST", "RULE", "FRACTION", "SIZE", "DEGREES", "DB", "PERCENT", "FORMAT", "TEXT", "FPS", "UNIT"),
 }
 OUTPUTS = ("{}", "./{}", "link", "hard", "file://{}")
 SUFFIX = {"OUT.glb": ".glb", "FILE.png": ".png", "PAGE.html": ".html", "FILE.json": ".json", "FILE.npy": ".npy"}

@@ -107,8 +107,8 @@ def test_one_frame_holds_a_turned_grid():
 
 
 def test_a_size_is_met_in_turned_axes():
-    result = Encoder(askew(boxes()), EncodeOptions(target=Target("size", 2400.0), contract=None)).result()
-    assert result.size <= 2400 and any(result.header.turn)
+    result = Encoder(askew(boxes()), EncodeOptions(target=Target("size", 1200.0), contract=None)).result()
+    assert result.size <= 1200 and any(result.header.turn)
 
 
 def test_info_names_it(tmp_path, capsys):
