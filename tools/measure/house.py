@@ -1,7 +1,7 @@
 """How large the house is, beside what it may be: `python -m tools.measure house`; the exit code is 1 above a limit.
 
-Of the files that git knows, in lines as `wc` counts them. Three numbers have limits, which are only lowered. The rest
-is printed for whoever wants to know where the lines are.
+Of the files that git knows, in lines as `wc` counts them. The product has two parts: the codec proper, and the rest,
+which serves people around it. Numbers with limits are only lowered; the others show where the lines are.
 """
 
 from __future__ import annotations
@@ -11,11 +11,20 @@ import ast
 import re
 import subprocess
 from collections.abc import Callable, Iterable
+from itertools import chain
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PRODUCT = ("src/", "codec/", "bitstream/", "library/", "web/src/")
-LANGUAGES = {"Python": (".py",), "C and C++": (".c", ".h", ".cpp", ".hpp"), "Rust": (".rs",), "TypeScript": (".ts",)}
+PRODUCT = ("src/", "codec/", "bitstream/", "library/", "web/src/", "plugins/")
+CODEC = re.compile(r"(bitstream|codec(?!/denoise)|library)/")
+TESTS = ("tests/", "web/test/")
+CODE = (".py", ".c", ".cpp", ".rs", ".sh", ".js", ".mjs", ".ts", ".html")
+LANGUAGES = {
+    "Python": (".py", ".pyi"),
+    "C and C++": (".c", ".h", ".cpp", ".hpp"),
+    "Rust": (".rs",),
+    "TypeScript": (".ts",),
+}
 SEARCH = re.compile(r"codec/static/(choice/.*|encoder|targets)\.py$")
 """The modules that find the smallest stream that keeps a promise."""
 BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
@@ -23,7 +32,10 @@ BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "product in all languages, lines": 67_500,
+    "codec proper, lines": 36_617,
+    "rest of the product, lines": 31_705,
+    "tests, lines": 32_200,
+    "tools, lines": 18_480,
     "tuned constants of the search": 55,
     "kernels driven by both Python and C": 20,
 }
@@ -38,8 +50,12 @@ def house() -> dict[str, int]:
         f"product {name}, lines": total(count_lines, [file for file in product if file.suffix in ends])
         for name, ends in LANGUAGES.items()
     }
+    written = [file for file in product if file.suffix in {*chain.from_iterable(LANGUAGES.values())}]
+    codec = total(count_lines, [file for file in written if CODEC.match(str(file))])
+    code = [file for file in files if file.suffix in CODE]
+    beside = [total(count_lines, [file for file in code if str(file).startswith(rooms)]) for rooms in (TESTS, "tools/")]
     search = [file for file in product if SEARCH.match(str(file))]
-    counted = (sum(lines.values()), total(count_constants, search), len(driven_twice(product)))
+    counted = (codec, sum(lines.values()) - codec, *beside, total(count_constants, search), len(driven_twice(product)))
     python = total(count_lines, [file for file in files if file.suffix == ".py"])
     return dict(zip(LIMITS, counted, strict=True)) | lines | {"all Python, lines": python}
 
