@@ -132,7 +132,7 @@ const APART = /basis\/structure|payloads\/topology|signal\/layer|library\/stages
 
 /** How a source is compiled; the decoder of light grids is the smallest. */
 function optionsOf(source, fast, light) {
-    if (fast.test(source)) return [light ? "-O2" : "-O3", ...SPEED];
+    if (fast.test(source)) return ["-O2", ...SPEED];
     return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) || DRIVERS.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
 }
 
