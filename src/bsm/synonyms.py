@@ -9,13 +9,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
+from bsm.files.table import MESH_FORMATS, MESH_SUFFIXES
 
 # What is typed in place of a command, and in place of an option, each with what it is called here.
 _TABLES = (Path(__file__).parent / "synonyms.txt").read_text("utf-8").split("\n\n")
 _LINES = ([line.split(": ", 1) for line in table.splitlines()] for table in _TABLES)
 COMMANDS, OPTIONS = ({word: instead for words, instead in lines for word in words.split()} for lines in _LINES)
 
-MESHES = (".ply", ".obj", ".stl", ".off", ".vtp", ".npz", ".gltf", ".glb", ".3mf", ".dae")
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?%?")
 _UNIT = re.compile(r"mm|cm|m|in|inch|%|[kMG]i?B|KB|bytes|dB|deg(?:rees)?|bpv", re.IGNORECASE)
 
@@ -25,7 +25,7 @@ def advice_on_command(words: Sequence[str]) -> str:
     word = words[0]
     if word.lower() in COMMANDS:
         return f"; it is: bsm {COMMANDS[word.lower()]}"
-    named = next((name for name in words if Path(name).suffix.lower() in (*MESHES, ".bsm")), None)
+    named = next((name for name in words if Path(name).suffix.lower() in (*MESH_SUFFIXES, ".bsm")), None)
     if named is None or not (word.startswith("-") or named == word):
         return ""
     stream = Path(named).suffix.lower() == ".bsm"
@@ -47,7 +47,7 @@ def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) ->
             )
     if len(inputs) != 2 or inputs[0] in missing:
         return
-    last = Path(inputs[1]).suffix.lower()
-    if inputs[1] in missing or (command == "encode" and last == ".bsm") or (command == "decode" and last in MESHES[:5]):
+    outputs = {"encode": (".bsm",), "decode": tuple(f".{kind}" for kind in MESH_FORMATS)}
+    if inputs[1] in missing or Path(inputs[1]).suffix.lower() in outputs.get(command, ()):
         given, output = map(shlex.quote, inputs)
         raise OptionError(f"{inputs[1]}: the output is named with -o. Run: bsm {command} {given} -o {output}")

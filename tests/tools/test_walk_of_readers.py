@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from bsm import Limits
-from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
+from bsm.files.table import MESH_FORMATS
 from bsm.files.wall import lack
 from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth

@@ -14,7 +14,8 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.decoding import Decoder, SequenceDecoder, decode
 from bsm.codec.events import END_OF_STREAM, BlockEvent, FrameEvent
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import MESH_FORMATS, read_mesh
+from bsm.files.mesh import read_mesh
+from bsm.files.table import MESH_FORMATS
 
 Target = Callable[[bytes], None]
 

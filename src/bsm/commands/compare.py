@@ -30,7 +30,8 @@ from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, is_stream, peek_header
-from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, files_in
+from bsm.files.table import MESH_SUFFIXES
+from bsm.jobs.plan import STREAM_SUFFIXES, files_in
 from bsm.jobs.report import largest_error
 from bsm.jobs.task import Facts
 from bsm.lengths import length, metres, unit_of

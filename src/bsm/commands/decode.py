@@ -22,7 +22,7 @@ from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import WRITTEN_FORMATS, by_name, format_of_name, save_written, unknown_suffix, written_mesh
+from bsm.files.mesh import by_name, format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.motion.folder import is_numbered, mesh_files, names_many
 from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
@@ -31,7 +31,8 @@ from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.room import PRECISION
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
-from bsm.jobs.plan import MESH_SUFFIXES, STREAM_SUFFIXES, plan, plan_trees
+from bsm.files.table import MESH_SUFFIXES, WRITTEN_FORMATS
+from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
 from bsm.lengths import metres, unit_of

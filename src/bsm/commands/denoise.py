@@ -18,6 +18,7 @@ from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_inputs, adder, asked, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files import mesh as meshes
+from bsm.files import table
 from bsm.files.formats.metadata import Written
 from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
@@ -59,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
         "encoded near-lossless",
     )
-    add("--format", "", "format of the input and of a piped output", choices=(*meshes.MESH_FORMATS, "npy"))
+    add("--format", "", "format of the input and of a piped output", choices=(*table.MESH_FORMATS, "npy"))
     goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
     add("--for", "", goal, dest="goal", choices=GOALS, default=GOALS[0])
     add("--strength", "S", "fraction of every movement, 0 to 1 (default 1)", type=float, default=1.0)
@@ -118,9 +119,9 @@ def _suffix(name: str) -> str:
 def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
     stream = args.output.lower().endswith(f".{STREAM}")
     kind = args.format if args.output == "-" else STREAM if stream else meshes.format_of_name(args.output)
-    if kind not in (*meshes.WRITTEN_FORMATS, STREAM):
+    if kind not in (*table.WRITTEN_FORMATS, STREAM):
         if args.output == "-":
-            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(meshes.WRITTEN_FORMATS)}")
+            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(table.WRITTEN_FORMATS)}")
         raise meshes.unknown_suffix(args.output, STREAM)
     refuse_to_overwrite(args.output, args.may_replace(args.output))
 

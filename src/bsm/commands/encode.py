@@ -11,11 +11,12 @@ from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import IMAGES, add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.images import ImageRule
-from bsm.files.mesh import GLTF, MESH_FORMATS, WRITTEN_FORMATS, format_of_name
+from bsm.files.mesh import format_of_name
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
 from bsm.files.sequence import SEQUENCE_FORMATS, SEQUENCES_READ
+from bsm.files.table import GLTF, MESH_FORMATS, WRITTEN_FORMATS
 from bsm.jobs.encode import EncodeJob, encode_one
 from bsm.jobs.plan import plan, plan_trees
 from bsm.jobs.run import Run, run_jobs

@@ -8,11 +8,12 @@ from bsm.bitstream.errors import HarmError, OptionError
 from bsm.commands.flags import IMAGES, adder, within
 from bsm.console import Console
 from bsm.files.images import ImageRule
-from bsm.files.mesh import GLTF, read_mesh, size_with_parts, written_mesh
+from bsm.files.mesh import read_mesh, size_with_parts, written_mesh
 from bsm.files.output import refuse_collisions, write_output
 from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import decode_whole, is_stream, peek_header
+from bsm.files.table import GLTF
 from bsm.gltf.compress import compress, count_primitives
 from bsm.gltf.document import Document, read_document
 from bsm.gltf.write import moving_scene

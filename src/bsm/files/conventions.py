@@ -1,12 +1,6 @@
-"""The table of conventions: what each format takes numbers for, which its reader fills in and its writer obeys.
+"""Units, axes and colors of meshes, as the table of formats has them: readers name them, and writers obey."""
 
-The numbers of a mesh are right-handed coordinates, in the unit and with the axis that its metadata name ("unit",
-"up"), colors in sRGB with an opacity from 0 to 1, and texture coordinates from the bottom. Materials keep the words of
-their file: colors are sRGB under the words of MTL, and linear under those of glTF and USD, which have the alphaMode as
-well.
-"""
-
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,35 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.geometry.mesh import Metadata
+from bsm.files.table import FORMATS
 from bsm.lengths import metres
 
-START, STEP, TIMES, RATE = "frame_start", "frame_step", "frame_times", "frame_rate"
-"""Metadata of a sequence: the number of the first frame, at the frame rate; frames from one sample to the next, where
-that is not one; uneven times in seconds, as text; and frames per second."""
-_NUMBERED, _TIMED = frozenset((START, STEP)), frozenset((START, STEP, TIMES, RATE))
 TIME_VALUE = "TimeValue"  # seconds, in the field data of a VTP
 Array = npt.NDArray[Any]
 Doubles = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Convention:
-    """The meaning of numbers in a format: a value for all files, "named" by each file, or "" (not said)."""
-
-    unit: str = ""
-    up: str = ""
-    times: frozenset[str] = _NUMBERED  # metadata that frames say by their times, or by the numbers in their names
-
-
-FORMATS: Mapping[str, Convention] = {
-    "glb": Convention("meters", "y", _TIMED),
-    "usd": Convention("named", "named", _TIMED),
-    "3mf": Convention("named", "z"),
-    **dict.fromkeys(("vtp", "mdd"), Convention(times=_TIMED)),
-    **dict.fromkeys(("npz", "npy"), Convention(times=frozenset())),
-    **dict.fromkeys(("obj", "ply", "off", "stl", "pc2"), Convention()),
-    "tileset": Convention("meters", "z"),
-}
 _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
 _TO_Y = {
     "y": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),

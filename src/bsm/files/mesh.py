@@ -8,7 +8,6 @@ before anything is allocated for it.
 import importlib
 import math
 import os
-import re
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
@@ -26,13 +25,8 @@ from bsm.files.formats.polygons import Cut, MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Input, Source, as_input, file_beside, is_url
 from bsm.files.room import PRECISION, gunzipped, plain_text
+from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, USD_FORMATS, WRITTEN_FORMATS, format_of_bytes, other_kind
 
-_PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
-MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
-USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
-WRITTEN_FORMATS = ("3mf", "glb", "npz", "obj", "off", "ply", "stl", "vtp")  # what we write
-GLTF = ("glb", "gltf")  # read by `bsm.gltf`
-_CONTENTS = {"obj": "an OBJ", "off": "", "ply": "a PLY", "glb": "a GLB, JSON"}  # by their first bytes
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
 _WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
@@ -41,8 +35,6 @@ _FOREIGN = {
     ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
     ("zip", "gz", "bz2", "xz", "tar", "tgz"): "it contains files: unpack it, and read its contents",
 }
-_ROOMS = {kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}
-_ROOMS |= {"glb": "bsm.gltf.write", "3mf": "bsm.files.formats.three_mf"}
 
 
 def by_name(module: str, function: str) -> Any:
@@ -110,7 +102,8 @@ def read_cut(
     folder = Path(path).parent if path else None
     head = plain_text(given.peek(_HEAD))
     suffix = file_format or format_of_name(name)
-    if suffix in _CONTENTS and (other := by_name(_ROOMS["stl"], "other_kind")(head)) not in _CONTENTS[suffix]:
+    other = other_kind(head, suffix) if suffix in ("obj", "off", "ply", "glb") else ""
+    if other and (suffix, other) != ("glb", "JSON"):
         raise FormatError(f"this is {other}, not .{suffix}; give it the right name, or name its format")
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
@@ -121,22 +114,17 @@ def read_cut(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
-    if kind in USD_FORMATS and path:
-        usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
-        return usd
-    if kind in GLTF:
-        document = by_name("bsm.gltf.document", "Document")(data, folder, limits)
-        scene: MeshFile = by_name("bsm.gltf.scene", "read_gltf_mesh")(document)
-        return scene
-    polygons: Polygons
-    if kind == "dae":
-        polygons = by_name("bsm.files.formats.dae", "read_dae")(data, path, limits)
-    elif kind in _ROOMS:
-        polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
-    else:
+    row = FORMATS.get(kind)
+    if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
         raise FormatError(f"{f'.{kind}' if kind else 'this'} is not a mesh format that is known here: {way}")
-    if kind in _PLAIN:
+    reader = by_name(row.modules[0], row.reader)
+    if kind in USD_FORMATS or kind in GLTF:
+        document = by_name("bsm.gltf.document", "Document")
+        scene: MeshFile = reader(path, limits) if kind in USD_FORMATS else reader(document(data, folder, limits))
+        return scene
+    polygons: Polygons = reader(data, *((path,) if kind == "dae" else ()), limits)
+    if row.beside:
         beside = Beside(folder, limits)
         metadata, notes = fetched(polygons.metadata, beside.read)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
@@ -168,7 +156,7 @@ def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[s
     if mesh.metadata.items() >= PRECISION.items():
         metadata = {name: value for name, value in mesh.metadata.items() if name not in PRECISION}
         mesh = TriangleMesh(mesh.positions.astype("f4"), mesh.faces, mesh.attributes, metadata)
-    written: Written = by_name(_ROOMS[file_format], f"write_{file_format}")(mesh, Path(path).stem)
+    written: Written = by_name(*FORMATS[file_format].writer.split(":"))(mesh, Path(path).stem)
     return written
 
 
@@ -244,22 +232,3 @@ def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
 def format_of_name(path: str | os.PathLike[str]) -> str | None:
     suffix = Path(path).suffix[1:].lower()
     return suffix if suffix in WRITTEN_FORMATS else None
-
-
-def format_of_bytes(data: bytes) -> str | None:
-    head = data[:1024].lstrip()
-    if head.startswith(b"ply"):
-        return "ply"
-    if data.startswith(b"PK\x03\x04") and b"positions.npy" in data:
-        return "npz"
-    if data.startswith(b"glTF"):
-        return "glb"
-    if head.startswith(b"solid") or len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
-        return "stl"
-    if b"<VTKFile" in head:
-        return "vtp"
-    if b"OFF" in head[:8]:
-        return "off"
-    if re.search(rb"(?:\A|[\r\n])[ \t]*v[ \t]", data[: 1 << 16]):
-        return "obj"
-    return None

@@ -21,24 +21,14 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.runs import is_empty
-from bsm.files.conventions import FORMATS, RATE, TIMES
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
-from bsm.files.mesh import (
-    GLTF,
-    USD_FORMATS,
-    WRITTEN_FORMATS,
-    by_name,
-    is_apart,
-    kind_of,
-    read_mesh,
-    save_written,
-    written_mesh,
-)
+from bsm.files.mesh import by_name, is_apart, kind_of, read_mesh, save_written, written_mesh
 from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
+from bsm.files.table import FORMATS, GLTF, RATE, TIMES, USD_FORMATS, WRITTEN_FORMATS
 
 ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
@@ -125,7 +115,7 @@ def sequence_writer(
 ) -> Iterator[FrameWriter]:
     """Open a sequence for writing; yields what takes frame after frame."""
     shared = shared or Shared()
-    held = FORMATS["usd" if kind in USD_FORMATS else kind].times
+    held = FORMATS[kind].times
     if folder.is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
         if is_url(path):
             raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")

@@ -15,8 +15,9 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import Progress
-from bsm.files.mesh import GLTF, MESH_FORMATS, format_of_bytes, format_of_name
+from bsm.files.mesh import format_of_name
 from bsm.files.pipes import Source, as_input, is_pipe
+from bsm.files.table import GLTF, MESH_FORMATS, format_of_bytes
 
 
 def is_stream(source: Source) -> bool:

@@ -40,24 +40,16 @@ from bsm.files.answer import found_in, leave
 from bsm.files.formats.polygons import MeshFile
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input
+from bsm.files.table import FORMATS, MESH_FORMATS
 
 _COMMAND = "from bsm.files.wall import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
-_KIND = struct.Struct("<32sI")  # the formats of a library, and seconds, as they are sent
+_KIND = struct.Struct("<32sI")  # a format, and seconds, as they are sent
 _END = struct.Struct(
     "<iQd4096s"
 )  # a status, the most memory, seconds of processor time, and last words, that come back
 _HEAD = struct.Struct("<QQ")  # the bytes of a question in shared memory, and those of a file after it
 _ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
-_OWN = " npz obj off ply stl vtp"  # and what tells no format
-_LIBRARIES = {
-    "glb gltf": ("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"),
-    _OWN: ("bsm.files.mesh", *(f"bsm.files.formats.{kind}" for kind in ("npz", "obj", "off", "ply", "stl", "vtp"))),
-    "dae": ("bsm.files.formats.dae", "collada", "lxml.etree"),
-    "usd usda usdc usdz": ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel"),
-    "3mf": ("bsm.files.formats.three_mf", "lib3mf"),
-    "other": ("bsm.files.mesh",),
-}
 _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
 _SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
 _PATIENCE = 10  # times its processor time that a child may take, since the machine may be busy
@@ -117,8 +109,8 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
     question = json.dumps(asked).encode()
     with shared(_ROOM + len(question) + len(data) + asked["memory"]) as memory:
         os.pwrite(memory, _HEAD.pack(len(question), len(data)) + question + data, 0)
-        library = next((kinds for kinds in _LIBRARIES if kind in kinds.split(" ")), "other")
-        status, _, _, words = end_of_child(memory, library, _PATIENCE * asked["seconds"])
+        known = kind if kind in FORMATS else ""
+        status, _, _, words = end_of_child(memory, known, _PATIENCE * asked["seconds"])
         if os.WIFSIGNALED(status):
             raise _end_of(os.WTERMSIG(status), words, asked)
         return found_in(memory, limits)
@@ -176,12 +168,12 @@ class _Server:
         if hasattr(self, "process") and self.process.poll() is None:
             self.process.returncode = 0  # not waited for: it ends with its socket
 
-    def read(self, memory: int, library: str, seconds: int) -> End:
+    def read(self, memory: int, kind: str, seconds: int) -> End:
         """Let a child read the file that shared memory names; return its status, memory and time."""
         here, there = socket.socketpair()
         with here:
             with there:
-                socket.send_fds(self._socket, [_KIND.pack(library.encode(), seconds)], [there.fileno(), memory])
+                socket.send_fds(self._socket, [_KIND.pack(kind.encode(), seconds)], [there.fileno(), memory])
             end = here.recv(_END.size, socket.MSG_WAITALL)
             if len(end) < _END.size:
                 raise ConnectionError("the process that reads files has died")
@@ -194,21 +186,22 @@ def _server() -> _Server:
     return _Server()
 
 
-def end_of_child(memory: int, library: str, seconds: int) -> End:
+def end_of_child(memory: int, kind: str, seconds: int) -> End:
     try:
         with suppress(ConnectionError):
-            return _server().read(memory, library, seconds)
+            return _server().read(memory, kind, seconds)
         with suppress(subprocess.TimeoutExpired):  # somebody has ended it
             _server().process.wait(1)
         _server.cache_clear()
-        return _server().read(memory, library, seconds)
+        return _server().read(memory, kind, seconds)
     except OSError as error:
         raise UnsupportedError(f"the process that reads files from strangers does not start: {error}") from error
 
 
 def serve(number: int) -> None:
     """Fork for each file that is asked for, until the last process that can ask has ended."""
-    _load(_OWN)
+    for kind in MESH_FORMATS:
+        _load(kind)
     _libraries()
     _calls()
     lack()  # landlockpy looks for the C library when it is first used
@@ -220,8 +213,8 @@ def serve(number: int) -> None:
             request, files, _, _ = socket.recv_fds(asked, _KIND.size, 2)
             if not request:
                 return
-            library, seconds = _KIND.unpack(request)
-            _load(library.rstrip(b"\0").decode())
+            kind, seconds = _KIND.unpack(request)
+            _load(kind.rstrip(b"\0").decode())
             if not os.fork():
                 asked.close()
                 _watch(files[0], files[1], seconds)
@@ -230,8 +223,8 @@ def serve(number: int) -> None:
 
 
 @cache
-def _load(library: str) -> None:
-    for name in _LIBRARIES[library]:
+def _load(kind: str) -> None:
+    for name in FORMATS[kind].modules if kind else ():
         with suppress(ImportError):
             importlib.import_module(name)
 

@@ -14,7 +14,7 @@ from bsm.bitstream.errors import FormatError, LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.files import conventions
+from bsm.files import conventions, table
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
@@ -586,8 +586,8 @@ def _frames(document: Document, wanted: Wanted, limits: Limits) -> Frames:
     notes += ["left out, for they move: normals"] if moving else []
     notes += [f"left out: {', '.join(unread)}"] if (unread := _unread(document, still=False)) else []
     notes += between("key times", (keys - keys[0]) * rate, rate)
-    start = {conventions.START: round(float(keys[0]) * rate, 3)} if keys[0] else {}
-    known = {n: v for n, v in still.mesh.metadata.items() if n not in conventions.FORMATS["glb"].times}
+    start = {table.START: round(float(keys[0]) * rate, 3)} if keys[0] else {}
+    known = {n: v for n, v in still.mesh.metadata.items() if n not in table.FORMATS["glb"].times}
     mesh = replace(still.mesh, metadata=known | start)
     frames = map(scene.at, times.tolist())
     shared = mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata

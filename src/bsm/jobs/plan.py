@@ -10,10 +10,8 @@ from pathlib import Path, PurePath
 from bsm.bitstream.errors import OptionError
 from bsm.files import pipes
 from bsm.files.output import default_output, no_link, output_inside, own_name, refuse_collisions
+from bsm.files.table import MESH_SUFFIXES
 from bsm.jobs.task import Job
-
-MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae", ".vtp")
-"""Suffixes of the mesh files that a search of folders finds."""
 
 
 def plan(

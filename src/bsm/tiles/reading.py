@@ -20,9 +20,10 @@ from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import IMAGE, MOST_HEADER, Element, parse_header
 from bsm.files.formats.polygons import CROSSING, Polygons, meaning_of, triangulate
 from bsm.files.formats.stl import HEAD, RECORD, binary_triangles, is_text
-from bsm.files.mesh import format_of_bytes, format_of_name
+from bsm.files.mesh import format_of_name
 from bsm.files.output import by_its_own_name
 from bsm.files.pipes import Input, size_of
+from bsm.files.table import format_of_bytes
 
 Array: TypeAlias = npt.NDArray[Any]
 Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color" or "normal"

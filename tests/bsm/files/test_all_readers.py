@@ -12,12 +12,13 @@ import pytest
 
 from bsm import BsmError
 from bsm.bitstream.limits import Limits
-from bsm.files.mesh import GLTF, USD_FORMATS, WRITTEN_FORMATS, read_mesh, written_mesh
+from bsm.files.mesh import read_mesh, written_mesh
+from bsm.files.table import FORMATS, USD_FORMATS, WRITTEN_FORMATS
 from tests.motion import bending, save_frames
 from tests.shapes import torus
 
 LIBRARIES = {"3mf": "lib3mf", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr")}
-FORMATS = sorted({*WRITTEN_FORMATS, *USD_FORMATS, *GLTF, "dae"})
+READ = sorted(kind for kind, row in FORMATS.items() if row.reader)
 LIMITS = Limits(vertices=10_000, faces=10_000)
 
 
@@ -46,7 +47,7 @@ def valid(kind: str, folder: Path) -> bytes:
     return path.read_bytes()
 
 
-@pytest.mark.parametrize("kind", FORMATS)
+@pytest.mark.parametrize("kind", READ)
 def test_no_reader_lets_another_error_out(kind: str, tmp_path: Path) -> None:
     if (library := LIBRARIES.get(kind)) is not None and importlib.util.find_spec(library) is None:
         pytest.skip(f"needs {library}")

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 import bsm
 from bsm import Attribute, BsmError, Limits, TriangleMesh
-from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, read_mesh, size_with_parts, write_mesh, written_mesh
+from bsm.files.mesh import read_mesh, size_with_parts, write_mesh, written_mesh
+from bsm.files.table import MESH_FORMATS, WRITTEN_FORMATS
 from tests.shapes import at_corners, patch, tetrahedron, torus
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"

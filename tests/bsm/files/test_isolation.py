@@ -75,7 +75,6 @@ def acting(monkeypatch, tmp_path, act, before=""):
     (tmp_path / "library").mkdir(exist_ok=True)
     (tmp_path / "library" / "evil.py").write_text(f"import os, socket\ndef act(here):\n    {act}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "library"))
-    monkeypatch.setitem(wall._LIBRARIES, wall._OWN, ("bsm.files.mesh",))
     code = (
         "from bsm.files import mesh, wall; import evil; plain, known = mesh.read_mesh, wall._libraries\n"
         "def taken(source, *given, **more):\n"

@@ -9,7 +9,8 @@ import pytest
 from bsm import Attribute, TriangleMesh, read_mesh
 from bsm.files.conventions import placement, shares_of, to_linear
 from bsm.files.formats.metadata import as_gltf, materials_in
-from bsm.files.mesh import WRITTEN_FORMATS, write_mesh
+from bsm.files.mesh import write_mesh
+from bsm.files.table import WRITTEN_FORMATS
 
 FACES = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
 COLORS = np.array([[255, 0, 0, 255], [0, 128, 0, 200], [0, 0, 64, 255], [9, 9, 9, 10], [200, 100, 50, 128]], np.uint8)

@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import BsmError, CorruptError, FormatError, LimitError, Limits, MeshError, TriangleMesh, TruncatedError
-from bsm.files.mesh import MESH_FORMATS, read_mesh, write_mesh, written_mesh
+from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from bsm.files.sequence import open_sequence
+from bsm.files.table import MESH_FORMATS
 from tests.gltf import Built
 from tests.shapes import ply_head, tetrahedron, torus
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from bsm import FormatError, MeshError, TriangleMesh
-from bsm.files.conventions import FORMATS
 from bsm.files.mesh import read_cut, write_mesh
 from bsm.files.motion import folder
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
+from bsm.files.table import FORMATS
 from tests.bsm.program import run as bsm
 from tests.shapes import tetrahedron
 

@@ -18,9 +18,10 @@ import bsm
 from bsm import CorruptError, FormatError, LimitError, Limits, MeshError, TruncatedError
 from bsm.bitstream import errors
 from bsm.cli import main
-from bsm.files.mesh import format_of_bytes, read_mesh, written_mesh
+from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.room import gunzipped
 from bsm.files.sequence import open_sequence
+from bsm.files.table import format_of_bytes
 from tests.bsm.program import bsm as program
 from tests.bsm.program import python
 from tests.gltf import Built

@@ -12,6 +12,7 @@ from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats.metadata import Written, face_numbers, left_out, named, text_of
 from bsm.files.formats.polygons import Column, Polygons
 from bsm.files.room import NO_DOUBLES, Doubles, Rows, require_count, single_suffices
+from bsm.files.table import other_kind
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 HEAD = 84  # bytes before the first record, the last four of them the number of triangles
@@ -38,7 +39,7 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
     if size is None:
         return claimed, ""
     held, rest = divmod(size - HEAD, RECORD.itemsize)
-    if held < claimed and claimed not in _UNKNOWN and (kind := other_kind(head)):
+    if held < claimed and claimed not in _UNKNOWN and (kind := other_kind(head, "stl")):
         raise FormatError(f"this is not an STL file: it is {kind}; give it the right name, or name its format")
     if held < claimed and claimed not in _UNKNOWN:
         raise TruncatedError(f"the STL file is cut short (or is not one): it has {held} of {claimed} triangles")
@@ -46,22 +47,6 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
         beyond = size - HEAD - RECORD.itemsize * claimed
         return claimed, f"{beyond} bytes after the last triangle" if beyond else ""
     return held, f"the number of triangles in the header ({claimed}; by its size, the file has {held})"
-
-
-_OTHERS = {rb"\s*<(!doctype html|html)": "an HTML page", rb"\s*<\?xml": "XML", rb"PK\x03\x04": "a zip archive"}
-_OTHERS |= {
-    rb"glTF": "a GLB",
-    rb"ply\s": "a PLY",
-    rb"ISO-10303": "a STEP file",
-    rb"Kaydara": "an FBX",
-    rb"LASF": "a LAS",
-}
-_OTHERS |= {rb"\s*solid\b[^\0]*\bfacet\b": "an STL", rb"(?:[^\0]*\n)?v[ \t]+[-\d.]": "an OBJ", rb"\s*\{": "JSON"}
-
-
-def other_kind(head: bytes) -> str:
-    """Return the kind of a file that may have the suffix of another."""
-    return next((kind for begin, kind in _OTHERS.items() if re.match(begin, head[:1024], re.IGNORECASE)), "")
 
 
 def read_stl(data: bytes, limits: Limits) -> Polygons:

@@ -18,15 +18,13 @@ import numpy as np
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
-from bsm.files.conventions import START, STEP
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import USUAL_RATE, Frames, Wanted, timing_of
 from bsm.files.pipes import about
 from bsm.files.room import Doubles, require_count
+from bsm.files.table import MESH_SUFFIXES, START, STEP
 
 CACHES = ("pc2", "mdd")
-MESHES_BESIDE = ("obj", "ply", "off", "glb", "gltf", "stl", "npz")
-"""The suffices of the mesh that lies beside a cache; the first that is there is taken."""
 _PC2 = struct.Struct("<12siiffi")
 _SIGNATURE = b"POINTCACHE2\0"
 _MDD = struct.Struct(">ii")
@@ -119,7 +117,7 @@ def _doubles(data: bytes, kind: str) -> Doubles:
 
 
 def _beside(path: str) -> str:
-    candidates = [str(Path(path).with_suffix(f".{suffix}")) for suffix in MESHES_BESIDE]
+    candidates = [str(Path(path).with_suffix(suffix)) for suffix in MESH_SUFFIXES]
     found = next((name for name in candidates if os.path.isfile(name)), None)
     if found is None:
         wanted = Path(path).with_suffix(".obj").name

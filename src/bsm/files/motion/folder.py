@@ -20,24 +20,17 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
-from bsm.files.conventions import START, STEP, TIME_VALUE
+from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import CutAlike
 from bsm.files.formats.vtp import elements_of
-from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_cut, save_written, written_mesh
+from bsm.files.mesh import format_of_name, read_cut, save_written, written_mesh
 from bsm.files.motion.frames import Frames, Wanted, timing_of
 from bsm.files.pipes import about, file_beside, is_pipe, is_url
+from bsm.files.table import FORMATS, START, STEP, WRITTEN_FORMATS
 
 _NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
 _SIGNED, _DECIMALS = re.compile(r"-?\d+"), re.compile(r"((?:(?<![^\W_])-)?\d+(?:\.\d+)?)")
-NOTHING = {
-    "obj": b"# a frame without faces\n",
-    "off": b"OFF\n0 0 0\n",
-    "ply": b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
-    b"element face 0\nproperty list uchar int vertex_indices\nend_header\n",
-    "stl": bytes(84),
-}
-"""Files of a frame without faces."""
 _PLACE = re.compile(r"%(0?)(\d*)d")
 
 
@@ -286,7 +279,7 @@ def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[
 
     def write(mesh: TriangleMesh, number: int) -> tuple[str, ...]:
         target = pattern.parent / _PLACE.sub(lambda place: f"{number:{place[1]}{place[2]}d}", pattern.name)
-        nothing = NOTHING.get(kind) if is_empty(mesh.attributes) else None
+        nothing = FORMATS[kind].empty if is_empty(mesh.attributes) else None
         file = written_mesh(mesh, kind, target) if nothing is None else Written(nothing)
         was_there = target.exists()
         if not was_there:

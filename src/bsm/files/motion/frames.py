@@ -15,8 +15,9 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.conventions import RATE, START, STEP, TIME_VALUE, TIMES
+from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import as_numbers
+from bsm.files.table import RATE, START, STEP, TIMES
 
 USUAL_RATE = 24.0  # frames per second of a sequence that does not say; pages play it as fast
 LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)

@@ -23,7 +23,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, empty_frame, is_empty
-from bsm.files import conventions
+from bsm.files import conventions, table
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
@@ -708,7 +708,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
                 yield painted_like(mesh, found)
 
         meshes = changing()
-    metadata = {**mesh.metadata, **({conventions.START: first * rate / codes} if first else {})}
+    metadata = {**mesh.metadata, **({table.START: first * rate / codes} if first else {})}
     frames = map(as_format_error("stage")(stage.at), every)
     return Frames(mesh.faces, count, frames, mesh.attributes, notes, rate, metadata, meshes)
 

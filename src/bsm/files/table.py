@@ -1,0 +1,91 @@
+"""The table of formats: a row has all that the other modules need to know of one. It imports nothing that takes time.
+
+The numbers of a mesh are right-handed coordinates, in the unit and with the axis that its metadata name ("unit",
+"up"), colors in sRGB with an opacity from 0 to 1, and texture coordinates from the bottom. Materials keep the words of
+their file: colors are sRGB under the words of MTL, and linear under those of glTF and USD, which have the alphaMode as
+well.
+"""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+START, STEP, TIMES, RATE = "frame_start", "frame_step", "frame_times", "frame_rate"
+"""Metadata of a sequence: the number of the first frame, at the frame rate; frames from one sample to the next, where
+that is not one; uneven times in seconds, as text; and frames per second."""
+_NUMBERED, _TIMED = frozenset((START, STEP)), frozenset((START, STEP, TIMES, RATE))
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format of meshes or frames; a unit or axis is that of all files, "named" by each, or "" (not said)."""
+
+    reader: str = ""  # of a mesh, in the first of the modules
+    writer: str = ""  # and its module
+    own: bool = False  # read without the libraries of others
+    beside: bool = False  # materials and images that its metadata name are read from its folder
+    begins: bytes = b"(?!)"  # what the first bytes of a file match
+    called: str = ""  # in errors, where a file has the suffix of another format
+    unit: str = ""
+    up: str = ""
+    times: frozenset[str] = _NUMBERED  # metadata that frames say by their times, or by the numbers in their names
+    empty: bytes | None = None  # a file of a frame without faces
+    modules: tuple[str, ...] = ()  # loaded before such a file is read in a process of its own
+
+
+def _own(kind: str, begins: bytes, **more: Any) -> Format:
+    module = f"bsm.files.formats.{kind}"
+    return Format(f"read_{kind}", f"{module}:write_{kind}", True, begins=begins, modules=(module,), **more)
+
+
+_EMPTY_PLY = b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+_EMPTY_PLY += b"element face 0\nproperty list uchar int vertex_indices\nend_header\n"
+_OBJ = rb"(?:[^\0]{0,65536}[\r\n])?[ \t]*v[ \t]+[-+\d.]"
+_GLTF = Format("read_gltf_mesh", modules=("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"))
+_GLB = replace(_GLTF, writer="bsm.gltf.write:write_glb", begins=b"glTF", called="a GLB", unit="meters", up="y")
+_PXR = ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel")
+_3MF = "bsm.files.formats.three_mf"
+USD_FORMATS = ("usd", "usda", "usdc", "usdz")
+
+FORMATS: Mapping[str, Format] = {
+    "obj": _own("obj", _OBJ, called="an OBJ", beside=True, empty=b"# a frame without faces\n"),
+    "ply": _own("ply", rb"\s*ply\b", called="a PLY", beside=True, empty=_EMPTY_PLY),
+    "off": _own("off", rb"(?s:.{0,5})OFF", called="an OFF", beside=True, empty=b"OFF\n0 0 0\n"),
+    "glb": replace(_GLB, times=_TIMED),
+    "gltf": _GLTF,
+    "stl": _own("stl", rb"\s*solid", called="an STL", beside=True, empty=bytes(84)),
+    "npz": _own("npz", rb"(?s:PK\x03\x04.*positions\.npy)", times=frozenset()),
+    "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile", times=_TIMED),
+    "3mf": Format("read_3mf", f"{_3MF}:write_3mf", unit="named", up="z", modules=(_3MF, "lib3mf")),
+    "dae": Format("read_dae", modules=("bsm.files.formats.dae", "collada", "lxml.etree")),
+    **dict.fromkeys(USD_FORMATS, Format("read_usd_mesh", unit="named", up="named", times=_TIMED, modules=_PXR)),
+    "npy": Format(times=frozenset()),
+    "pc2": Format(),
+    "mdd": Format(times=_TIMED),
+    "tileset": Format(unit="meters", up="z"),
+}
+_FOREIGN = {
+    rb"(?i)\s*<(!doctype html|html)": "an HTML page", rb"\s*<\?xml": "XML", rb"PK\x03\x04": "a zip archive",
+    rb"ISO-10303": "a STEP file", rb"Kaydara": "an FBX", rb"LASF": "a LAS", rb"\s*\{": "JSON",
+}  # fmt: skip
+"""Files of other kinds, by their first bytes."""
+GLTF = ("glb", "gltf")
+MESH_FORMATS = tuple(kind for kind, row in FORMATS.items() if row.own and row.reader)  # read and written by ourselves
+WRITTEN_FORMATS = tuple(sorted(kind for kind, row in FORMATS.items() if row.writer))
+MESH_SUFFIXES = tuple(f".{kind}" for kind, row in FORMATS.items() if row.reader and kind not in USD_FORMATS)
+"""Suffixes of the mesh files that a search of folders finds."""
+
+
+def format_of_bytes(data: bytes) -> str | None:
+    """Return the format that the bytes of a file tell."""
+    if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
+        return "stl"
+    return next((kind for kind, row in FORMATS.items() if re.match(row.begins, data)), None)
+
+
+def other_kind(head: bytes, suffix: str) -> str:
+    """Return the kind of a file whose first bytes are those of another format than its suffix; "" if they are not."""
+    kinds = _FOREIGN | {row.begins: row.called for row in FORMATS.values() if row.called}
+    found = next((called for begins, called in kinds.items() if re.match(begins, head[:1024])), "")
+    return "" if found == FORMATS[suffix].called else found
