@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import Attribute, EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode
+from bsm import Attribute, EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode, read_mesh
 from bsm.cli import main
 from bsm.codec.look.measure import LookMetric
 from bsm.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_mesh
 from tests.bsm.program import run_json
 from tests.shapes import soup, tetrahedron, torus
 

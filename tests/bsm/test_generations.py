@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import BsmError, TriangleMesh
+from bsm import BsmError, TriangleMesh, read_mesh
 from bsm.cli import main
-from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
 from tests.shapes import curved, tetrahedron, torus
 

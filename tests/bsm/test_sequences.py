@@ -6,10 +6,9 @@ import sys
 import numpy as np
 import pytest
 
-from bsm import Attribute, FormatError, MeshError, OptionError, TriangleMesh, TruncatedError
-from bsm.api import decode_frames
+from bsm import Attribute, FormatError, MeshError, OptionError, TriangleMesh, TruncatedError, decode_frames, read_mesh
 from bsm.files.formats.npz import read_npy
-from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.pipes import Input
 from bsm.files.sequence import open_sequence, sequence_kind

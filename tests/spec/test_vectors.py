@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import AttributeEvent, Decoder, decode, decode_sequence
-from bsm.api import decode_frames
+from bsm import AttributeEvent, Decoder, decode, decode_frames, decode_sequence
 from bsm.bitstream import errors
 from tests.streams import all_events, events_of
 from tools.vectors.__main__ import try_product

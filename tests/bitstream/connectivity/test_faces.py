@@ -11,12 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import BsmError, CorruptError, LimitError, MeshError, OptionError, TruncatedError
+from bsm import BsmError, CorruptError, LimitError, MeshError, OptionError, TruncatedError, read_mesh
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.files.mesh import read_mesh
 from tests.bitstream.fields.fields import SOUPS
 from tests.shapes import Faces, grid_faces
 from tools.payloads import decode_connectivity

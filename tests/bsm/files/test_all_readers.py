@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from bsm import BsmError
-from bsm.bitstream.limits import Limits
-from bsm.files.mesh import read_mesh, written_mesh
+from bsm import BsmError, Limits, read_mesh
+from bsm.files.mesh import written_mesh
 from bsm.files.table import FORMATS, USD_FORMATS, WRITTEN_FORMATS
 from tests.motion import bending, save_frames
 from tests.shapes import torus

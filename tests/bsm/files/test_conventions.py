@@ -7,15 +7,13 @@ import struct
 import numpy as np
 import pytest
 
-from bsm import FormatError, MeshError
+from bsm import Attribute, FormatError, MeshError, TriangleMesh, read_mesh
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.cli import main
-from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import placement, unit_named
 from bsm.files.formats.metadata import as_gltf, as_mtl, in_words, scale_and_offset
 from bsm.files.formats.polygons import Column, Part, joined_parts
-from bsm.files.mesh import read_mesh, write_mesh, written_mesh
+from bsm.files.mesh import write_mesh, written_mesh
 from bsm.lengths import metres
 from tests.bsm.files.test_file_attributes import png
 

@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import FormatError, LimitError, Limits
+from bsm import FormatError, LimitError, Limits, MeshFile, read_mesh
 from bsm.cli import main
 from bsm.files import wall
 from bsm.files.answer import found_in, leave
-from bsm.files.formats.polygons import MeshFile
-from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.wall import lack

@@ -4,9 +4,8 @@ import sys
 
 import pytest
 
-from bsm import DependencyError, LimitError, Limits, MeshError, UnsupportedError
+from bsm import DependencyError, LimitError, Limits, MeshError, UnsupportedError, read_mesh
 from bsm.cli import main
-from bsm.files.mesh import read_mesh
 from bsm.files.sequence import open_sequence
 
 wall = pytest.importorskip("bsm.files.wall")

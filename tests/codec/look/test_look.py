@@ -7,12 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from bsm import Attribute, MeshError, TargetError, TriangleMesh, decode, encode
-from bsm.codec.look.measure import Look, LookMetric, look, summed
+from bsm import PRESETS, Attribute, Encoder, Look, MeshError, TargetError, TriangleMesh, decode, encode, read_mesh
+from bsm.codec.look.measure import LookMetric, look, summed
 from bsm.codec.look.pictures import CREASE, LEAST_PIXELS, Canvas, Shape, Size, axes, cameras, difference
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import PRESETS
-from bsm.files.mesh import read_mesh
 from tests.shapes import patch, soup, tetrahedron, together, torus, turned
 
 MESH = torus(60, 40)

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm import BsmError, Decoder, EncodeOptions
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Grid, write_brief
-from bsm.bitstream.errors import BsmError
-from bsm.codec.decoding import Decoder, decode
+from bsm.codec.decoding import decode
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
 from tools.surgery import first_payload, frames_of, is_brief, stream_of
 from tools.vectors.good_attributes import charts, with_attributes
 from tools.vectors.good_fields import header_of

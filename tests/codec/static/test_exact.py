@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import PRESETS, EncodeOptions, Encoder, OptionError, TriangleMesh, decode, encode
-from bsm.files.mesh import read_mesh
+from bsm import PRESETS, EncodeOptions, Encoder, OptionError, TriangleMesh, decode, encode, read_mesh
 from tests.shapes import patch, torus
 
 LOSSLESS = PRESETS["lossless"]

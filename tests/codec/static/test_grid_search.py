@@ -6,13 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import PRESETS, EncodeOptions, Encoder, TriangleMesh, decode, encode
+from bsm import PRESETS, EncodeOptions, Encoder, TriangleMesh, decode, encode, read_mesh
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import join
 from bsm.comparison import in_order_of
-from bsm.files.mesh import read_mesh
 from tests.shapes import curved, grid_faces, patch
 
 

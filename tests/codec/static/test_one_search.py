@@ -7,14 +7,10 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm import Contract, EncodeOptions, Encoder, TriangleMesh, read_mesh
 from bsm.codec.look.pictures import Canvas
 from bsm.codec.static.choice.attributes import Input
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
-from bsm.codec.static.targets import Contract
-from bsm.files.mesh import read_mesh
 from tests.shapes import torus
 
 

@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode
+from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode, read_mesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.look.measure import look
 from bsm.codec.static.options import BALANCED, changed
 from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options
-from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
 from tests.shapes import patch, together, torus
 

@@ -7,14 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import Contract, EncodeOptions, Encoder, TriangleMesh
-from bsm.codec.geometry.attributes import Attribute
+from bsm import Attribute, Contract, EncodeOptions, Encoder, TriangleMesh, read_mesh
 from bsm.codec.static.choice.blocks import Refined
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.search import Search, Way
 from bsm.codec.static.targets import SLACK, secant
-from bsm.files.mesh import read_mesh
 from tests.codec.static.attributes.test_attributes import smooth_normals
 from tests.shapes import patch, torus
 
