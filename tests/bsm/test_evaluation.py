@@ -344,7 +344,6 @@ def test_iterations_are_those_of_dense_solvers(power, block):
 
 
 def test_a_bench_of_a_small_mesh_is_complete_and_fit_for_json(tmp_path):
-    pytest.importorskip("DracoPy")
     path = tmp_path / "patch.ply"
     path.write_bytes(written_mesh(patch(30, 30), "ply").data)
     result = run_bench([str(path)], sample=1, repeats=1, note=print)
@@ -355,6 +354,5 @@ def test_a_bench_of_a_small_mesh_is_complete_and_fit_for_json(tmp_path):
         rivals = [timing for timing in exact if timing["keep"] == found["keep"]]
         assert found["against_fastest"] == min(timing["seconds"] for timing in rivals) / found["seconds"]
         assert found["nmsve_db"] > rivals[0]["nmsve_db"] - 0.1
-    assert set(row["files"]) == {f"{who} {what}" for who in ("ours", "draco") for what in ("encode", "decode")}
     json.dumps(result, allow_nan=False)
     assert "patch, 900 vertices" in bench_tables(result)

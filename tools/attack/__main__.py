@@ -15,7 +15,6 @@ manifests  manifests and indexes of tiles, mutated by their grammar
 doors    files of others, read by other libraries and compared with what comes back from a stream
 meshes   random meshes by the encoder in C, with sanitizers
 figures  odd meshes, whose figures in results `bsm compare` must find as they were stated
-judges   encoded meshes by the decoder of release 1.0 and by the reference decoder
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
@@ -23,7 +22,7 @@ from __future__ import annotations
 
 from tools.command import dispatch
 
-ALIKE = "fuzz sweep readers calls answers growth proof costly manifests uses doors meshes judges figures"
+ALIKE = "fuzz sweep readers calls answers growth proof costly manifests uses doors meshes figures"
 COMMANDS = {name: f"{name}:main" for name in ALIKE.split()}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 

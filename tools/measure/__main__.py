@@ -2,10 +2,9 @@
 
 attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
-bench       speed against exact solvers and Draco, of MESHes
+bench       speed of dictionaries against exact solvers
 speed       what encoding and decoding take, over Draco's and a file of figures; of MESHes, decoding by bsmdec
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
-targets     what a target beside the look takes, over the larger of what both take alone; series of promises
 same        whether another checkout writes the same bytes
 denoising   how denoising does on noise of known cause, beside Taubin's filter
 house       how large the repository is, beside its limits
@@ -21,7 +20,6 @@ COMMANDS = {
     "encoding": "encoding:main",
     "bench": "bench:main",
     "speed": "speed:main",
-    "targets": "targets:main",
     "same": "same:main",
     "denoising": "denoising:main",
     "house": "house:main",

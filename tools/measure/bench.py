@@ -1,4 +1,4 @@
-"""Whole files against Draco, and dictionaries against exact eigensolvers: `python -m tools.measure bench MESH...`.
+"""Dictionaries against exact eigensolvers: `python -m tools.measure bench MESH...`.
 
 Solvers' times are CPU seconds of one thread, the least of several runs.
 """
@@ -21,18 +21,14 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import dense_laplacian, solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blend, Block, block_size, derive_partition, grow_blocks
-from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
-from bsm.evaluation.curve import decode_draco, encode_draco, number, table, timed
+from bsm.evaluation.curve import number, table, timed
 from bsm.files.mesh import read_mesh
 
 KEEPS = (0.10, 0.15, 0.20, 0.25)
 POWERS = (1, 2, 4)
-DRACO_BITS, DRACO_LEVEL = 9, 10
 SHIFT = 0.125
 _BLOCK_VERTICES, _OVERLAP = 500, 1.15
 Result = dict[str, Any]
@@ -60,38 +56,16 @@ EXACT = (
 )
 
 
-def run_bench(
-    meshes: Sequence[str], *, sample: int = 16, repeats: int = 3, solvers: bool = True, note: Callable[[str], None]
-) -> Result:
+def run_bench(meshes: Sequence[str], *, sample: int = 16, repeats: int = 3, note: Callable[[str], None]) -> Result:
     """Measure everything; `sample`: blocks that exact solvers solve."""
     rows = []
     for path in meshes:
         mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
-        note(f"{Path(path).name}, whole files")
-        row = {"mesh": Path(path).stem, "vertices": len(mesh.positions), "files": compare_with_draco(mesh, repeats)}
-        if solvers:
-            note(f"{Path(path).name}, eigensolvers")
-            with threadpool_limits(1):
-                row["dictionaries"] = time_solvers(mesh, sample, repeats)
-        rows.append(row)
+        note(f"{Path(path).name}, eigensolvers")
+        with threadpool_limits(1):
+            timings = time_solvers(mesh, sample, repeats)
+        rows.append({"mesh": Path(path).stem, "vertices": len(mesh.positions), "dictionaries": timings})
     return {"meshes": rows}
-
-
-def compare_with_draco(mesh: TriangleMesh, repeats: int) -> dict[str, dict[str, float]]:
-    """Encode and decode at c = 10 %, and Draco (level 10, 9 bits)."""
-    options = EncodeOptions(keep=0.10)
-    ours, theirs = encode(mesh, options), encode_draco(mesh, DRACO_BITS, DRACO_LEVEL)
-    works: dict[str, Callable[[], object]] = {
-        "ours encode": lambda: encode(mesh, options),
-        "draco encode": lambda: encode_draco(mesh, DRACO_BITS, DRACO_LEVEL),
-        "ours decode": lambda: decode(ours),
-        "draco decode": lambda: decode_draco(theirs),
-    }
-    found = {}
-    for name, work in works.items():
-        seconds, cpu = (timed(work, repeats + 1, clock)[0] for clock in (time.perf_counter, time.process_time))
-        found[name] = {"seconds": seconds, "cpu_seconds": cpu, "vertices_per_second": len(mesh.positions) / seconds}
-    return found
 
 
 def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
@@ -146,14 +120,6 @@ def bench_tables(result: Result) -> str:
     parts = []
     for row in result["meshes"]:
         parts.append(f"{row['mesh']}, {row['vertices']} vertices:\n")
-        names = {"seconds": 1e3, "cpu_seconds": 1e3, "vertices_per_second": 1}
-        files = [
-            (name, *(number(unit * times[key], 1 if unit > 1 else 0) for key, unit in names.items()))
-            for name, times in row["files"].items()
-        ]
-        parts.append(table(("whole file", "ms", "CPU ms", "vertices/s"), files))
-        if "dictionaries" not in row:
-            continue
         rows = [
             (
                 f"{timing['solver']}, c = {timing['keep']:.0%}",
@@ -174,7 +140,5 @@ def main() -> None:
     parser.add_argument("meshes", nargs="+")
     parser.add_argument("--sample", type=int, default=16, help="number of blocks for exact solvers")
     parser.add_argument("--repeat", type=int, default=3, help="repeat every measurement; the fastest counts")
-    parser.add_argument("--no-solvers", action="store_true", help="leave out exact solvers, which take minutes")
     args = parser.parse_args()
-    given = {"sample": args.sample, "repeats": args.repeat, "solvers": not args.no_solvers}
-    print(bench_tables(run_bench(args.meshes, **given, note=print)))
+    print(bench_tables(run_bench(args.meshes, sample=args.sample, repeats=args.repeat, note=print)))

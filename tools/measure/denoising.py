@@ -2,19 +2,14 @@
 
     python -m tools.measure denoising MESHES [ROWS ...]
     python -m tools.measure denoising --goals MESH...
-    python -m tools.measure denoising --clean MESH...
-    python -m tools.measure denoising --over CHECKOUT MESH...
 
 MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts of their names. With `--goals`, the
-table shows what each goal and strength leaves of white noise, on clean meshes of yours and on made shapes. `--clean`
-counts clean meshes that are changed. `--over` compares angles with those of another checkout, which has a `.venv`.
+table shows what each goal and strength leaves of white noise, on clean meshes of yours and on made shapes.
 """
 
 from __future__ import annotations
 
 import argparse
-import subprocess
-import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
@@ -24,15 +19,13 @@ from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError
 from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Topology
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference, face_normals, mean_edge_length
 from bsm.codec.geometry.welding import weld
-from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
 from tools.noise import correlated_along_normals, gaussian_along_axis, gaussian_along_normals
 from tools.sampled import THICK, ball, box, in_steps, torus, voxelized, voxelized_mesh
@@ -48,7 +41,6 @@ SLICES, SLICED, ORGANS = (3.0, 4.0, 6.0, 8.0), 72, (4, 10, 11, 16)
 UNEVEN = (2.3, 4.94, 6.7)  # cells across slices that are stored as whole cells
 
 GOALS = {"default": ("shading", 1.0), "--for shape": ("shape", 1.0), "--strength 0.8": ("shading", 0.8)}
-NOISES = {"white": gaussian_along_normals, "correlated": correlated_along_normals}
 WHITE, SEED, MADE, MADE_CELLS = 0.2, 3, 20, 28
 
 
@@ -141,41 +133,6 @@ def _clean(file: str) -> tuple[Positions, Faces]:
     return weld(mesh.positions.astype(np.float64), mesh.faces)[:2]
 
 
-def clean(files: Iterable[str]) -> None:
-    """Name the clean meshes that are changed."""
-    read, changed = 0, 0
-    for file in files:
-        try:
-            positions, faces = _clean(file)
-            result, choice = denoise_automatically(positions, faces)
-        except BsmError as error:
-            print(f"{file}: {error}")
-            continue
-        read, touched = read + 1, bool((result != positions).any())
-        changed += touched
-        if touched:
-            print(f"{file}: changed, {choice.kind}: {choice.reason}", flush=True)
-    print(f"{read} clean meshes, {changed} changed")
-
-
-def over(checkout: Path, files: Iterable[str]) -> None:
-    """Print the angles that we leave over those that the other checkout leaves."""
-    ratios = []
-    for file, (name, noise) in product(files, NOISES.items()):
-        positions, faces = _clean(file)
-        noisy = noise(positions, faces, WHITE, SEED)
-        with tempfile.TemporaryDirectory() as folder:
-            given, made = Path(folder) / "noisy.ply", Path(folder) / "made.ply"
-            write_mesh(given, TriangleMesh(noisy, faces))
-            subprocess.run([checkout / ".venv/bin/bsm", "denoise", "-q", given, "-o", made], check=True)
-            theirs = read_mesh(made).mesh.positions
-        reference = Reference(positions, faces)
-        angles = [reference.theta(moved) for moved in (noisy, theirs, denoise_automatically(noisy, faces)[0])]
-        ratios.append(angles[2] / angles[1])
-        print(f"{Path(file).stem:28}{name:12}" + "".join(f"{angle:8.2f}" for angle in angles), flush=True)
-    print(f"mean {np.mean(ratios):.3f}, above 1.02: {sum(ratio > 1.02 for ratio in ratios)} of {len(ratios)}")
-
-
 def _columns(shares: Floats) -> str:
     return "".join(f"{angle:11.2f}{distance:9.2f}" for angle, distance in shares)
 
@@ -187,12 +144,9 @@ def main() -> int:
     parser.add_argument("rows", nargs="*")
     parser.add_argument("--for", dest="goal", default="shading")
     parser.add_argument("--goals", action="store_true")
-    parser.add_argument("--clean", action="store_true")
-    parser.add_argument("--over", type=Path, metavar="CHECKOUT")
     args = parser.parse_args()
-    own = partial(over, args.over) if args.over else clean if args.clean else goals if args.goals else None
-    if own:
-        own([str(args.meshes), *args.rows])
+    if args.goals:
+        goals([str(args.meshes), *args.rows])
         return 0
     ratios = []
     heads = ("row", "vertices", "noisy", *(f"T{steps}" for steps in TAUBIN), "ours", "says", "off", "seconds", "found")
