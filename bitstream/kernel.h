@@ -103,6 +103,7 @@ BSM_ARRAY(Doubles, double)
 #else
 #define INLINE static inline __attribute__((always_inline))
 #endif
+#define INSIDE __attribute__((visibility("hidden")))
 /* Copied to every call for speed, but to none in a decoder that is built alone, which has one of all files: that is
  * sent to where it is needed. */
 #ifdef BSM_DECODER

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm._core import Decoder as Engine
 from bsm._core import DecoderState
-from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper, fields_of, paper_of
+from bsm.bitstream.container.header import HEADER_FIELDS, Header
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
@@ -372,37 +372,9 @@ class SequenceDecoder(StreamDecoder):
             yield attribute if found is None else found[0]
 
 
-def header_of(numbers: dict[str, float]) -> Header:
-    """A header of its numbers by their names in C (`HEADER_LIST` in bitstream/container/header.h)."""
-    whole = {name: int(number) for name, number in numbers.items()}
-    law = LAW_OF_SEQUENCES if whole["is_sequence"] else LAW
-    run, mesh_of = whole["run"], whole["mesh_of"]
-    by_law = whole["on_grid"] or mesh_of >= 0
-    return Header(
-        step=numbers["step"],
-        scale=numbers["scale"],
-        smoothing=numbers["smoothing"],
-        center=_row(numbers, "center", 3),
-        turn=_row(numbers, "turn", 3),
-        refinement=_row(numbers, "refinement", 2) if whole["refined"] else (),
-        grid=_row(whole, "grid", 3) if whole["on_grid"] else (),
-        lattice=(whole["cells"], whole["points"]) if whole["points"] else (),
-        corner=_row(whole, "corner", 3) if whole["counted"] else (),
-        sequence=(whole["frames"], whole["gop_frames"]) if whole["is_sequence"] else (),
-        run=(run, mesh_of) if mesh_of >= 0 else (run,) if run else (),
-        paper=() if by_law else paper_of(tuple(numbers[f"paper.{name}"] for name in fields_of(Paper)), law).entry(law),
-        **{name: whole[name] for name in _PLAIN},
-    )
-
-
-_PLAIN = (
-    *("vertices", "faces", "blocks", "block_size", "coefficients", "key_interval"),
-    *("attributes", "light", "congruence", "onorm"),
-)
-
-
-def _row(numbers: Mapping[str, float], name: str, count: int) -> tuple[Any, ...]:
-    return tuple(numbers[f"{name}[{i}]"] for i in range(count))
+def header_of(numbers: Mapping[int, list[float]]) -> Header:
+    """The header whose fields have these numbers, by their keys."""
+    return Header(**{name: item.of_numbers(numbers.get(item.key, [])) for name, item in HEADER_FIELDS.items()})
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

@@ -22,6 +22,7 @@ static const Field FIELDS[] = {
     {.key = MOVES, .type = METHOD_FIELD, .high = 1},
     {.key = SEAMS_OF, .type = INT_FIELD, .high = 65535},
 };
+INSIDE const Fields DECLARATION_FIELDS = {FIELDS, sizeof FIELDS / sizeof *FIELDS};
 enum { MOST_DECLARATION = 1 << 16 };
 
 static int words_of(const Declaration *d) {
@@ -46,6 +47,34 @@ static void set_declaration(const Record *record, Declaration *d) {
         d->step[i] = record->count[STEP] == 0 ? 1.0 : number[STEP][record->count[STEP] == 1 ? 0 : i];
     }
 }
+
+#ifdef BSMDEC_WRITES
+static int count_unless(const double *values, int count, double value) {
+    for (int i = 0; i < count; i++)
+        if (values[i] != value) return count;
+    return 0;
+}
+
+Record declaration_record(const Declaration *d) {
+    Record record = {
+        .number = {[DOMAIN_KEY] = {d->domain}, [ORIGIN] = {d->origin}, [SEMANTIC] = {d->semantic}, [KIND] = {d->kind},
+            [COMPONENTS] = {d->components}, [CODING] = {d->coding}, [ROWS] = {(double)d->rows}, [LEANS] = {d->leans},
+            [SEAMS_OF] = {(double)d->seams_of}},
+        .text = {(const uint8_t *)d->name, d->name_size},
+    };
+    for (int key = NAME; key <= SEAMS_OF; key++) record.count[key] = 1;
+    record.count[LARGEST] = d->words;
+    record.count[OFFSET] = count_unless(d->offset, d->words, 0.0);
+    record.count[STEP] = count_unless(d->step, d->words, 1.0);
+    if (record.count[STEP] > 0 && count_unless(d->step, d->words, d->step[0]) == 0) record.count[STEP] = 1;
+    for (int i = 0; i < d->words; i++) {
+        record.number[LARGEST][i] = d->largest[i];
+        record.number[OFFSET][i] = d->offset[i];
+        record.number[STEP][i] = d->step[i];
+    }
+    return record;
+}
+#endif
 
 /* D 1.4. */
 static bool agrees_with_itself(const Record *record, const Declaration *d) {
@@ -90,7 +119,7 @@ bool parse_declaration(Context *context, Span payload, Arena *scratch, Declarati
     Record record;
     if (payload.size > MOST_DECLARATION)
         return FAIL(context, CORRUPT, "a declaration of # bytes is too long", payload.size);
-    if (!parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record)) return false;
+    if (!parse_record(context, payload, DECLARATION_FIELDS, scratch, &record)) return false;
     set_declaration(&record, declaration);
     if (agrees_with_itself(&record, declaration) && in_kind(declaration)) return true;
     return FAIL(context, CORRUPT, "an attribute contradicts itself, or has values that are not of its kind");

@@ -31,6 +31,7 @@ static const Field FIELDS[] = {
     {.key = CONGRUENCE, .type = INT_FIELD, .high = 68},
     {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
 };
+INSIDE const Fields HEADER_FIELDS = {FIELDS, sizeof FIELDS / sizeof *FIELDS};
 
 #define BIT(key) (1u << (key))
 static const uint32_t OF_GRIDS_ALONE = BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY) | BIT(CONGRUENCE) | BIT(TURN);
@@ -48,7 +49,7 @@ static void set_header(const Record *record, Header *header) {
     const int *count = record->count;
     *header = (Header){
         .brief = header->brief, .connectivity = header->connectivity, .values = header->values,
-        .metadata = header->metadata,
+        .metadata = header->metadata, .record = *record,
         .vertices = (int64_t)number[VERTICES][0], .faces = (int64_t)number[FACES][0],
         .blocks = (int64_t)number[BLOCKS][0],
         .block_size = (int64_t)number[BLOCK_SIZE][0], .coefficients = (int64_t)number[COEFFICIENTS][0],
@@ -75,6 +76,19 @@ static void set_header(const Record *record, Header *header) {
     }
 }
 
+#ifdef BSMDEC_WRITES
+Record header_record(const Header *h) {
+    const double *center = h->center;
+    const int32_t *grid = h->grid;
+    return (Record){
+        .number = {[VERTICES] = {(double)h->vertices}, [FACES] = {(double)h->faces}, [SCALE] = {h->scale},
+            [CENTER] = {center[0], center[1], center[2]}, [ATTRIBUTES] = {(double)h->attributes},
+            [GRID] = {grid[0], grid[1], grid[2]}, [LIGHT_KEY] = {h->light}},
+        .count = {[VERTICES] = 1, [FACES] = 1, [SCALE] = 1, [CENTER] = 3, [ATTRIBUTES] = 1, [GRID] = 3,
+            [LIGHT_KEY] = 1}};
+}
+#endif
+
 /* The paper's constants in the place of the law's (F 10). */
 static bool set_paper(Context *context, const Record *record, Paper *paper) {
     static const double LOW[] = {0, 0, 0, 1, 1, 1, 0x1p-30, 0}, HIGH[] = {32, 30, 1, 64, 1024, 1024, 0x1p30, 1};
@@ -98,8 +112,9 @@ static bool set_paper(Context *context, const Record *record, Paper *paper) {
 }
 
 /* F 4.6. */
-static bool check_grid(Context *context, const Record *record, const Header *header) {
-    const int *count = record->count;
+static bool check_grid(Context *context, const Header *header) {
+    const int *count = header->record.count;
+    uint32_t stored = header->record.stored;
     int32_t most = 0;
     bool centered = false;
     for (int j = 0; j < 3; j++) {
@@ -114,16 +129,16 @@ static bool check_grid(Context *context, const Record *record, const Header *hea
         && agrees(context, !(header->counted && centered), "a corner and a center") && agrees(context,
             header->light != EXACT_FLOATS || count[LATTICE] + count[CORNER] == 0, "floats in cells that are counted")
         && agrees(context, header->light != LIGHT || header->congruence == 0, "congruent parts of a light grid")
-        && agrees(context, header->light == 0 || (record->stored & BIT(TURN)) == 0, "a turn of a light or exact grid")
-        && agrees(context, (record->stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
+        && agrees(context, header->light == 0 || (stored & BIT(TURN)) == 0, "a turn of a light or exact grid")
+        && agrees(context, (stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
 }
 
-static bool check_blocks(Context *context, const Record *record, const Header *header) {
-    const int *count = record->count;
+static bool check_blocks(Context *context, const Header *header) {
+    const int *count = header->record.count;
     double rows = (double)header->blocks * (double)header->block_size, step = header->refinement[0];
     return agrees(context, header->blocks > 0 && header->block_size > 0
             && header->coefficients > 0, "neither blocks nor a grid")
-        && agrees(context, (record->stored & OF_GRIDS_ALONE) == 0, "what belongs to a grid, without one")
+        && agrees(context, (header->record.stored & OF_GRIDS_ALONE) == 0, "what belongs to a grid, without one")
         && agrees(context, header->blocks <= header->vertices, "more blocks than vertices")
         && agrees(context, header->block_size <= header->vertices, "blocks larger than the mesh")
         && agrees(context, rows >= (double)header->vertices, "blocks too small to cover the mesh") && agrees(context,
@@ -136,8 +151,8 @@ static bool check_blocks(Context *context, const Record *record, const Header *h
         && agrees(context, !(header->refined && header->is_sequence), "refinement of a sequence");
 }
 
-static bool check_header(Context *context, const Record *record, const Header *header) {
-    const int *count = record->count;
+static bool check_header(Context *context, const Header *header) {
+    const int *count = header->record.count;
     if (header->congruence > 0 && header->congruence < LEAST_CONGRUENCE)
         return FAIL(context, UNSUPPORTED, "congruent parts of a draft of 1.1, older than its release: encode it again");
     if (!(agrees(context, header->vertices <= 3 * header->faces, "more vertices than the corners of its faces")
@@ -146,10 +161,10 @@ static bool check_header(Context *context, const Record *record, const Header *h
         && agrees(context, count[RUN] == 0 || header->is_sequence, "a run of a static mesh")
         && agrees(context, count[RUN] != 1 || header->run > 0, "a run that is stored although it is the first")))
         return false;
-    if (header->on_grid) return check_grid(context, record, header);
-    if (header->mesh_of < 0) return check_blocks(context, record, header);
+    if (header->on_grid) return check_grid(context, header);
+    if (header->mesh_of < 0) return check_blocks(context, header);
     return agrees(context, header->mesh_of < header->run, "the mesh of a run that comes later")
-        && agrees(context, (record->stored & ~OF_A_RUN) == 0, "the mesh of another run, and fields of its own");
+        && agrees(context, (header->record.stored & ~OF_A_RUN) == 0, "the mesh of another run, and fields of its own");
 }
 
 /* The header of a brief stream, all of whose fields are one of bytes, and what follows it there (F 11). */
@@ -170,7 +185,7 @@ static bool parse_brief(Context *context, const Map *map, Record *record, Header
     header->connectivity = take_span(&cursor, take_varint(&cursor));
     header->values = take_rest(&cursor);
     if (map->count > 1) header->metadata = last->bytes;
-    return !failed(context) && complete_record(context, FIELDS, sizeof FIELDS / sizeof *FIELDS, record);
+    return !failed(context) && complete_record(context, HEADER_FIELDS, record);
 }
 
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header) {
@@ -183,22 +198,16 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
     brief = brief && parsed && (map->count == 1 || (map->count == 2 && map->key[1].whole == BRIEF_METADATA));
     *header = (Header){.brief = brief};
     parsed = parsed && (brief ? parse_brief(context, map, &record, header)
-        : parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record));
+        : parse_record(context, payload, HEADER_FIELDS, scratch, &record));
     release_to(scratch, mark);
     if (!parsed) return false;
     set_header(&record, header);
 #ifdef BSMDEC_LACKS /* by a smaller build for pages */
     if (BSMDEC_LACKS) return FAIL(context, UNSUPPORTED, "");
 #endif
-    return set_paper(context, &record, &header->paper) && check_header(context, &record, header)
+    return set_paper(context, &header->record, &header->paper) && check_header(context, header)
         && WITHIN(context, vertices, header->vertices) && WITHIN(context, faces, header->faces)
         && WITHIN(context, blocks, header->blocks) && WITHIN(context, block_size, header->block_size)
         && WITHIN(context, coefficients, header->coefficients) && WITHIN(context, frames, header->frames)
         && WITHIN(context, gop_frames, header->gop_frames) && WITHIN(context, attributes, header->attributes);
-}
-
-#define NUMBER_OF(field) (double)header->field,
-void list_header(const Header *header, double *numbers) {
-    const double all[HEADER_NUMBERS] = {HEADER_LIST(NUMBER_OF)};
-    memcpy(numbers, all, sizeof all);
 }

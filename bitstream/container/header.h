@@ -27,6 +27,7 @@ typedef struct {
     Paper paper;
     bool brief; /* the frame of the header is the whole stream, and ends with this (F 11) */
     Span connectivity, values, metadata;
+    Record record; /* all fields by key, as they were stored */
 } Header;
 
 #ifndef BSMDEC_LONG /* whether a build knows no brief streams */
@@ -53,16 +54,9 @@ INLINE bool asks_whole(const Header *header) { return header->congruence >= LEAS
 
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 
-/* All numbers of a header in a row, for other languages; Python has them by name. */
-#define HEADER_LIST(F) F(vertices) F(faces) F(blocks) F(block_size) F(coefficients) F(key_interval) F(step) \
-    F(scale) F(smoothing) F(attributes) F(light) F(frames) F(gop_frames) F(run) F(mesh_of) F(center[0]) F(center[1]) \
-    F(center[2]) F(refined) F(refinement[0]) F(refinement[1]) F(on_grid) F(grid[0]) F(grid[1]) F(grid[2]) F(cells) \
-    F(points) F(counted) F(corner[0]) F(corner[1]) F(corner[2]) F(paper.bits) F(paper.coarser) F(paper.exact) \
-    F(paper.power) F(paper.iterations) F(paper.key_iterations) F(paper.shift) F(paper.springs) F(is_sequence) \
-    F(onorm) F(congruence) F(turn[0]) F(turn[1]) F(turn[2])
-#define ONE_MORE(field) +1
-enum { HEADER_NUMBERS = HEADER_LIST(ONE_MORE) };
-void list_header(const Header *header, double *numbers);
+extern INSIDE const Fields HEADER_FIELDS, DECLARATION_FIELDS;
+/* The numbers of a header that the encoder in C writes. */
+Record header_record(const Header *header);
 
 /* Blocks of a chain (M 10.1). */
 INLINE int64_t chain_length(const Header *header) {
@@ -87,6 +81,7 @@ typedef struct {
 } Declaration;
 
 bool parse_declaration(Context *context, Span payload, Arena *scratch, Declaration *declaration);
+Record declaration_record(const Declaration *declaration);
 /* Whether the user is given values by vertices. */
 INLINE bool is_by_vertex(const Declaration *d) {
     return (d->domain == BSMDEC_VERTEX && d->origin == 0) || (d->domain == BSMDEC_CORNER && d->origin == 1);

@@ -33,6 +33,10 @@ class Field:
             return tuple(_plain(self.item, item) for item in value)
         return _plain(self.type, value)
 
+    def of_numbers(self, numbers: list[float]) -> Any:
+        """The value that these numbers of a decoder are."""
+        return tuple(map(self.item, numbers)) if self.type is tuple else self.type(numbers[0])
+
     def problem(self, value: Any) -> str | None:
         """Return the fault of a normalized value, or None."""
         items = value if self.type is tuple else (value,)

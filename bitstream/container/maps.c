@@ -152,18 +152,18 @@ bool parse_map(Context *context, Span payload, Map *map) {
 
 enum { RESERVED = 255 };
 
-static const Field *field_of(const Field *fields, int count, uint64_t key) {
-    for (int i = 0; i < count; i++)
-        if (fields[i].key == key) return fields + i;
+static const Field *field_of(Fields fields, uint64_t key) {
+    for (int i = 0; i < fields.count; i++)
+        if (fields.field[i].key == key) return fields.field + i;
     return NULL;
 }
 
 /* Report a later version first, whatever else may seem wrong. */
-static bool refuse_unknown(Context *context, const Map *map, const Field *fields, int count) {
+static bool refuse_unknown(Context *context, const Map *map, Fields fields) {
     for (int i = 0; i < map->count; i++) {
         const Value *value = &map->value[i];
         if (map->key[i].kind != INTEGER) return FAIL(context, CORRUPT, "a field key is not an integer");
-        const Field *field = field_of(fields, count, map->key[i].bits);
+        const Field *field = field_of(fields, map->key[i].bits);
         if (field == NULL) return FAIL(context, UNSUPPORTED, "field # is unknown to this decoder", map->key[i].whole);
         if (field->type == METHOD_FIELD && value->kind == INTEGER && value->number > field->high
             && value->whole <= RESERVED)
@@ -191,7 +191,7 @@ static bool read_field(Context *context, const Map *map, const Field *field, con
     return true;
 }
 
-static bool is_default(const Field *field, const Record *record) {
+bool is_default(const Field *field, const Record *record) {
     if (field->required) return false;
     bool is_list = field->type == INTS_FIELD || field->type == FLOATS_FIELD;
     int count = is_list ? field->least : 1;
@@ -211,9 +211,9 @@ static bool in_range(const Field *field, const Record *record) {
     return true;
 }
 
-bool complete_record(Context *context, const Field *fields, int count, Record *record) {
-    for (int i = 0; i < count; i++) {
-        const Field *field = fields + i;
+bool complete_record(Context *context, Fields fields, Record *record) {
+    for (int i = 0; i < fields.count; i++) {
+        const Field *field = fields.field + i;
         bool is_stored = record->stored >> field->key & 1, is_list = field->type == INTS_FIELD
             || field->type == FLOATS_FIELD;
         if (!is_stored && field->required) return FAIL(context, CORRUPT, "field # is missing", field->key);
@@ -222,29 +222,29 @@ bool complete_record(Context *context, const Field *fields, int count, Record *r
             record->number[field->key][0] = field->fallback;
         }
     }
-    for (int i = 0; i < count; i++)
-        if (!in_range(fields + i, record))
-            return FAIL(context, CORRUPT, "field # is outside its legal range", fields[i].key);
+    for (int i = 0; i < fields.count; i++)
+        if (!in_range(fields.field + i, record))
+            return FAIL(context, CORRUPT, "field # is outside its legal range", fields.field[i].key);
     return true;
 }
 
-static bool read_record(Context *context, const Map *map, const Field *fields, int count, Record *record) {
+static bool read_record(Context *context, const Map *map, Fields fields, Record *record) {
     *record = (Record){0};
-    if (!refuse_unknown(context, map, fields, count)) return false;
+    if (!refuse_unknown(context, map, fields)) return false;
     for (int i = 0; i < map->count; i++) {
-        const Field *field = field_of(fields, count, map->key[i].bits);
+        const Field *field = field_of(fields, map->key[i].bits);
         if (!read_field(context, map, field, &map->value[i], record)) return false;
         if (is_default(field, record))
             return FAIL(context, CORRUPT, "field # is stored although it has its default", field->key);
     }
-    return complete_record(context, fields, count, record);
+    return complete_record(context, fields, record);
 }
 
-bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record) {
+bool parse_record(Context *context, Span payload, Fields fields, Arena *scratch, Record *record) {
     Mark mark = mark_of(scratch);
     Map *map;
     bool done = TAKE(scratch, 1, map) && parse_map(context, payload, map)
-        && read_record(context, map, fields, count, record);
+        && read_record(context, map, fields, record);
     release_to(scratch, mark);
     return done;
 }

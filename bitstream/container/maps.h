@@ -36,6 +36,10 @@ typedef struct {
     double fallback;  /* of a field without list; a list falls back to `least` zeros */
     bool required;
 } Field;
+typedef struct {
+    const Field *field;
+    int count;
+} Fields;
 
 enum { MOST_KEY = 25, MOST_LIST = 8 };
 /* By key: numbers, how many; and the text of the one field that may have one. */
@@ -46,6 +50,7 @@ typedef struct {
     Span text;
 } Record;
 
-bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record);
+bool parse_record(Context *context, Span payload, Fields fields, Arena *scratch, Record *record);
+bool is_default(const Field *field, const Record *record);
 /* Set the fields that are not stored to their defaults, and check that every value is in its range. */
-bool complete_record(Context *context, const Field *fields, int count, Record *record);
+bool complete_record(Context *context, Fields fields, Record *record);

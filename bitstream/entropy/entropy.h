@@ -7,8 +7,6 @@
 /* Tables of the mixer (specification, C 2.1, C 2.2, C 2.6), see tables.c. */
 enum { SQUASH_REACH = 2880, STRETCH_BITS = 12, SLOT_COUNT_BITS = 10 };
 
-#define INSIDE __attribute__((visibility("hidden")))
-
 /* Probability of log-odds, in units of 1 / 256 nat, from -SQUASH_REACH on. */
 extern INSIDE uint16_t SQUASH[2 * SQUASH_REACH];
 /* Log-odds of a probability, by its upper bits. */

@@ -200,7 +200,8 @@ bool declare_carried(Writer *writer, const CodedMesh *coded, int index, const Ca
     bool done = begin_payloads(context, all[index].seams.size + 64, &seams)
         && write_seams(writer, coded, index, all, &seams);
     if (done) {
-        put_declaration(&entries, &all[index].quantized.declaration);
+        const Record record = declaration_record(&all[index].quantized.declaration);
+        put_record(&entries, DECLARATION_FIELDS, &record);
         put_varint(&stream->payload, index);
         put_varint(&stream->payload, entries.size);
         put_bytes(&stream->payload, bytes_of(&entries));

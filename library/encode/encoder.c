@@ -264,7 +264,8 @@ static bool write_body(Encoder *encoder, const Writing *connectivity, Chunks *ch
             return false;
     }
     start_stream(out, &encoder->writer.context);
-    put_header(&out->payload, &header);
+    const Record record = header_record(&header);
+    put_record(&out->payload, HEADER_FIELDS, &record);
     put_section(out, HEADER_FRAME);
     write_metadata(encoder, false);
     put_bytes(&out->payload, (Span){connectivity->data, connectivity->size});

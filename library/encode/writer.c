@@ -91,66 +91,21 @@ static void put_count(Buffer *buffer, int few, int many, int64_t count) {
     else put_tagged(buffer, many, (uint64_t)count, 2);
 }
 
-static void put_reals(Buffer *buffer, const double *values, int count) {
-    put_count(buffer, 0x90, 0xdc, count);
-    for (int i = 0; i < count; i++) put_real(buffer, values[i]);
-}
-
-static bool are(const double *values, int count, double value) {
-    for (int i = 0; i < count; i++)
-        if (values[i] != value) return false;
-    return true;
-}
-
-/* An entry of a map, unless its value is the default: the entries are counted first, and written then. */
-#define ENTRY(key, is_default, put)                                                                                    \
-    do {                                                                                                               \
-        if (!(is_default)) {                                                                                           \
-            if (counts) entries++;                                                                                     \
-            else {                                                                                                     \
-                put_byte(buffer, key);                                                                                 \
-                put;                                                                                                   \
-            }                                                                                                          \
-        }                                                                                                              \
-    } while (0)
-
-void put_header(Buffer *buffer, const Header *h) {
+void put_record(Buffer *buffer, Fields fields, const Record *record) {
     int entries = 0;
-    for (int counts = 1; counts >= 0; counts--) {
-        if (!counts) put_count(buffer, 0x80, 0xde, entries);
-        ENTRY(1, false, put_whole(buffer, h->vertices));
-        ENTRY(2, false, put_whole(buffer, h->faces));
-        ENTRY(8, are(h->center, 3, 0.0), put_reals(buffer, h->center, 3));
-        ENTRY(9, h->scale == 1.0, put_real(buffer, h->scale));
-        ENTRY(12, h->attributes == 0, put_whole(buffer, h->attributes));
-        ENTRY(13, false, {
-            put_count(buffer, 0x90, 0xdc, 3);
-            for (int j = 0; j < 3; j++) put_whole(buffer, h->grid[j]);
-        });
-        ENTRY(16, h->light == 0, put_whole(buffer, h->light));
-    }
-}
-
-void put_declaration(Buffer *buffer, const Declaration *d) {
-    int entries = 0, steps = are(d->step, d->words, d->step[0]) ? 1 : d->words;
-    for (int counts = 1; counts >= 0; counts--) {
-        if (!counts) put_count(buffer, 0x80, 0xde, entries);
-        ENTRY(1, false, put_text(buffer, (Span){(const uint8_t *)d->name, d->name_size}));
-        ENTRY(2, d->domain == 0, put_whole(buffer, d->domain));
-        ENTRY(3, d->origin == 0, put_whole(buffer, d->origin));
-        ENTRY(4, d->semantic == 0, put_whole(buffer, d->semantic));
-        ENTRY(5, d->kind == BSMDEC_FLOAT32, put_whole(buffer, d->kind));
-        ENTRY(6, d->components == 1, put_whole(buffer, d->components));
-        ENTRY(7, d->coding == 0, put_whole(buffer, d->coding));
-        ENTRY(8, d->rows == 0, put_whole(buffer, d->rows));
-        ENTRY(9, d->words == 0, {
-            put_count(buffer, 0x90, 0xdc, d->words);
-            for (int i = 0; i < d->words; i++) put_whole(buffer, d->largest[i]);
-        });
-        ENTRY(10, are(d->offset, d->words, 0.0), put_reals(buffer, d->offset, d->words));
-        ENTRY(11, are(d->step, d->words, 1.0), put_reals(buffer, d->step, steps));
-        ENTRY(12, !d->leans, put_whole(buffer, d->leans));
-        ENTRY(15, d->seams_of == 0, put_whole(buffer, d->seams_of));
+    const Field *end = fields.field + fields.count;
+    for (const Field *f = fields.field; f < end; f++) entries += record->count[f->key] > 0 && !is_default(f, record);
+    put_count(buffer, 0x80, 0xde, entries);
+    for (const Field *f = fields.field; f < end; f++) {
+        int count = record->count[f->key];
+        if (count == 0 || is_default(f, record)) continue;
+        put_byte(buffer, f->key);
+        if (f->type == INTS_FIELD || f->type == FLOATS_FIELD) put_count(buffer, 0x90, 0xdc, count);
+        for (int i = 0; i < count; i++) {
+            if (f->type == TEXT_FIELD) put_text(buffer, record->text);
+            else if (f->type == FLOAT_FIELD || f->type == FLOATS_FIELD) put_real(buffer, record->number[f->key][i]);
+            else put_whole(buffer, (int64_t)record->number[f->key][i]);
+        }
     }
 }
 

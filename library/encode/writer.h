@@ -18,8 +18,8 @@ INLINE Span bytes_of(const Buffer *buffer) { return (Span){buffer->data, buffer-
 void put_bytes(Buffer *buffer, Span bytes);
 void put_varint(Buffer *buffer, int64_t value);
 void put_little(Buffer *buffer, uint64_t value, int size);
-void put_header(Buffer *buffer, const Header *header);
-void put_declaration(Buffer *buffer, const Declaration *declaration);
+/* The fields that a record has, but for those at their defaults. */
+void put_record(Buffer *buffer, Fields fields, const Record *record);
 /* A map of entries in the order of their names, at most MOST_ENTRIES. */
 void put_metadata(Buffer *buffer, const bsmdec_metadata *const *entries, int count);
 

@@ -9,6 +9,7 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -258,13 +259,12 @@ class Decoder : public Shared {
             shape.name, shape.domain, shape.semantic, indices(index, shape), copy_of(found.rows, found.count), own);
     }
 
-    // The numbers of bitstream/container/header.h by their names there.
-    nb::typed<nb::dict, nb::str, double> header() {
-        double numbers[MOST_HEADER_NUMBERS];
-        const char *const *names;
-        int count = unlocked([&] { return decoder_header(decoder, &names, numbers); });
-        nb::dict all;
-        for (int i = 0; i < count; i++) all[names[i]] = numbers[i];
+    // The numbers of the header's fields by their keys.
+    auto header() {
+        std::map<int, std::vector<double>> all;
+        const double *numbers;
+        for (int key = 0; key < MOST_HEADER_KEY; key++)
+            if (int count = decoder_field(decoder, key, &numbers); count > 0) all[key] = {numbers, numbers + count};
         return all;
     }
 

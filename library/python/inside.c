@@ -15,14 +15,12 @@ DecoderState decoder_state(const bsmdec *decoder) {
         spent->vertices - spent->gone, spent->spent, spent->received, spent->reserved};
 }
 
-_Static_assert((int)HEADER_NUMBERS <= MOST_HEADER_NUMBERS, "headers do not fit");
+_Static_assert((int)MOST_HEADER_KEY == MOST_KEY, "headers have other keys");
 
-#define NAME_OF(field) #field,
-int decoder_header(const bsmdec *decoder, const char *const **names, double *numbers) {
-    static const char *const ALL[] = {HEADER_LIST(NAME_OF)};
-    list_header(&decoder->reader.headers[decoder->reader.header], numbers);
-    *names = ALL;
-    return HEADER_NUMBERS;
+int decoder_field(const bsmdec *decoder, int key, const double **numbers) {
+    const Record *record = &decoder->reader.headers[decoder->reader.header].record;
+    *numbers = record->number[key];
+    return record->count[key];
 }
 
 _Static_assert(sizeof((SkimmedPacket *)0)->name > MOST_NAME, "names do not fit");

@@ -14,9 +14,9 @@ typedef struct {
     double work, received, memory;
 } DecoderState;
 DecoderState decoder_state(const bsmdec *decoder);
-/* The names and numbers of the header of the present run (bitstream/container/header.h), and how many there are. */
-enum { MOST_HEADER_NUMBERS = 48 };
-int decoder_header(const bsmdec *decoder, const char *const **names, double *numbers);
+/* The numbers of a field of the header of the present run, and how many there are. */
+enum { MOST_HEADER_KEY = 25 };
+int decoder_field(const bsmdec *decoder, int key, const double **numbers);
 /* What a packet says before it is decoded; `positions` is their checksum or -1. What follows is of an attribute. */
 typedef struct {
     int64_t type, offset, length; /* of its frame */

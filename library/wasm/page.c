@@ -1,4 +1,4 @@
-/* One decoder for a page: bsmdec.h, chains that other threads decode, and the numbers of the header. */
+/* One decoder for a page: bsmdec.h, chains that other threads decode, and the fields of the header. */
 #include "library/wasm/page.h"
 
 #include "library/decoder.h"
@@ -12,7 +12,7 @@ typedef struct {
 static bsmdec *decoder;
 static bsmdec_event event;
 static Rows rows;
-static double numbers[HEADER_NUMBERS];
+static double numbers[3];
 static Arena room; /* for a block of a helper, until the next event */
 
 /* `limits`: those of bsmdec.h in their order. Chains are shared by `among`, of whom this is `number`. */
@@ -58,10 +58,8 @@ const double *page_state(void) {
     return numbers;
 }
 
-const double *page_header(void) {
-    list_header(&decoder->reader.headers[decoder->reader.header], numbers);
-    return numbers;
-}
+/* The numbers of each field by its key, and how many they are. */
+const Record *page_header(void) { return &decoder->reader.headers[decoder->reader.header].record; }
 
 static const Rows *row_of(int64_t count, const void *vertices, const void *positions, const void *more) {
     rows = (Rows){(int32_t)count, vertices, positions, more};

@@ -16,7 +16,7 @@ const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
 const LAST_ATTRIBUTE = 255;
 const [ENTRY_BYTES, ATTRIBUTE_BYTES] = [48, 56];
-const [BITS, NUMBERS] = [31, 39];
+const [MOST_KEY, MOST_LIST] = [25, 8];
 
 interface Kind<View> {
     BYTES_PER_ELEMENT: number;
@@ -75,14 +75,12 @@ export class Engine extends Memory {
     }
 
     header(): Header {
-        const n = this.doubles(this.call("page_header"), NUMBERS);
-        const some = (isThere: number, from: number, to: number): number[] => (isThere > 0 ? [...n.subarray(from, to)] : []);
-        return {
-            vertices: n[0], faces: n[1], blocks: n[2], blockSize: n[3], coefficients: n[4], keyInterval: n[5], step: n[6], scale: n[7], smoothing: n[8],
-            attributes: n[9], light: n[10], frames: n[11], gopFrames: n[12], run: n[13], again: n[14] < 0 ? undefined : n[14], center: some(1, 15, 18),
-            refinement: some(n[18], 19, 21), grid: some(n[21], 22, 25), lattice: some(n[25], 25, 27), corner: some(n[27], 28, 31),
-            bits: n[BITS],
-        };
+        const at = this.call("page_header");
+        const [numbers, counts] = [this.doubles(at, MOST_KEY * MOST_LIST), this.ints(at + 8 * MOST_KEY * MOST_LIST, MOST_KEY)];
+        const lists = Array.from(counts, (count, key) => [...numbers.subarray(MOST_LIST * key, MOST_LIST * key + count)]);
+        const [, [vertices], [faces], [blocks], [blockSize], [coefficients], [keyInterval], [step], center, [scale], [smoothing]] = lists;
+        const [refinement, [attributes], grid, lattice, corner, [light], [frames = 0, gopFrames = 0], [run = 0, again], [bits = 0]] = lists.slice(11);
+        return { vertices, faces, blocks, blockSize, coefficients, keyInterval, step, center, scale, smoothing, refinement, attributes, grid, lattice, corner, light, frames, gopFrames, run, again, bits };
     }
 
     /** Entries of metadata, from number `from` on. */
