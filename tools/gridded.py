@@ -13,7 +13,7 @@ from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connect
 from bsm.bitstream.container.header import HEADER_FIELDS, MOST_GRID
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.ways.grid import Grid, grid_field
+from bsm.codec.static.ways.grid import Raster, grid_field
 from tools.payloads import decode_connectivity
 from tools.surgery import Frames, frames_of, header_entries, header_frame, parse_packet, stream_of
 
@@ -52,7 +52,7 @@ def grid_frames(
 ) -> Frames:
     """Return GRID packets of this many vertices each."""
     frames, first = [], 0
-    grid = Grid((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms, whole=whole)
+    grid = Raster((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms, whole=whole)
     field = grid_field(faces, largest, values, light, grid)
     for count in counts:
         frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + field.write(count)[0]))

@@ -10,7 +10,7 @@ from bsm.bitstream.errors import counted
 from bsm.codec.arrays import Faces, Floats, Mask, Order, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
-from bsm.codec.denoise.filters import BENDS, FINISHES, RAYS, Filter, Step, Surface
+from bsm.codec.denoise.filters import BENDS, FINISHES, RAYS, Filter, Filters, Step
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import put_outliers_back
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
@@ -125,7 +125,7 @@ class AutomaticChoice:
         return replace(choice, kind="outliers", reason=f"{counted(vertices=outliers)} that stood out")
 
 
-def calm(positions: Positions, surface: Surface) -> tuple[int, Ripples, Finding]:
+def calm(positions: Positions, surface: Filters) -> tuple[int, Ripples, Finding]:
     """The number of outliers that are put back, the positions, shape (n, 3), without these and ripples, and their
     noise."""
     finding = find_noise(positions, surface.probe)
@@ -139,7 +139,7 @@ def calm(positions: Positions, surface: Surface) -> tuple[int, Ripples, Finding]
 
 
 def choose(
-    positions: Positions, finding: Finding, surface: Surface, goal: str = "shading", progress: Progress = silent
+    positions: Positions, finding: Finding, surface: Filters, goal: str = "shading", progress: Progress = silent
 ) -> AutomaticChoice:
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
@@ -153,7 +153,7 @@ def choose(
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
     if len(members) < len(positions):
-        surface, chosen = Surface(part, len(members)), positions[members]
+        surface, chosen = Filters(part, len(members)), positions[members]
     surface.expect(filters)
     level = estimate_noise(chosen, surface.smooth(chosen, filters[0]), surface.probe)
     if level.slides:  # noise has moved vertices along the surface, too
@@ -213,7 +213,7 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
 
 
 def treat(
-    choice: AutomaticChoice, noisy: Positions, finding: Finding, surface: Surface, strength: float = 1.0
+    choice: AutomaticChoice, noisy: Positions, finding: Finding, surface: Filters, strength: float = 1.0
 ) -> tuple[Positions, AutomaticChoice]:
     """Apply the choice to `noisy`, shape (n, 3), where it is safe; also return it as carried out, with its angles."""
     if not choice.steps:

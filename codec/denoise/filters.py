@@ -16,7 +16,7 @@ from bsm.codec.choices import check_options
 from bsm.codec.denoise.bends import flattened
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
-from bsm.codec.denoise.noise.causes import Grid
+from bsm.codec.denoise.noise.causes import Spacing
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.volumes import Cells
@@ -121,7 +121,7 @@ class Step:
     iterations: int
 
 
-class Surface:
+class Filters:
     """The faces of a mesh, with what filters need of them, which is found once."""
 
     def __init__(self, faces: Faces, n: int) -> None:
@@ -156,10 +156,10 @@ class Surface:
 class Filtered:
     """Results of filters on one mesh; those with the same hand-over share their start."""
 
-    def __init__(self, given: Positions, surface: Surface, finding: Finding | None = None) -> None:
+    def __init__(self, given: Positions, surface: Filters, finding: Finding | None = None) -> None:
         self.given, self._surface, self._topology, self._finding = given, surface, surface.topology, finding
         bound = finding.bound if finding else None
-        self._noisy = noisy = bound.parted(given, surface.probe) if isinstance(bound, Grid) else given
+        self._noisy = noisy = bound.parted(given, surface.probe) if isinstance(bound, Spacing) else given
         self._within = np.asarray if bound is None else partial(bound.within, noisy)
         self._guided = GuidedFilter(surface.probe.average @ noisy, self._topology, self._within)
         self._starts: dict[tuple[str, float], Positions] = {}

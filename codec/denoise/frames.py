@@ -12,7 +12,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Surface
+from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Filters
 from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.search import find_noise
@@ -59,7 +59,7 @@ class FrameDenoiser:
         first = self._checked(first)
         welded, faces, self._index = weld_seams(first, faces)
         self._members = np.unique(self._index, return_index=True)[1]
-        self._surface = Surface(faces, len(welded))
+        self._surface = Filters(faces, len(welded))
         self._options, self._goal, self._strength, self._force = options, goal, strength, force
         self._progress = progress
         self.choice: AutomaticChoice | None = None

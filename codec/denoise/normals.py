@@ -9,11 +9,11 @@ import numpy as np
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise.surface import Topology, follow_normals, mean_centroid_distance, pair_distances, surroundings
-from bsm.codec.geometry.graph import Rows
+from bsm.codec.geometry.graph import Lists
 from bsm.codec.geometry.metrics import FaceGeometry, face_geometry
 
 
-def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: float, sigma_r: float) -> Floats:
+def filter_normals(geometry: FaceGeometry, guide: Floats, near: Lists, sigma_s: float, sigma_r: float) -> Floats:
     """Average each face's normal with its neighbors', by area, distance and likeness of guides (paper, 9 to 11)."""
     filtered, packed = np.empty_like(geometry.normals), np.empty((len(geometry.normals), 8))
     _kernels.filter_normals(*geometry, guide, near.starts, near.members, sigma_s, sigma_r, packed, filtered)
@@ -82,7 +82,7 @@ def bilateral_normals(positions: Positions, topology: Topology, sigma_r: float) 
     """Yield the normals, shape (m, 3), after 0, 1, 2, ... iterations, without end."""
     geometry = face_geometry(positions, topology.faces)
     starts, members = topology.patches
-    others = Rows(starts - np.arange(len(starts)), np.delete(members, starts[:-1]))  # each patch without its own face
+    others = Lists(starts - np.arange(len(starts)), np.delete(members, starts[:-1]))  # each patch without its own face
     sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
     while True:
         yield geometry.normals

@@ -12,7 +12,7 @@ from itertools import islice
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters import Filter, Filtered, Step, Surface
+from bsm.codec.denoise.filters import Filter, Filtered, Filters, Step
 from bsm.codec.denoise.noise.finding import MANY_WINDOWS, Finding
 from bsm.codec.denoise.noise.synthesis import NoiseLevel, Synthesis
 from bsm.codec.denoise.surface import pair_distances
@@ -58,7 +58,7 @@ GOALS: dict[str, Goal] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class Rehearsed:
     """Steps and a finish, their error in a rehearsal, and their result, shape (n, 3)."""
 
     steps: tuple[Step, ...]
@@ -82,7 +82,7 @@ class Rehearsal:
     """A mesh, a guess at it without noise, and the guess with noise again."""
 
     def __init__(
-        self, given: Filtered, surface: Surface, finding: Finding, level: NoiseLevel, base: Filter, goal: Goal
+        self, given: Filtered, surface: Filters, finding: Finding, level: NoiseLevel, base: Filter, goal: Goal
     ) -> None:
         self._mesh, self._surface, self._topology, self._goal = given, surface, surface.topology, goal
         self._finding, self._level, self._touched = finding, level, finding.levels > 0.0
@@ -106,24 +106,24 @@ class Rehearsal:
         self.noisy = self._synthesis.draw(guess, seed)
         self._trial = Filtered(self.noisy, self._surface, self._finding)
 
-    def again(self, outcome: Outcome) -> None:
+    def again(self, outcome: Rehearsed) -> None:
         """Rehearse with the result of an outcome on the mesh as the guess."""
         self._rehearse(self._performed(outcome), SEED + 1)
 
-    def _performed(self, outcome: Outcome) -> Positions:
+    def _performed(self, outcome: Rehearsed) -> Positions:
         result = self._mesh.finished(self._mesh.mean(outcome.steps), outcome.finish)
         return self._within(result, self._mesh.given)
 
-    def changed(self, outcome: Outcome) -> float:
+    def changed(self, outcome: Rehearsed) -> float:
         """How far the mesh that is rehearsed for is from its result, in the unit of the errors."""
         return self._goal(Reference(self._performed(outcome), self._topology.faces), self._mesh.given)
 
-    def lost(self, winner: Outcome) -> float:
+    def lost(self, winner: Rehearsed) -> float:
         """Return the roughness that the filter takes from the guess, a logarithm."""
         guess, left = self._roughness(self.truth.positions), self._roughness(winner.result)
         return float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 else 0.0
 
-    def forecast(self, winner: Outcome) -> Forecast:
+    def forecast(self, winner: Rehearsed) -> Forecast:
         """Return the angles to expect on the rehearsed mesh; detail that the filter removes is gone from the guess."""
         guess = self._roughness(self.truth.positions)
         scanned = self._finding.kind == "view"  # whose noise is known so well that rehearsals say enough
@@ -160,20 +160,20 @@ class Rehearsal:
     def untreated(self) -> float:
         return self._goal(self.truth, self.noisy)
 
-    def attempt(self, filter_: Filter) -> Outcome:
+    def attempt(self, filter_: Filter) -> Rehearsed:
         """Iterate until nothing has improved for a while."""
-        best = Outcome((Step(filter_, 0),), np.inf, self.noisy)
+        best = Rehearsed((Step(filter_, 0),), np.inf, self.noisy)
         run = self._trial.iterates(filter_)
         for count, positions in enumerate(islice(run, MOST_ITERATIONS + 1)):
             result = self._within(positions, self.noisy)
             error = self._goal(self.truth, result)
             if error < best.error:
-                best = Outcome((Step(filter_, count),), error, result)
+                best = Rehearsed((Step(filter_, count),), error, result)
             elif count >= best.steps[0].iterations + PATIENCE:
                 break
         return best
 
-    def compete(self, filters: tuple[Filter, ...], finishes: list[str], progress: Progress) -> Outcome:
+    def compete(self, filters: tuple[Filter, ...], finishes: list[str], progress: Progress) -> Rehearsed:
         """The steps whose mean is best, found greedily, with the best finish."""
         alone = []
         for number, outcome in enumerate(ordered_map(self.attempt, filters, None), start=1):
@@ -188,11 +188,11 @@ class Rehearsal:
             if errors[found] > GAIN * best.error:
                 break
             chosen.append(alone[found])
-            best = Outcome(tuple(member.steps[0] for member in chosen), errors[found], means[found])
+            best = Rehearsed(tuple(member.steps[0] for member in chosen), errors[found], means[found])
         finished = []
         for finish in finishes:
             result = self._within(self._trial.finished(best.result, finish), self.noisy)
-            finished.append(Outcome(best.steps, self._goal(self.truth, result), result, finish))
+            finished.append(Rehearsed(best.steps, self._goal(self.truth, result), result, finish))
         best = min(finished, key=lambda outcome: outcome.error)
         return next(each for each in reversed(finished) if EASIER[each.finish] * each.error <= best.error)
 

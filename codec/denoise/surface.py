@@ -8,7 +8,7 @@ from scipy import sparse
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
-from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbors
+from bsm.codec.geometry.graph import Lists, vertex_faces, vertex_neighbors
 from bsm.codec.geometry.metrics import face_geometry, face_normals
 
 CROWD = 64  # faces around a vertex from which on they are not near each other because of it
@@ -26,7 +26,7 @@ class Topology:
         object.__setattr__(self, "faces", np.ascontiguousarray(self.faces, dtype=np.int32))
 
     @cached_property
-    def around(self) -> Rows:
+    def around(self) -> Lists:
         return vertex_faces(self.faces, self.n)
 
     @cached_property
@@ -40,17 +40,17 @@ class Topology:
         return np.asarray(self.incidence @ face_normals(positions, self.faces))
 
     @cached_property
-    def neighbors(self) -> Rows:
+    def neighbors(self) -> Lists:
         return vertex_neighbors(self.faces, self.n)
 
     @cached_property
-    def patches(self) -> Rows:
+    def patches(self) -> Lists:
         """Faces that share a vertex with each face; itself comes first."""
         sizes = np.minimum(np.diff(self.around.starts), CROWD)
         members = np.empty(len(self.faces) + int(sizes[self.faces].sum()), np.int32)
         starts, seen = np.empty(len(self.faces) + 1, np.int64), np.empty(len(self.faces), np.int32)
         count = _kernels.face_patches(self.faces, self.around.starts, self.around.members, CROWD, seen, starts, members)
-        return Rows(starts, members[:count].copy())
+        return Lists(starts, members[:count].copy())
 
     @cached_property
     def pairs(self) -> Indices:
@@ -60,7 +60,7 @@ class Topology:
         return np.stack([owner[:-1][same], owner[1:][same]], axis=1)
 
     @cached_property
-    def inner(self) -> Rows:
+    def inner(self) -> Lists:
         """For each patch, the rows of `pairs` of which both faces lie in it."""
         m, pairs, (starts, members) = len(self.faces), self.pairs, self.patches
         sides = sparse.csc_matrix(
@@ -68,7 +68,7 @@ class Topology:
         )
         held = sparse.csr_matrix((np.ones(len(members), np.int8), members, starts), (m, m)) @ sides.tocsr()
         inner = (held == 2).tocsr()
-        return Rows(inner.indptr.astype(np.int64), inner.indices)
+        return Lists(inner.indptr.astype(np.int64), inner.indices)
 
     @cached_property
     def boundary(self) -> Mask:
@@ -90,7 +90,7 @@ class Topology:
         return key[order], owner[order]
 
 
-def surroundings(positions: Positions, topology: Topology, radius: float) -> Rows:
+def surroundings(positions: Positions, topology: Topology, radius: float) -> Lists:
     """Faces that are reached from each face, within a radius in mean distances of adjacent centroids; of crowds every
     second, third, ... face."""
     most = int(CROWDED * radius**2)
@@ -101,7 +101,7 @@ def surroundings(positions: Positions, topology: Topology, radius: float) -> Row
     while (done := _kernels.reach(points, *topology.patches, radius, most, done, seen, starts, reached)) < count:
         # A row has at most as many members as there are faces; with room for one, the kernel goes on.
         reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
-    return Rows(starts, reached[: starts[count]].copy())
+    return Lists(starts, reached[: starts[count]].copy())
 
 
 def unit(vectors: Floats) -> Floats:

@@ -40,24 +40,24 @@ def components(graph: Graph) -> Indices:
     return labels
 
 
-class Rows(NamedTuple):
+class Lists(NamedTuple):
     """Compressed rows: those of i are ``members[starts[i]:starts[i + 1]]``, ascending and without repetition."""
 
     starts: Order
     members: Indices
 
 
-def vertex_faces(faces: Faces, n: int) -> Rows:
+def vertex_faces(faces: Faces, n: int) -> Lists:
     """Faces around each vertex; a face that names a vertex twice is listed once."""
     starts, members = np.empty(n + 1, np.int64), np.empty(faces.size, np.int32)
     _kernels.vertex_faces(np.ascontiguousarray(faces, np.int32), starts, members)
-    return Rows(starts, members[: starts[n]])
+    return Lists(starts, members[: starts[n]])
 
 
-def vertex_neighbors(faces: Faces, n: int) -> Rows:
+def vertex_neighbors(faces: Faces, n: int) -> Lists:
     """Vertices that share an edge with each vertex, itself excluded."""
     graph = graph_of_faces(faces, n)
-    return Rows(graph.offsets.astype(np.int64), graph.neighbors)
+    return Lists(graph.offsets.astype(np.int64), graph.neighbors)
 
 
 def mesh_edges(faces: Faces, n: int) -> Indices:

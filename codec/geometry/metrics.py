@@ -17,7 +17,7 @@ import numpy as np
 from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
-from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbors
+from bsm.codec.geometry.graph import Lists, mesh_edges, vertex_neighbors
 from bsm.codec.geometry.mesh import extent_of, require_sizes
 
 
@@ -198,7 +198,7 @@ def folded_edges(positions: Positions, faces: Faces) -> int:
     return int(np.count_nonzero(np.where(same_way, -turned, turned) < 0.0))
 
 
-def geometric_laplacian(positions: Positions, neighbors: Rows) -> Floats:
+def geometric_laplacian(positions: Positions, neighbors: Lists) -> Floats:
     """Each vertex minus the mean of its neighbors, weighted by inverse distance; shape (n, 3)."""
     given, laplacian = np.ascontiguousarray(positions, np.float64), np.empty((len(positions), 3))
     _kernels.geometric_laplacian(given, neighbors.starts, neighbors.members, laplacian)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
-from bsm.codec.geometry.graph import Rows, vertex_faces
+from bsm.codec.geometry.graph import Lists, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.metrics import face_geometry
 from bsm.codec.geometry.welding import degenerate, group_rows
@@ -49,7 +49,7 @@ class Shape:
 
     faces: Faces
     joined: Faces
-    around: Rows  # without faces that have two corners at one place
+    around: Lists  # without faces that have two corners at one place
 
     @classmethod
     def of(cls, positions: Positions, faces: Faces, known: Shape | None = None) -> Shape:
@@ -60,7 +60,7 @@ class Shape:
             return known
         counted, places = np.flatnonzero(~degenerate(joined)).astype(np.int32), int(index.max()) + 1
         around = vertex_faces(joined if len(counted) == len(joined) else joined[counted], places)
-        return cls(np.ascontiguousarray(faces, np.int32), joined, Rows(around.starts, counted[around.members]))
+        return cls(np.ascontiguousarray(faces, np.int32), joined, Lists(around.starts, counted[around.members]))
 
     def normals(self, positions: Positions) -> Normals:
         """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3)."""

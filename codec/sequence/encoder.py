@@ -35,7 +35,7 @@ from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
-from bsm.codec.static.verification import Original
+from bsm.codec.static.verification import AsGiven
 from bsm.codec.static.ways.block_coder import as_of_decoders
 
 KEPT_MESHES = 8  # by decoders, of the meshes so far
@@ -265,7 +265,7 @@ class SequenceEncoder:
             gops = encoder.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
             mesh, again = before.first_frame.header, (index, opened.run)
             begun = iter([Header(vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=again)])
-        self._verifier.expect_mesh(Original(run.mesh, run.joined, prepared), resting)
+        self._verifier.expect_mesh(AsGiven(run.mesh, run.joined, prepared), resting)
         yield from begun
         first_frame = gops.first_frame
         for track, coder in enumerate(coders, 1):

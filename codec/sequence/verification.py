@@ -18,7 +18,7 @@ from bsm.codec.sequence.attributes import Expected
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.step_search import metric_of, shading_error
 from bsm.codec.static.attributes.encoding import PreparedAttribute
-from bsm.codec.static.verification import Original, require, require_attributes, require_positions
+from bsm.codec.static.verification import AsGiven, require, require_attributes, require_positions
 
 Measured: TypeAlias = tuple[Positions, Positions, Faces]
 
@@ -41,7 +41,7 @@ class SequenceVerifier:
     def __init__(self, options: SequenceOptions, metadata: Metadata, shown: list[Measured] | None = None) -> None:
         self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)
         self._promise, self._metadata, self._shown = options.promise, metadata, shown
-        self._meshes: deque[tuple[Original, tuple[PreparedAttribute, ...]]] = deque()
+        self._meshes: deque[tuple[AsGiven, tuple[PreparedAttribute, ...]]] = deque()
         self._frames: deque[ExpectedFrame] = deque()
         self._ended = False
         self._wrong = self._extent = 0.0  # sums of squares over all frames
@@ -59,7 +59,7 @@ class SequenceVerifier:
         metric = metric_of(self._worst[1], self._worst[3]) if self._worst else None
         return metric.look(self._worst[2]).moving if self._worst and metric else None
 
-    def expect_mesh(self, original: Original, carried: Sequence[PreparedAttribute]) -> None:
+    def expect_mesh(self, original: AsGiven, carried: Sequence[PreparedAttribute]) -> None:
         """Announce a run, with the attributes that do not move."""
         self._meshes.append((original, tuple(carried)))
 

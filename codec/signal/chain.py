@@ -23,7 +23,7 @@ from bsm.codec.arrays import Basis, Indices, Matrix
 from bsm.codec.blocks.overlap import Blocks
 
 
-class Site(NamedTuple):
+class Around(NamedTuple):
     """A block that is not coded yet: its graph, springs, shape (n,), their pulls and what continues these, (n, 3)."""
 
     vertices: Indices
@@ -35,8 +35,8 @@ class Site(NamedTuple):
 
 
 Columns: TypeAlias = Callable[[int], Basis]
-Dictionary: TypeAlias = Callable[[Site, int, Columns], Matrix]
-Predictor: TypeAlias = Callable[[Site], Matrix]
+Dictionary: TypeAlias = Callable[[Around, int, Columns], Matrix]
+Predictor: TypeAlias = Callable[[Around], Matrix]
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Chain(Steps):
         """Return the vertices of the next block, its prediction, shape (n_i, 3), and its weights in a blend."""
         vertices, prediction, weights = super().begin(index)
         if self._own is not AS_SPECIFIED:
-            self._site = Site(vertices, *self.site(), prediction)
+            self._site = Around(vertices, *self.site(), prediction)
             if self._own.predictor is not None:
                 prediction = np.ascontiguousarray(self._own.predictor(self._site), np.float64)
         return vertices, prediction, weights

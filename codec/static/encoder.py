@@ -19,14 +19,14 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference, decibel
 from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.choice.attributes import Input, smallest
-from bsm.codec.static.choice.blocks import Spectral
+from bsm.codec.static.choice.attributes import Sent, smallest
+from bsm.codec.static.choice.blocks import InBlocks
 from bsm.codec.static.choice.bounds import MARGIN
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
-from bsm.codec.static.verification import Original, require, verify
+from bsm.codec.static.verification import AsGiven, require, verify
 from bsm.codec.static.ways.block_coder import as_of_decoders
 
 
@@ -101,7 +101,7 @@ class Encoder:
             raise OptionError("preset none needs a target or a bound, such as size or max_error")
         packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
-        self._input = Input(mesh, self.options, self.options)
+        self._input = Sent(mesh, self.options, self.options)
         self.look: float | None = None
         self.binding = ""
         self._unseen = ""
@@ -135,7 +135,7 @@ class Encoder:
     @property
     def vertex_order(self) -> Order:
         """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or merged with it; shape (k,)."""
-        return Original(self._input.given, self._input.joined, self._input.prepared).vertex_order
+        return AsGiven(self._input.given, self._input.joined, self._input.prepared).vertex_order
 
     @property
     def vertex_index(self) -> Order:
@@ -246,7 +246,7 @@ class Encoder:
         most = target.value * (1.0 if target.kind == "size" else self._input.prepared.graph.size / 8.0)
         given = self._input = self._input.measuring(near)
 
-        def best(sent: Input) -> Draft | None:
+        def best(sent: Sent) -> Draft | None:
             found = sent.search.best(promise or anything, most)
             dressed = None if found is None else sent.dressed(found)
             return None if dressed and promise and sent.measured(dressed, promise)[0] else dressed
@@ -308,7 +308,7 @@ class Encoder:
     def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
         near.by()
-        original = Original(self._input.given, self._input.joined, self._input.prepared)
+        original = AsGiven(self._input.given, self._input.joined, self._input.prepared)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
             verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
@@ -321,8 +321,8 @@ class Encoder:
         return draft
 
     @cached_property
-    def _spectral(self) -> Spectral:
-        return Spectral(self._input.prepared, self._input.coded)
+    def _spectral(self) -> InBlocks:
+        return InBlocks(self._input.prepared, self._input.coded)
 
     @cached_property
     def _reference(self) -> tuple[Reference, float]:

@@ -143,7 +143,7 @@ STRIDE, NEAREST = 2.0, 0.1
 a try stays away from both."""
 
 
-class Outcome(Protocol):
+class Attempted(Protocol):
     """What an attempt to encode came to; sizes that may be targets are attributes of it, errors of its comparison."""
 
     @property
@@ -189,11 +189,11 @@ class Target:
         if self.kind not in kinds:
             raise OptionError(f"a target of {what} must be one of {', '.join(kinds)}, not {self.kind!r}")
 
-    def reached(self, outcome: Outcome) -> float:
+    def reached(self, outcome: Attempted) -> float:
         """Return the outcome's value of the target's measure."""
         return float(getattr(outcome if self.kind in SIZES else outcome.comparison, self.kind))
 
-    def excess(self, outcome: Outcome) -> float:
+    def excess(self, outcome: Attempted) -> float:
         """Return the logarithm of the outcome's value over the target's; up to 0 the target is met."""
         value = self.reached(outcome)
         if self.kind == "nmsve_db":
@@ -250,7 +250,7 @@ def secant(
         step = math.exp(at)
 
 
-Found = TypeVar("Found", bound=Outcome)
+Found = TypeVar("Found", bound=Attempted)
 
 
 def search_step(

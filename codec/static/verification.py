@@ -22,7 +22,7 @@ ROUNDING = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Original:
+class AsGiven:
     """The mesh that a stream must return: as given, joined, and in the order of coding."""
 
     given: TriangleMesh
@@ -73,7 +73,7 @@ class Original:
 
 def verify(
     draft: Draft,
-    original: Original,
+    original: AsGiven,
     carried: Sequence[PreparedAttribute],
     metadata: Metadata,
     limits: Limits,
@@ -101,7 +101,7 @@ def require_positions(decoded: Positions, expected: Positions, matched: Order, l
 
 
 def require_attributes(
-    decoded: Sequence[Attribute], carried: Sequence[PreparedAttribute], faces: Faces, original: Original
+    decoded: Sequence[Attribute], carried: Sequence[PreparedAttribute], faces: Faces, original: AsGiven
 ) -> None:
     """Require attributes of the closed loop at corners and faces, except for rounding."""
     require(len(decoded) == len(carried), f"decoded {len(decoded)} of {len(carried)} attributes")

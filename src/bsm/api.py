@@ -171,14 +171,14 @@ def encode_many(
     """
     from bsm.jobs.encode import EncodeJob, encode_one
     from bsm.jobs.plan import plan
-    from bsm.jobs.run import Run, run_many
+    from bsm.jobs.run import Batch, run_many
 
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
     checked_whole("jobs", jobs, 0)
     entries = checked_metadata(metadata)
-    run = Run(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
+    run = Batch(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
     folder = None if target is None else named(target).rstrip("/") + "/"
     planned = plan([named(source) for source in sources], folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}

@@ -32,7 +32,7 @@ from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal import chain
 from bsm.codec.signal.chain import Columns, Overrides
-from bsm.codec.static.choice.blocks import MOST_APART, Spectral
+from bsm.codec.static.choice.blocks import MOST_APART, InBlocks
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
 from bsm.libraries import as_mesh
@@ -285,7 +285,7 @@ def _tried(idea: Idea, options: EncodeOptions) -> Any:
 
 
 def _draft(prepared: Prepared, idea: Idea, options: EncodeOptions) -> Draft:
-    spectral = Spectral(prepared, options, overrides=_overrides(idea))
+    spectral = InBlocks(prepared, options, overrides=_overrides(idea))
     return spectral.base(spectral.first_step).draft
 
 
@@ -309,11 +309,11 @@ def _decoded(prepared: Prepared, draft: Draft, options: EncodeOptions) -> Triang
 def _overrides(idea: Idea) -> Overrides:
     """Return an idea as overrides of the codec, which check the results of its functions."""
 
-    def dictionary(known: chain.Site, width: int, columns: Columns) -> Floats:
+    def dictionary(known: chain.Around, width: int, columns: Columns) -> Floats:
         site = Site(*known, columns)
         return _checked("dictionary", (idea.dictionary or Site.ours)(site, width), (site.size, width))
 
-    def predictor(known: chain.Site) -> Floats:
+    def predictor(known: chain.Around) -> Floats:
         site = Site(*known)
         return _checked("predictor", idea.predictor(site) if idea.predictor else site.prediction, (site.size, 3))
 

@@ -21,7 +21,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
 from bsm.codec.geometry.welding import degenerate
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
-from bsm.codec.static.choice.attributes import Input
+from bsm.codec.static.choice.attributes import Sent
 from bsm.codec.static.choice.bounds import gaps, reaches
 from bsm.codec.static.encoder import Attempt, Encoder
 from bsm.codec.static.options import EncodeOptions
@@ -39,7 +39,7 @@ ENOUGH = 1.2  # times the triangles that were asked for, above which simplifying
 
 
 @dataclass(frozen=True, eq=False)
-class Encoded:
+class Chosen:
     """The chosen stream; the original, and how far the surfaces are apart, if it has fewer triangles."""
 
     encoder: Encoder
@@ -50,17 +50,17 @@ class Encoded:
     notes: tuple[str, ...] = ()  # about the original
 
 
-def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress, *, simplify: bool) -> Encoded:
+def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress, *, simplify: bool) -> Chosen:
     """Encode a mesh; to `simplify`, also with fewer and fewer triangles: the smallest stream that keeps the promise."""
     if not simplify:
         encoder = Encoder(mesh, options)
-        return Encoded(encoder, encoder.result(progress), mesh)
+        return Chosen(encoder, encoder.result(progress), mesh)
     source = Source(mesh, options)
     with progress.part("encoding all triangles", 0.3):
         encoder = Encoder(mesh, options)
-        best = Encoded(encoder, encoder.result(progress), source.whole)
+        best = Chosen(encoder, encoder.result(progress), source.whole)
     found = source.stand_ins(progress)
-    whole = Input(source.whole, options, options).prepared.connectivity.data
+    whole = Sent(source.whole, options, options).prepared.connectivity.data
     shape, power, work = best.attempt.size - len(whole), POWER, 0.0
     while found:
         # As many bytes for the faces as there are, for the places a share of all; more of them where less look is left.
@@ -111,7 +111,7 @@ class Source:
         if options.target or promise.angle < ANY_ANGLE or promise.visual < math.inf:
             raise OptionError("simplify keeps the look and the largest error; it excludes targets and other bounds")
         self.options, self.promise, self._given = options, promise, mesh
-        self._input = Input(mesh, options, options)
+        self._input = Sent(mesh, options, options)
         joined, prepared = self._input.joined, self._input.prepared
         sent = (attribute for attribute, _ in self._input.wanted)
         found = (_of_vertices(attribute, mesh, joined.mesh.faces, joined.kept) for attribute in sent)
@@ -186,11 +186,11 @@ class Source:
                 left = 1.0 - (self.look(mesh) if self._looks else self._moved(mesh, reach))
             if left <= 1.0 - AIM or len(mesh.faces) > ENOUGH * share * len(self.whole.faces):
                 break
-            faces = Input(mesh, self.options, self.options).prepared.connectivity.data
+            faces = Sent(mesh, self.options, self.options).prepared.connectivity.data
             found.append(StandIn(mesh, reach, len(mesh.faces) / len(self.whole.faces), len(faces), min(left, AIM)))
         return found
 
-    def encoded(self, one: StandIn, progress: Progress) -> Encoded | None:
+    def encoded(self, one: StandIn, progress: Progress) -> Chosen | None:
         """Return the smallest stream of a stand-in that was found to keep the promise, if any."""
         promise, look, off, reach = self.promise, self.promise.look, self._moved(one.mesh, one.reach), one.reach
         for _ in range(TRIES):
@@ -210,7 +210,7 @@ class Source:
             share, seen = self.apart(decoded, placed), self.look(decoded)
             if max(share, seen) <= 1.0:
                 encoder.look = seen * promise.look if self._metric else None
-                return Encoded(encoder, attempt, self.whole, None, decoded, self._input.joined.notes)
+                return Chosen(encoder, attempt, self.whole, None, decoded, self._input.joined.notes)
             off, look = max(off, share - near), look * min(AIM / seen, 1.0)
         return None
 

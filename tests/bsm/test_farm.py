@@ -20,7 +20,7 @@ from bsm.console import Console
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
-from bsm.jobs.run import Run, run_many
+from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Job, Task
 from tests.bsm.deadly import deadly
 from tests.bsm.program import ROOT, contents
@@ -128,7 +128,7 @@ def test_a_cluster_goes_on_behind_failures_and_back(cluster, sources, tmp_path):
 def test_a_job_that_kills_every_worker_has_failed_alone(cluster, tmp_path):
     jobs = [Job(f"/{name}", str(tmp_path / name)) for name in ("a", "always", "b", "c")]
     cluster.scheduler.allowed_failures = 0
-    done = run_many(Run(dask=cluster.scheduler_address), Task(quiet=True), Console(quiet=True), deadly, jobs)
+    done = run_many(Batch(dask=cluster.scheduler_address), Task(quiet=True), Console(quiet=True), deadly, jobs)
     cluster.scheduler.allowed_failures = 3
     assert [facts.get("exit") for facts in done] == [None, 6, None, None]
     assert {"a", "b", "c"} == {name for name in contents(tmp_path) if "always" not in name}
@@ -153,7 +153,7 @@ def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
     jobs = [Job(name, str(tmp_path / name)) for name in names]
     heard = []
     quiet = Task(quiet=True), Console(quiet=True)
-    done = run_many(Run(jobs=2), *quiet, deadly, jobs, lambda job, _: heard.append(job.input))
+    done = run_many(Batch(jobs=2), *quiet, deadly, jobs, lambda job, _: heard.append(job.input))
     assert heard == names == [facts["input"] for facts in done]
     assert {facts["input"]: facts["exit"] for facts in done if "error" in facts} == {"fault": 1, "always": 6}
     assert "KeyError" in done[4]["error"] and "please report" in done[4]["error"]
@@ -162,7 +162,7 @@ def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
     assert all(".always." in name for name in set(contents(tmp_path)) - left), "only what has no other attempt"
 
 
-@pytest.mark.parametrize("run", [Run(), Run(jobs=2)])
+@pytest.mark.parametrize("run", [Batch(), Batch(jobs=2)])
 def test_jobs_wait_for_what_they_need_and_are_left_out_where_it_failed(tmp_path, run):
     needs = {"fault": (), "a": (), "b": (1,), "c": (0, 1), "d": (3,), "e": (2,), "f": ()}
     jobs = [Job(name, str(tmp_path / name), after) for name, after in needs.items()]

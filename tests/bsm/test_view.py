@@ -33,8 +33,8 @@ from bsm.cli import main
 from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.files.sequence import open_sequence
-from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Layer, compared, uploaded
-from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Tiled, written_to
+from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Shown, compared, uploaded
+from bsm.viewer.page import MOST_BYTES, UPLOAD, Arrival, PageServer, Ranged, Tiled, written_to
 from tests.bitstream.streams import frame_ends
 from tests.motion import bending
 from tests.shapes import curved, torus
@@ -168,7 +168,7 @@ def test_server_has_the_page_and_its_streams():
 def test_late_joiners_enter_at_the_newest_group():
     whole = bsm.encode_sequence(*bending(18), gop=6, low_delay=6)
     *_, second, third, _ = frame_ends(whole)
-    growing = Growing("sway.bsm")
+    growing = Arrival("sway.bsm")
     growing.take(whole[: second + 3])
     late = growing.chunks()
     head = next(late)
@@ -189,7 +189,7 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
     small, few = positions[:, half], few.reshape(-1, 3).astype(np.int32)
     meshes = [bsm.TriangleMesh(p.astype(float), f) for ps, f in ((positions, faces), (small, few)) for p in ps]
     whole = bsm.encode_frames(meshes, frame_rate=12, step=0.002)
-    growing = Growing("halves.bsm")
+    growing = Arrival("halves.bsm")
     growing.take(whole[:-1])
     late = growing.chunks()
     head = next(late)
@@ -203,7 +203,7 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
 
 def test_pages_that_have_gone_are_let_go_of(monkeypatch):
     monkeypatch.setattr("bsm.viewer.page._PATIENCE", 0.05)
-    growing = Growing("sway.bsm")
+    growing = Arrival("sway.bsm")
     growing.take(MAGIC)
     with serving(growing) as server:
         before = threading.active_count()
@@ -225,7 +225,7 @@ def test_what_is_damaged_is_sent_from_its_beginning():
     whole = bytearray(bsm.encode_sequence(*bending(18), gop=6, step=0.002))
     place = frame_ends(bytes(whole))[-3]
     whole[place : place + 5] = b"\xff" * 5  # a tag that none can be
-    growing = Growing("sway.bsm")
+    growing = Arrival("sway.bsm")
     growing.take(bytes(whole))
     assert next(growing.chunks()) == bytes(whole)
 
@@ -680,7 +680,7 @@ def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
 @pytest.mark.slow
 @needs_packages
 def test_a_foreign_page_reads_and_encodes_nothing():
-    with serving(Content("a.bsm", (Layer("BSM", "", 1, (VECTORS / "good-keys.bsm").read_bytes()),))) as server:
+    with serving(Content("a.bsm", (Shown("BSM", "", 1, (VECTORS / "good-keys.bsm").read_bytes()),))) as server:
         javascript("foreign", BSM_FOREIGN=server.address)
         assert not [path for path in server.content if path.startswith(UPLOAD)]
 

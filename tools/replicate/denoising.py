@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import FrameDenoiser, denoise_automatically
-from bsm.codec.denoise.filters import Filter, Filtered, Surface
+from bsm.codec.denoise.filters import Filter, Filtered, Filters
 from bsm.codec.denoise.normals import VERTEX_ITERATIONS, bilateral_normals
 from bsm.codec.denoise.surface import follow_normals
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
@@ -115,7 +115,7 @@ def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float])
 
 def rivals(noisy: Positions, faces: Faces) -> dict[str, Iterator[Positions]]:
     """The positions after 0, 1, 2, ... iterations of each rival, without end."""
-    surface = Surface(faces, len(noisy))
+    surface = Filters(faces, len(noisy))
     filtered, topology = Filtered(noisy, surface), surface.topology
     normals = bilateral_normals(noisy, topology, WIDTH)
     followed = (follow_normals(noisy, topology, each, VERTEX_ITERATIONS, ~topology.boundary) for each in normals)

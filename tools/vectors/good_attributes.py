@@ -15,7 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import ranges
-from bsm.codec.static.choice.blocks import Spectral
+from bsm.codec.static.choice.blocks import InBlocks
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
@@ -125,7 +125,7 @@ def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int) -> bytes:
 def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     """After a layer of refinement that ends early, after this many vertices."""
     encoder = Encoder(mesh, BASE)
-    made = Spectral(encoder._input.prepared, BASE).base(BASE.first_step)
+    made = InBlocks(encoder._input.prepared, BASE).base(BASE.first_step)
     levels = made.wanted(made.expected_steps(LAYER))[0]
     levels[count:], levels[:, 1:] = 0, 0  # of a layer that ends early, heights alone count
     draft = made.refined(LAYER, levels, made.moved(LAYER, levels, made.known_steps(LAYER, levels)))

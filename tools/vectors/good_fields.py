@@ -10,7 +10,7 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.choice.blocks import RefinementBase, Spectral
+from bsm.codec.static.choice.blocks import InBlocks, RefinementBase
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.ways.grid import grid_field, levels_field
@@ -58,7 +58,7 @@ def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) ->
 def base(mesh: TriangleMesh) -> RefinementBase:
     """Blocks to be refined."""
     encoder = Encoder(mesh, BASE)
-    return Spectral(encoder._input.prepared, BASE).base(BASE.first_step)
+    return InBlocks(encoder._input.prepared, BASE).base(BASE.first_step)
 
 
 def refined(mesh: TriangleMesh, layer: Layer, counts: tuple[int, ...]) -> bytes:

@@ -58,7 +58,7 @@ export class EncodeError extends Error {
 }
 
 /** The functions of `library/wasm/encode.c`. */
-type Exports = { memory: WebAssembly.Memory } & Record<`page_${string}` | `encode_${string}`, (...numbers: number[]) => number>;
+type EncoderCalls = { memory: WebAssembly.Memory } & Record<`page_${string}` | `encode_${string}`, (...numbers: number[]) => number>;
 
 /** As `bsmenc_quality` numbers them. */
 const WAYS = ["default", "exact", "bits", "bound", "percent", "degrees", "recompute"];
@@ -91,7 +91,7 @@ export function encodeWith(module: WebAssembly.Module, mesh: MeshInput, options:
         }
         return options.signal?.aborted ? 1 : 0;
     };
-    const calls = new WebAssembly.Instance(module, { page: { progress } }).exports as unknown as Exports;
+    const calls = new WebAssembly.Instance(module, { page: { progress } }).exports as unknown as EncoderCalls;
     const put = (values: ArrayBufferView, zero = false): number => {
         const size = values.byteLength + (zero ? 1 : 0);
         const at = calls.page_take(size);

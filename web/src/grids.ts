@@ -10,7 +10,7 @@ import type { Packet } from "./packets";
 import { Reader } from "./reader";
 import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 
-export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
+export type GridEvent = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
 /** The functions of library/wasm/light.c, which decode what the reader gives them. */
 class Light extends Memory {
@@ -63,7 +63,7 @@ class Light extends Memory {
 export class Decoder {
     private readonly reader: Reader;
     private readonly light: Light;
-    private readonly queue: Event[] = [];
+    private readonly queue: GridEvent[] = [];
     private error?: BsmError;
     private header?: Header;
     private faces?: Int32Array;
@@ -92,7 +92,7 @@ export class Decoder {
     }
 
     /** The next event, or `NEED_DATA`; `END_OF_STREAM` after the end and `receiveEof`. */
-    nextEvent(): Event | Signal {
+    nextEvent(): GridEvent | Signal {
         for (;;) {
             const event = this.queue.shift();
             if (event) return event;

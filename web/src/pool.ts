@@ -1,5 +1,5 @@
 /** Threads that decode, kept warm: streams are shared among them, and large ones are decoded by several. */
-import type { Answer, StreamWorker, DrawnEvent, Message, Report, Start } from "./worker";
+import type { Reply, StreamWorker, DrawnEvent, Message, Report, Start } from "./worker";
 import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
@@ -143,7 +143,7 @@ export class Pool {
         const worker = this.source.worker(build);
         if (!worker) return void this.settle();
         const hand: Hand = { build, worker, ready: false, streams: new Set() };
-        worker.onmessage = ({ data }: MessageEvent<Answer>) => {
+        worker.onmessage = ({ data }: MessageEvent<Reply>) => {
             if ("ready" in data) [hand.ready, this.failed] = [true, 0];
             else for (const stream of hand.streams) if (stream.task === data.task) stream.hear(data);
         };

@@ -1,7 +1,7 @@
 /** Threads that help a decoder: each decodes some of the chains of the stream. */
 import type { Header } from "./header";
 import { chainOf, type SharedBlock } from "./share";
-import type { Answer, Order, Start } from "./worker";
+import type { Reply, Order, Start } from "./worker";
 import { processors, WORTHWHILE } from "./threads";
 
 const MOST = 3;
@@ -27,7 +27,7 @@ export class Team {
         this.busy = members.length;
         members.forEach((member, k) => {
             const share = { number: k + 1, among: 1 + members.length };
-            member.onmessage = ({ data }: MessageEvent<Answer>) => this.hear(data);
+            member.onmessage = ({ data }: MessageEvent<Reply>) => this.hear(data);
             member.postMessage({ task: TASK, start: { ...start, share } } satisfies Order);
         });
     }
@@ -43,7 +43,7 @@ export class Team {
         }
     }
 
-    private hear(answer: Answer): void {
+    private hear(answer: Reply): void {
         if ("fault" in answer) {
             this.close();
             this.listener.onOver(answer.fault);

@@ -26,14 +26,14 @@ export class CodedViews<T> {
     private taken = 0;
 
     /** What a stream became: of bufferViews of the same bytes, `decode` is called for the first only. */
-    shape(from: View, decode: () => T): T {
+    shape(from: BufferView, decode: () => T): T {
         const shape = this.shapes.get(placeOf(from)) ?? decode();
         this.shapes.set(placeOf(from), shape);
         return shape;
     }
 
     /** The bytes of a bufferView, of what is drawn of the stream of `from`. */
-    bytes(shape: Shape, from: View, coded: Coded, byteLength: number, index: number): ArrayBuffer {
+    bytes(shape: Shape, from: BufferView, coded: Coded, byteLength: number, index: number): ArrayBuffer {
         const key = [placeOf(from), byteLength, coded.componentType, coded.attribute].join(" ");
         const bytes = this.arrays.get(key) ?? bytesOf(shape, coded, byteLength, index);
         if (!this.arrays.has(key)) this.charge(byteLength);
@@ -86,14 +86,14 @@ export class CodedViews<T> {
 }
 
 /** Where the bytes of a bufferView are. */
-interface View {
+interface BufferView {
     buffer: number;
     byteOffset?: number;
     byteLength: number;
 }
 
 /** A name for the bytes of a bufferView, which others may have as well. */
-export function placeOf({ buffer, byteOffset = 0, byteLength }: View): string {
+export function placeOf({ buffer, byteOffset = 0, byteLength }: BufferView): string {
     return `${buffer} ${byteOffset} ${byteLength}`;
 }
 

@@ -42,7 +42,7 @@ export type Report =
     | { taken: number }
     | { over: true };
 
-export type Answer = { ready: true } | ({ task: number } & Report);
+export type Reply = { ready: true } | ({ task: number } & Report);
 
 export type Say = (report: Report, moved?: Transferable[]) => void;
 
@@ -107,7 +107,7 @@ export function deskOf(open: Open): { openDesk: (start: Start, say: Say) => Stre
         serve() {
             const end = self as unknown as Endpoint;
             attend(end, open);
-            end.postMessage({ ready: true } satisfies Answer, []);
+            end.postMessage({ ready: true } satisfies Reply, []);
         },
     };
 }

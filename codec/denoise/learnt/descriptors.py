@@ -10,7 +10,7 @@ from bsm._core import codec as _kernels
 from bsm.codec.arrays import Floats, Mask, Order, Positions
 from bsm.codec.denoise.normals import filter_normals, patch_guidance
 from bsm.codec.denoise.surface import Topology, mean_centroid_distance
-from bsm.codec.geometry.graph import Rows
+from bsm.codec.geometry.graph import Lists
 from bsm.codec.geometry.metrics import FaceGeometry, face_geometry
 
 Singles = npt.NDArray[np.float32]
@@ -28,7 +28,7 @@ BATCH = 1024  # faces whose numbers pass the layers together: the output of a la
 
 
 def descriptions(
-    positions: Positions, topology: Topology, near: Rows, noisy: Mask | None = None
+    positions: Positions, topology: Topology, near: Lists, noisy: Mask | None = None
 ) -> Iterator[tuple[Singles, Floats]]:
     """Yield numbers and frames of the faces in batches; `noisy`, shape (n,), marks noisy vertices (default: all)."""
     if len(topology.faces) == 0:
@@ -57,7 +57,7 @@ def descriptions(
         yield row, axis
 
 
-def _repeated(geometry: FaceGeometry, near: Rows, distance: float) -> Iterator[Floats]:
+def _repeated(geometry: FaceGeometry, near: Lists, distance: float) -> Iterator[Floats]:
     """Filter the normals, shape (m, 3), again and again."""
     for sigma_r in WIDTHS:
         normals = geometry.normals

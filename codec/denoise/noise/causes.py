@@ -29,7 +29,7 @@ SLANTED_EXACT, PEAKS = 0.5, 0.006
 noise has: pure steps read up to 0.002, steps of a noisy camera 0.014 and more."""
 
 
-class Bound(Protocol):
+class Confines(Protocol):
     """Where a vertex may be."""
 
     def within(self, given: Positions, moved: Positions) -> Positions:
@@ -37,7 +37,7 @@ class Bound(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Spacing:
     """Cells within which positions are indistinguishable."""
 
     steps: Floats
@@ -66,11 +66,11 @@ class Grid:
         return result
 
 
-def find_grid(positions: Positions) -> Grid | None:
+def find_grid(positions: Positions) -> Spacing | None:
     """The grid that the positions, shape (n, 3), were rounded to, in all coordinates."""
     steps = [rounding_step(positions[:, axis]) for axis in range(3)]
     known = [step for step in steps if step is not None]
-    return Grid(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
+    return Spacing(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
 
 
 def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.causes import Grid
+from bsm.codec.denoise.noise.causes import Spacing
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import surface_normals
@@ -66,7 +66,7 @@ class Synthesis:
     def draw(self, positions: Positions, seed: int) -> Positions:
         finding = self._finding
         random = np.random.default_rng(seed)
-        if isinstance(finding.bound, Grid):
+        if isinstance(finding.bound, Spacing):
             return finding.bound.round(positions, finding.bound.steps * random.random(3))
         white = random.normal(size=positions.shape)
         if finding.axis is not None:

@@ -25,7 +25,7 @@ from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, cheaper, place_of, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
-from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
+from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
 from bsm.codec.static.choice.search import Search
 from bsm.codec.static.options import LARGE_BLOCKS, PRESETS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
@@ -35,7 +35,7 @@ ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promis
 
 
 @dataclass(frozen=True, eq=False)
-class Input:
+class Sent:
     """A mesh on its way into a stream: joined, prepared, and its attributes as they are sent."""
 
     given: TriangleMesh
@@ -44,7 +44,7 @@ class Input:
     looks: tuple[tuple[int, AttributeLook], ...] = ()  # attributes whose quality the look decides
     shown: LookMetric | None = None  # pictures of another mesh, for which this one stands
 
-    def but(self, **known: Any) -> Input:
+    def but(self, **known: Any) -> Sent:
         """Return an input with other values of some fields and results, and all else that was computed."""
         other = copy(self)
         other.__dict__.update(known)
@@ -110,7 +110,7 @@ class Input:
             return draft
         return with_attributes(draft, self.carried, self.given.metadata)
 
-    def measuring(self, near: Nearing | None, *, alike: bool = False) -> Input:
+    def measuring(self, near: Nearing | None, *, alike: bool = False) -> Sent:
         """Return an input whose measurements report their progress; `alike`: angles count all faces alike."""
         return self.but(measures=self._measuring(self.normals, alike=alike, near=near))
 
@@ -125,7 +125,7 @@ class Input:
     def search(self) -> Search:
         return Search(self.measures, self.coded, lambda draft: self.dressed(draft).size, self.saved)
 
-    def saved(self, candidate: Candidate) -> int:
+    def saved(self, candidate: Trial) -> int:
         """Return how many bytes the attributes save if positions are on a grid."""
         return sum(sum(map(len, a.plain)) - sum(map(len, cheaper(a, candidate.draft.places)[1])) for a in self.carried)
 
@@ -148,7 +148,7 @@ class Input:
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
         bounds, decoded = Bounds(self.measures, contract), draft.decoded
-        made = Candidate(0.0, self.prepared.units.into(decoded), lambda: draft, decoded=decoded)
+        made = Trial(0.0, self.prepared.units.into(decoded), lambda: draft, decoded=decoded)
         metric = bounds.metric
         if metric is None:
             return "" if bounds.keeps(made) else bounds.had, None, bounds.binding(made)
@@ -169,7 +169,7 @@ class Input:
         return "" if bounds.keeps(made, bound) else bounds.had, max(shown), binding
 
 
-def smallest(given: Input, contract: Contract, near: Nearing | None) -> tuple[Input, Draft]:
+def smallest(given: Sent, contract: Contract, near: Nearing | None) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract, in colors and under a checker, too; and the input as it is sent."""
     given, asked = _choose_blocks(given, contract) if given.options.effort == "best" else (given, contract)
     given = given.measuring(near, alike=contract.alike)
@@ -186,9 +186,9 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> tuple[In
     )
 
 
-def _choose_blocks(given: Input, contract: Contract) -> tuple[Input, Contract]:
+def _choose_blocks(given: Sent, contract: Contract) -> tuple[Sent, Contract]:
     """Choose the blocks, effort and promise, asked or stricter, that give the shape fewest bytes."""
-    found = list[tuple[Draft, Input, Contract]]()
+    found = list[tuple[Draft, Sent, Contract]]()
     large = given.options.block_size >= LARGE_BLOCKS["block_size"]
     others = {name: getattr(EncodeOptions, name) if large else size for name, size in LARGE_BLOCKS.items()}
     usual = [({"effort": "normal"}, promise) for promise in (contract, *_stricter(contract))]
@@ -216,7 +216,7 @@ def _stricter(contract: Contract) -> list[Contract]:
     ]
 
 
-def _roughened(given: Input, look: float) -> Input:
+def _roughened(given: Sent, look: float) -> Sent:
     """Make colors and texture coordinates without a requested quality as coarse as the look allows."""
     rough = given
     for at, (attribute, quality) in enumerate(given.wanted):
@@ -226,7 +226,7 @@ def _roughened(given: Input, look: float) -> Input:
     return rough.but(carried=rough.carry(rough.wanted)) if rough.looks else given
 
 
-def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Input:
+def _roughen(given: Sent, at: int, attribute: Attribute, most: float) -> Sent:
     """Make an attribute as coarse as takes at most some of the look."""
     # Of a texture that repeats, pictures show a mean, however wrong: no place moves by more than 1/128 of its side.
     extent = float(np.ptp(attribute.values, axis=0).max(initial=0.0))
@@ -249,7 +249,7 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Input:
     return given.but(looks=(*given.looks, (at, look_of)))
 
 
-def _shaded(given: Input, contract: Contract) -> tuple[Input, Draft]:
+def _shaded(given: Sent, contract: Contract) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
     bare, metric, free = given.search.smallest(contract), given.measures.look, given.free_normals
     if free is None or metric is None or contract.look == math.inf:

@@ -16,7 +16,7 @@ from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import packed_range, smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
+from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.settling import RATIO, Settler
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import Adaptive, Packed, Scheme
@@ -102,7 +102,7 @@ class RefinementBase:
         return Draft(header, body, self.prepared.units.back(moved))
 
 
-class Spectral:
+class InBlocks:
     """Codes a mesh in blocks, at one step after another; what depends only on the mesh is measured once."""
 
     def __init__(
@@ -256,20 +256,20 @@ class Plain:
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
         self._bounds = bounds
-        self._spectral = Spectral(prepared, options, WIDEST)
+        self._spectral = InBlocks(prepared, options, WIDEST)
         self.least, self.most = 1.01 * smallest_step(prepared.size), 0.5
         self.first = ALONE * bounds.first_step
 
-    def at(self, step: float) -> Candidate:
+    def at(self, step: float) -> Trial:
         base = self._spectral.base(step, self._bounds.measures.near.within())
         reaches = self._bounds.reaches
         out = np.square(base.positions - base.prepared.positions).sum(axis=1) > reaches**2
         if not out.any():
-            return Candidate(step, base.positions, lambda: base.draft)
+            return Trial(step, base.positions, lambda: base.draft)
         layer = Layer(single(max(float(reaches[out].min()), FINEST_LAYER)), 1.0)
         levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
-        return Candidate(step, moved, partial(base.refined, layer, levels, moved))
+        return Trial(step, moved, partial(base.refined, layer, levels, moved))
 
 
 class Refined:
@@ -279,7 +279,7 @@ class Refined:
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, settled: bool = True, ratio: float = RATIO
     ) -> None:
         self._prepared, self._bounds, self._settled, self.ratio = prepared, bounds, settled, ratio
-        self._options, self._spectral = options, Spectral(prepared, options, WIDEST)
+        self._options, self._spectral = options, InBlocks(prepared, options, WIDEST)
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = FINEST_LAYER, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), FINEST_LAYER)
@@ -296,7 +296,7 @@ class Refined:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.
         return self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
 
-    def _made(self, step: float) -> Candidate:
+    def _made(self, step: float) -> Trial:
         base = self.base
         if self._settled:
             found = self._leveled(step, base, *self._evened(step))
@@ -306,15 +306,15 @@ class Refined:
         levels = self._shaped(base, layer)
         return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))
 
-    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Candidate:
+    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Trial:
         positions = base.moved(layer, levels, known)
 
-        def unfold() -> Candidate | None:
+        def unfold() -> Trial | None:
             directions = base.wanted(known)[1].reshape(-1, 9)
             other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(known))
             return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
 
-        return Candidate(step, positions, partial(base.refined, layer, levels, positions), unfold, self._settled)
+        return Trial(step, positions, partial(base.refined, layer, levels, positions), unfold, self._settled)
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""

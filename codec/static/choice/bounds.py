@@ -79,13 +79,13 @@ class Measures:
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
+class Trial:
     """The result of a step: decoded positions, in BSM units, shape (n, 3), the stream, versions with fewer folds."""
 
     step: float
     positions: Matrix
     make: Callable[[], Draft]
-    unfold: Callable[[], "Candidate | None"] = lambda: None
+    unfold: Callable[[], "Trial | None"] = lambda: None
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     guess: Callable[[], float] | None = None
     also: Callable[[Callable[[], Draft]], Draft] = lambda make: make()  # the same positions, perhaps in fewer bytes
@@ -107,7 +107,7 @@ class Candidate:
         return self.draft.size if self.guess is None else self.guess()
 
 
-def turned(candidate: Candidate) -> Candidate | None:
+def turned(candidate: Trial) -> Trial | None:
     """The candidate with fewer edges folded over, None if few are; of blocks, others may need it again."""
     found = last = candidate.unfold()
     for _ in range(3):
@@ -125,9 +125,9 @@ class Bounds:
         self.reaches = measures.reaches(contract) * (1.0 - MARGIN)
         self.gaps = measures.gaps(contract)
         self._best: tuple[float, ...] | None = None
-        self._last: tuple[Candidate, tuple[float, float, float, float]] | None = None
+        self._last: tuple[Trial, tuple[float, float, float, float]] | None = None
 
-    def excess(self, candidate: Candidate) -> float:
+    def excess(self, candidate: Trial) -> float:
         """The logarithm of the largest share of a bound that depends on the step."""
         farther, angle, visual, look = self._shares(candidate)
         shares = (angle, visual, look) if candidate.settled and farther <= 1.0 else (farther, angle, visual, look)
@@ -143,20 +143,20 @@ class Bounds:
         """None: no look is asked for, or nothing can be seen."""
         return None if self.contract.look == math.inf else self.measures.look
 
-    def keeps(self, candidate: Candidate, look: float | None = None) -> bool:
+    def keeps(self, candidate: Trial, look: float | None = None) -> bool:
         """Whether all bounds are kept; `look`, where it is known otherwise."""
         shares = self._shares(candidate, look)
         if self._best is None or shares < self._best:
             self._best = shares
         return max(shares) <= 1.0
 
-    def binding(self, candidate: Candidate, look: float | None = None) -> str:
+    def binding(self, candidate: Trial, look: float | None = None) -> str:
         """Return the bound that keeps a stream from being smaller; "step" where wider ones break one."""
         shares = dict(zip(BOUNDS, self._shares(candidate, look), strict=True))
         name = max(shares, key=lambda name: shares[name])
         return name if shares[name] > 1.0 - 4.0 * SLACK else "step"
 
-    def quality(self, candidate: Candidate) -> float:
+    def quality(self, candidate: Trial) -> float:
         """How good positions are where as good ones as possible are wanted: less is better."""
         if (metric := self.measures.look) is None:
             return self.measures.original.angle(candidate.positions)
@@ -190,7 +190,7 @@ class Bounds:
         contract, (farther, angle, visual, look) = self.contract, self._best
         return contract.worded(farther, angle * contract.angle, look * contract.look, visual * contract.visual)
 
-    def _shares(self, candidate: Candidate, look: float | None = None) -> tuple[float, float, float, float]:
+    def _shares(self, candidate: Trial, look: float | None = None) -> tuple[float, float, float, float]:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
         if look is not None:
             return *self._measured(candidate.positions), look / self.contract.look
@@ -209,7 +209,7 @@ class Bounds:
         visual = measures.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
         return farther, angle, visual
 
-    def _decoded(self, candidate: Candidate) -> Positions:
+    def _decoded(self, candidate: Trial) -> Positions:
         """Positions as a decoder has them."""
         decoded, back = candidate.decoded, self.measures.prepared.units.back
         return back(candidate.positions) if decoded is None else decoded

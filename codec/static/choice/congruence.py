@@ -11,7 +11,7 @@ from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Levels, Matrix, Order
 from bsm.codec.geometry.turns import UNTURNED, Turn, cross_of, quaternion_of, turned_by
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.ways.grid import SAMPLE, Grid
+from bsm.codec.static.ways.grid import SAMPLE, Raster
 
 MOST_FINENESS, AXIS_KINDS = 19, 48
 """Bits of a component of a quaternion, and transforms that are parallel to the axes (V 17.2)."""
@@ -22,7 +22,7 @@ ROOM = 1 << 18  # numbers for votes
 FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer to their images
 
 
-def transforms_of(prepared: Prepared, grid: Grid, finer: float = 1.0) -> Levels:
+def transforms_of(prepared: Prepared, grid: Raster, finer: float = 1.0) -> Levels:
     """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
     (turns, shifts), origin = _motions(prepared, grid.step / finer, grid.turn), np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)

@@ -13,12 +13,12 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.mesh import box_around, extent_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
-from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Candidate, turned
+from bsm.codec.static.choice.bounds import COARSEST, SPIKE, Bounds, Trial, turned
 from bsm.codec.static.choice.congruence import MOST, covered, mirrored_origin, transforms_of
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import SAMPLE, Grid, encode_grid, grid_of, sampled_size
+from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 
 MOST_CELLS = 65535  # along the longest side, where floats are exact, and of a grid on which a mesh may have been made
 PART_OF_CELL = 1.0 / 64.0
@@ -26,7 +26,7 @@ MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more t
 LEAST_SAVED = 0.03  # of the bytes: a share that is worth another try, or a fifth more time of decoding
 
 
-def grid_draft(prepared: Prepared, grid: Grid, places: Levels, brief: bool = False, most: float = math.inf) -> Draft:
+def grid_draft(prepared: Prepared, grid: Raster, places: Levels, brief: bool = False, most: float = math.inf) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative; cut if its first packet takes more than `most`."""
     grid = replace(grid, light=grid.light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
@@ -82,21 +82,21 @@ def exact(prepared: Prepared) -> Draft:
 
 def _rounded(
     prepared: Prepared, bits: int = 0, cell: float = 0.0, origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
-) -> tuple[Grid, Levels]:
+) -> tuple[Raster, Levels]:
     """A grid of so many bits, of given cells, or of exact floats, and the places on it, shape (n, 3)."""
     positions = np.ascontiguousarray(prepared.mesh.positions, np.float64)
     corner, step, largest, places = places_on(positions, bits, cell, np.array(origin, np.float64))
-    return Grid(corner, step, largest), places
+    return Raster(corner, step, largest), places
 
 
-def _made_on_grid(positions: Matrix, cells: int) -> tuple[Grid, Levels] | None:
+def _made_on_grid(positions: Matrix, cells: int) -> tuple[Raster, Levels] | None:
     """Return the grid with `cells` cells that positions, shape (n, 3), lie on, or None."""
     low = positions.min(axis=0)
     near = float((positions - low).max()) / cells
     for step in (near, math.nextafter(near, 0.0), math.nextafter(near, math.inf)):
         if 0.0 < step < math.inf:
             places = np.rint((positions - low) / step)
-            grid = Grid(tuple(map(float, low)), step, tuple(places.max(axis=0).astype(int).tolist()))
+            grid = Raster(tuple(map(float, low)), step, tuple(places.max(axis=0).astype(int).tolist()))
             if (grid.positions(places.astype(np.int32)) == positions).all():
                 return grid, places.astype(np.int32)
     return None
@@ -153,7 +153,7 @@ class Gridded:
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
         return min(self._bounds.first_step, COARSEST, 2.0 * float(self._bounds.reaches.min()) / math.sqrt(3.0))
 
-    def _made(self, step: float, mirrored: bool = True) -> Candidate:
+    def _made(self, step: float, mirrored: bool = True) -> Trial:
         unit = self._prepared.units.scale
         held = single(max(step, self.least) * unit)
         origin = self._origin
@@ -177,14 +177,14 @@ class Gridded:
             places[gaps.ends[wrong, 0]] += away[wrong]
         return places
 
-    def _placed(self, held: float, places: Levels, start: Positions) -> Candidate:
+    def _placed(self, held: float, places: Levels, start: Positions) -> Trial:
         """Places from the origin on, some below it, perhaps."""
         least = places.min(axis=0)
         origin = tuple(self._hold(value) for value in start + least * held)
-        grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self._turn)
+        grid = Raster(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self._turn)
         candidate = self._candidate(grid, places - least)
 
-        def unfold() -> Candidate | None:
+        def unfold() -> Trial | None:
             cell = held / self._prepared.units.scale
             directions = cell * turned_by(np.eye(3), self._turn).reshape(1, 9)
             reach = np.minimum(self._bounds.reaches, SPIKE * cell)
@@ -208,7 +208,7 @@ class Gridded:
         """The share of vertices that congruent parts may predict at a step."""
         return covered(self._prepared, step * self._prepared.units.scale)
 
-    def made(self) -> Iterator[Candidate]:
+    def made(self) -> Iterator[Trial]:
         """The grids that the mesh was made on, or about, in single precision; and exactly, where one holds all."""
         positions = self._prepared.mesh.positions
         for within in (0.0, PART_OF_CELL * self._shaper.mean_edge * self._prepared.units.scale):
@@ -217,10 +217,10 @@ class Gridded:
                 exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step))
                 yield from () if exactly is None else (self._candidate(*exactly),)
 
-    def rounded(self, bits: int) -> Candidate:
+    def rounded(self, bits: int) -> Trial:
         return self._candidate(*_rounded(self._prepared, bits=bits))
 
-    def _candidate(self, grid: Grid, places: Levels) -> Candidate:
+    def _candidate(self, grid: Raster, places: Levels) -> Trial:
         brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
         linked = self._prepared.linked if brief else self._prepared.mesh.faces
         light = partial(grid_draft, self._prepared, replace(grid, light=True), places, brief)
@@ -250,4 +250,4 @@ class Gridded:
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
         make, like = partial(coded, -1), lambda *given: coded(*given).size
-        return Candidate(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)
+        return Trial(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)

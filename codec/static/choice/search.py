@@ -11,7 +11,7 @@ from operator import attrgetter, itemgetter
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
-from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
+from bsm.codec.static.choice.bounds import Bounds, Measures, Trial
 from bsm.codec.static.choice.grids import LEAST_SAVED, Gridded, may_repeat, paying, rounded
 from bsm.codec.static.choice.settling import RATIO
 from bsm.codec.static.options import LARGE_BLOCKS, RANGES, WORTH, EncodeOptions
@@ -30,11 +30,7 @@ class Search:
     """Looks for the best stream of a mesh among all ways to code it."""
 
     def __init__(
-        self,
-        measures: Measures,
-        options: EncodeOptions,
-        size: Callable[[Draft], int],
-        saved: Callable[[Candidate], int],
+        self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int], saved: Callable[[Trial], int]
     ) -> None:
         self._measures, self._prepared = measures, measures.prepared
         self._tries = {"quick": TRIES // 2, "best": 3 * TRIES}.get(options.effort, TRIES)
@@ -87,7 +83,7 @@ class Search:
         best = min(alike, key=lambda candidate: bent(candidate.positions) if near > 1.0 else 0.0)
         return paying(self._prepared, best.congruent)
 
-    def _outdone(self, first: Candidate, grid: Gridded, refined: Refined) -> bool:
+    def _outdone(self, first: Trial, grid: Gridded, refined: Refined) -> bool:
         """Whether blocks take fewer bytes than a grid if congruent parts predicted all that they may."""
         prepared = self._prepared
         if self._options.effort != "normal" or prepared.graph.size <= SAMPLE or not prepared.has_low_frequencies:
@@ -97,7 +93,7 @@ class Search:
             return least < first.size and least < first.size * (1.0 - grid.covered(first.step))
         return False
 
-    def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Candidate]) -> Iterator[Candidate]:
+    def _at_rungs(self, grid: Gridded, bounds: Bounds, kept: list[Trial]) -> Iterator[Trial]:
         """Grids of steps that are the same for all promises, each smaller than those before it."""
         found = min(kept, key=lambda candidate: candidate.congruent.size)
         best, rung = found.congruent, math.floor(RUNGS * math.log2(grid.first))
@@ -117,7 +113,7 @@ class Search:
                 yield candidate
                 least = candidate.congruent.size
 
-    def _others(self, way: Refined, found: Candidate, bounds: Bounds) -> list[Refined]:
+    def _others(self, way: Refined, found: Trial, bounds: Bounds) -> list[Refined]:
         """Ways that may be smaller than one that has come to a candidate."""
         others = list[Refined]()
         if bounds.contract.look == math.inf:
@@ -133,7 +129,7 @@ class Search:
                 others += [larger] if larger.base.work < way.base.work * (1.0 + WORTH * saved) else []
         return others
 
-    def _last_resort(self, bounds: Bounds) -> Candidate:
+    def _last_resort(self, bounds: Bounds) -> Trial:
         """The result of grids that are finer than where a search began, where it came to nothing."""
         way = Gridded(self._prepared, bounds)
         finest_bits = int(RANGES["grid"][1])
@@ -165,9 +161,9 @@ class Search:
         draft = next((draft for draft in drafts if self._size(draft) <= most_bytes), None)
         return None if draft is None else paying(self._prepared, draft)
 
-    def _fitting(self, way: Way, most_bytes: float, tickets: int) -> list[Candidate]:
+    def _fitting(self, way: Way, most_bytes: float, tickets: int) -> list[Trial]:
         """The finest candidate of at most so many bytes that was found; and some near it, which may look better."""
-        repeats, fitting = isinstance(way, Gridded) and way.transforms >= 0, dict[float, Candidate]()
+        repeats, fitting = isinstance(way, Gridded) and way.transforms >= 0, dict[float, Trial]()
 
         def excess(fineness: float) -> float:
             candidate = way.at(1.0 / fineness)
@@ -220,11 +216,11 @@ def widest(
     bounds: Bounds,
     most_bytes: float = math.inf,
     tries: int = TRIES,
-    size: Callable[[Candidate], float] = attrgetter("size"),
-    each: Callable[[Callable[[Candidate], float], list[Candidate]], Iterable[float]] = map,
-) -> Candidate | None:
+    size: Callable[[Trial], float] = attrgetter("size"),
+    each: Callable[[Callable[[Trial], float], list[Trial]], Iterable[float]] = map,
+) -> Trial | None:
     """Return the smallest candidate found that keeps the bounds, or has few folds; None: not below `most_bytes`."""
-    kept = list[tuple[bool, Candidate]]()
+    kept = list[tuple[bool, Trial]]()
 
     def at(step: float) -> float | None:
         candidate, sure = way.at(step), math.inf

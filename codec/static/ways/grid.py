@@ -20,7 +20,7 @@ Vertices that tell that a mesh is on no grid, and about how large a grid is, bef
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Raster:
     """A grid in the mesh's unit, and where each axis of it ends."""
 
     origin: tuple[float, ...]
@@ -48,16 +48,16 @@ class Grid:
         return {"center": self.origin, "scale": self.step, "grid": self.largest} | coded
 
 
-UNIT = Grid((0.0, 0.0, 0.0), 1.0, ())
+UNIT = Raster((0.0, 0.0, 0.0), 1.0, ())
 
 
-def grid_of(header: Header) -> Grid:
+def grid_of(header: Header) -> Raster:
     """The grid of a header, without transforms."""
-    return Grid(header.center, header.scale, header.grid, turn=header.turn)
+    return Raster(header.center, header.scale, header.grid, turn=header.turn)
 
 
 def grid_field(
-    faces: Any, largest: Sequence[int], coded: Levels, light: int = 0, grid: Grid | None = None, exact: Any = None
+    faces: Any, largest: Sequence[int], coded: Levels, light: int = 0, grid: Raster | None = None, exact: Any = None
 ) -> Field:
     """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats; a field can give faces."""
     field, ends, grid = Field(faces, np.ascontiguousarray(coded, np.int32)), np.array(largest, np.int32), grid or UNIT
@@ -65,14 +65,14 @@ def grid_field(
     return field
 
 
-def encode_grid(faces: Indices | Field, grid: Grid, coded: Levels, exact: Any = None) -> Iterator[packets.Grid]:
+def encode_grid(faces: Indices | Field, grid: Raster, coded: Levels, exact: Any = None) -> Iterator[packets.Grid]:
     """Make the packets of coded values, shape (n, 3), 0 to the grid's largest; of `exact` floats in their cells."""
     field, size = grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
     for start, end in pairwise([*range(0, min(size, 1)), *range(FIRST, size, CHUNK), size]):
         yield packets.Grid(start, end - start, with_lengths(field.write(end - start)))
 
 
-def sampled_size(faces: Indices | Field, grid: Grid, coded: Levels, light: int = 0) -> int:
+def sampled_size(faces: Indices | Field, grid: Raster, coded: Levels, light: int = 0) -> int:
     """The bytes of the first coded values."""
     return sum(map(len, grid_field(faces, grid.largest, coded, light, grid).write(SAMPLE)))
 

@@ -33,7 +33,7 @@ from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequen
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
 from bsm.files.table import MESH_SUFFIXES, WRITTEN_FORMATS
 from bsm.jobs.plan import STREAM_SUFFIXES, plan, plan_trees
-from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
 from bsm.lengths import metres, unit_of
 from bsm.libraries import PROVENANCE
@@ -105,7 +105,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     refuse_two_on_one_pipe(args, jobs[0].output)
     given = args.output and (anywhere(args.output) if args.dask else args.output)
     job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
-    return run_jobs(asked(Run, args), job, console, decode_one, jobs)
+    return run_jobs(asked(Batch, args), job, console, decode_one, jobs)
 
 
 def _as_source(job: Job) -> Job:

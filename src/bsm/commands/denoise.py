@@ -26,7 +26,7 @@ from bsm.files.output import output_inside, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 from bsm.jobs.plan import plan
-from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Task
 from bsm.lengths import length, unit_of
 
@@ -95,7 +95,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
     refuse_two_on_one_pipe(args, jobs[0].output)
     given = {name: getattr(args, name) for name in _OPTIONS if hasattr(args, name)}
-    return run_jobs(asked(Run, args), asked(DenoiseJob, args, output="", options=given), console, denoise_one, jobs)
+    return run_jobs(asked(Batch, args), asked(DenoiseJob, args, output="", options=given), console, denoise_one, jobs)
 
 
 def denoise_one(args: DenoiseJob, console: Console) -> Facts:

@@ -19,7 +19,7 @@ from bsm.files.sequence import SEQUENCE_FORMATS, SEQUENCES_READ
 from bsm.files.table import GLTF, MESH_FORMATS, WRITTEN_FORMATS
 from bsm.jobs.encode import EncodeJob, encode_one
 from bsm.jobs.plan import plan, plan_trees
-from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.run import Batch, run_jobs
 
 _OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json", "zip")
 """Suffixes that are not names of streams."""
@@ -84,7 +84,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError("--permutation is for one input")
         refuse_collisions(args.inputs, [jobs[0].output, args.permutation, args.report or ""])
     refuse_two_on_one_pipe(args, jobs[0].output)
-    many, options = asked(Run, args), options_of(args)
+    many, options = asked(Batch, args), options_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
     metadata = {"up": args.up} if args.up else {}
     for name, sign, value in (text.partition("=") for text in args.meta):

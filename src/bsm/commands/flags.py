@@ -13,7 +13,7 @@ from bsm.files.output import refuse_terminal
 
 
 @dataclass(frozen=True)
-class Setting:
+class Flag:
     """A keyword of `bsm.options` on the command line: `--field VALUE`, or `--set field=VALUE`."""
 
     field: str
@@ -93,28 +93,28 @@ def named_setting(text: str) -> tuple[str, Any]:
 
 
 ENCODE_FLAGS = (
-    Setting("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
-    Setting("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
-    Setting("grid_origin", numbers(3), "X,Y,Z", "a point of the grid (default 0,0,0)"),
-    Setting("effort", str, "quick|normal|best", "quick: faster, larger files; best: slower, smaller (default normal)"),
-    Setting("keep_order", bool, "", "store the order of vertices and faces; PC2 and MDD keep that of vertices"),
-    Setting("threads", int, "N", "threads to use (default: one per core)"),
+    Flag("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
+    Flag("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
+    Flag("grid_origin", numbers(3), "X,Y,Z", "a point of the grid (default 0,0,0)"),
+    Flag("effort", str, "quick|normal|best", "quick: faster, larger files; best: slower, smaller (default normal)"),
+    Flag("keep_order", bool, "", "store the order of vertices and faces; PC2 and MDD keep that of vertices"),
+    Flag("threads", int, "N", "threads to use (default: one per core)"),
 )
 
 SETTINGS = (
-    Setting("congruence", lambda text: text == "yes", "yes|no", "use congruent parts; no: format 1.0 (default yes)"),
-    Setting("limits", str, "default|service|wide", "limits that decoders must accept (default: default)"),
-    Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: by rate)"),
-    Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
-    Setting("step", float, "S", "quantization step, relative to the diagonal; replaces the promise"),
-    Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
-    Setting("block_size", int, "N", "approximate vertices of a block before overlap (default 450)"),
-    Setting("partition", str, "derived|metis", "how to cut the mesh into blocks (default derived)"),
-    Setting("key_seed", str, "cosines|svd", "first dictionary of a chain (default cosines; with bits, svd)"),
-    Setting("key_interval", int, "K", "every K-th block starts a chain; 0: only the first (default 8)"),
-    Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
-    Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    Setting("doi", numbers(2), "EPS_L,EPS_H", "choose coefficients so that each block is off by so many mean edges"),
+    Flag("congruence", lambda text: text == "yes", "yes|no", "use congruent parts; no: format 1.0 (default yes)"),
+    Flag("limits", str, "default|service|wide", "limits that decoders must accept (default: default)"),
+    Flag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: by rate)"),
+    Flag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
+    Flag("step", float, "S", "quantization step, relative to the diagonal; replaces the promise"),
+    Flag("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
+    Flag("block_size", int, "N", "approximate vertices of a block before overlap (default 450)"),
+    Flag("partition", str, "derived|metis", "how to cut the mesh into blocks (default derived)"),
+    Flag("key_seed", str, "cosines|svd", "first dictionary of a chain (default cosines; with bits, svd)"),
+    Flag("key_interval", int, "K", "every K-th block starts a chain; 0: only the first (default 8)"),
+    Flag("power", int, "Z", "exponent of the iterated matrix (default 3)"),
+    Flag("iterations", int, "T", "orthogonal iterations per block (default 1)"),
+    Flag("doi", numbers(2), "EPS_L,EPS_H", "choose coefficients so that each block is off by so many mean edges"),
 )
 """Advanced settings of the codec: `--set NAME=VALUE`."""
 
@@ -151,24 +151,22 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 BOUNDS = (
-    Setting("look", number_or_length, "D", "largest look distance from the original: 1 is balanced, 3 a preview"),
-    Setting(
-        "max_error", number_or_length, "REL", "largest vertex error: 0.1%% (of the diagonal), or a length (0.05mm)"
-    ),
+    Flag("look", number_or_length, "D", "largest look distance from the original: 1 is balanced, 3 a preview"),
+    Flag("max_error", number_or_length, "REL", "largest vertex error: 0.1%% (of the diagonal), or a length (0.05mm)"),
 )
 TARGETS = (
-    Setting("nmsve_db", float, "X", "largest normalized mean squared visual error, dB"),
-    Setting("theta", float, "DEG", "largest mean angle between face normals before and after, degrees"),
-    Setting("bpv", float, "X", "largest number of bits per vertex, of the whole file"),
-    Setting("size", number_or_length, "BYTES", "largest file (20000, 20kB)"),
+    Flag("nmsve_db", float, "X", "largest normalized mean squared visual error, dB"),
+    Flag("theta", float, "DEG", "largest mean angle between face normals before and after, degrees"),
+    Flag("bpv", float, "X", "largest number of bits per vertex, of the whole file"),
+    Flag("size", number_or_length, "BYTES", "largest file (20000, 20kB)"),
 )
 OF_SEQUENCES = (
-    Setting("kg", float, "PERCENT", "largest error of Karni and Gotsman, percent"),
-    Setting("bpvf", float, "X", "largest number of bits per vertex and frame, of the whole file"),
-    Setting("runs", bool, "", "let the faces change from frame to frame"),
-    Setting("gop", int, "N", "largest group of frames that are coded together (default 256 to 512)"),
-    Setting("low_delay", int, "N", "send N frames at a time, and a key frame every --gop frames"),
-    Setting("frame_rate", float, "FPS", "frames per second: metadata; sampling rate of glTF and USD animations"),
+    Flag("kg", float, "PERCENT", "largest error of Karni and Gotsman, percent"),
+    Flag("bpvf", float, "X", "largest number of bits per vertex and frame, of the whole file"),
+    Flag("runs", bool, "", "let the faces change from frame to frame"),
+    Flag("gop", int, "N", "largest group of frames that are coded together (default 256 to 512)"),
+    Flag("low_delay", int, "N", "send N frames at a time, and a key frame every --gop frames"),
+    Flag("frame_rate", float, "FPS", "frames per second: metadata; sampling rate of glTF and USD animations"),
 )
 
 

@@ -15,7 +15,7 @@ from bsm.files.motion.frames import MOST_LISTED, describe_runs
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import is_scene, refuse_mesh
 from bsm.jobs.plan import input_names
-from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task
 from bsm.tiles.shards import is_tiles, open_tiles
 
@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     jobs = [Job(name) for name in input_names(args.inputs)]
-    return run_jobs(asked(Run, args), asked(InfoJob, args), console, info_of_one, jobs, _worded)
+    return run_jobs(asked(Batch, args), asked(InfoJob, args), console, info_of_one, jobs, _worded)
 
 
 def info_of_one(args: InfoJob, console: Console) -> Facts:

@@ -17,7 +17,7 @@ from bsm.console import Console, print_json
 from bsm.exits import report_error
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, state_of
-from bsm.jobs.run import Run, run_many
+from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Job, Outcome, came_to
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
 from bsm.tiles.joining import CONTENT_HELP, CONTENTS, write_tileset
@@ -105,7 +105,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
             state.update(time.perf_counter())
 
     state.tiles.update(len(name) - 1 for name in names)
-    many = asked(Run, args, report=str(work / "tiles.json"))
+    many = asked(Batch, args, report=str(work / "tiles.json"))
     try:
         with console.progress(until=0.5 if args.tileset else 0.96):
             done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)

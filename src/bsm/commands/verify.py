@@ -13,7 +13,7 @@ from bsm.files.mesh import by_name
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_through, decode_whole, is_scene, refuse_mesh
 from bsm.jobs.plan import STREAM_SUFFIXES, files_in, input_names
-from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Job, Task
 from bsm.tiles.shards import is_tiles, open_tiles
 
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     found = (str(path) for _, path in files_in(args.inputs, STREAM_SUFFIXES)) if args.recursive else None
     jobs = [Job(name) for name in found or input_names(args.inputs)]
-    return run_jobs(asked(Run, args), asked(VerifyJob, args), console, verify_one, jobs)
+    return run_jobs(asked(Batch, args), asked(VerifyJob, args), console, verify_one, jobs)
 
 
 def verify_one(args: VerifyJob, console: Console) -> Facts:

@@ -16,7 +16,7 @@ from bsm.files.pipes import about, read_chunks
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.shards import is_tiles, open_tiles
 from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, given_at, made
-from bsm.viewer.page import Growing, PageServer, Ranged, Tiled, page_with, site_with, written_to
+from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, page_with, site_with, written_to
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -68,7 +68,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _opened(
     name: str, path: str, args: argparse.Namespace, console: Console, progress: Progress
-) -> Content | Growing | Tiled:
+) -> Content | Arrival | Tiled:
     """Open an input. The page reports a damaged stream, unless it is compared or the page is saved."""
     if is_tiles(path):
         manifest = open_tiles(path, limits_of(args.limits)).manifest
@@ -97,8 +97,8 @@ def _opened(
     return content
 
 
-def _growing(name: str, path: str) -> Growing:
-    growing = Growing(name)
+def _growing(name: str, path: str) -> Arrival:
+    growing = Arrival(name)
     chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
     if not growing.begins():

@@ -28,7 +28,7 @@ from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import asked_unit, in_own_unit
 from bsm.libraries import PROVENANCE, has_provenance, with_metadata
 from bsm.options import encode_options, sequence_options
-from bsm.simplification import Encoded, encode_source
+from bsm.simplification import Chosen, encode_source
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
@@ -146,7 +146,7 @@ def _images_of(job: EncodeJob, metadata: Metadata) -> Metadata:
     return metadata if job.images in (None, "keep") else with_smaller_images(metadata, ImageRule.parse(job.images))
 
 
-def _errors(found: Encoded, simplify: bool, unit: str, per_own: float) -> tuple[str, Facts]:
+def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[str, Facts]:
     """Return the errors in words, and as numbers; if there are fewer triangles, the distance between the surfaces."""
     apart, error = found.apart, found.attempt.comparison
     relative, value = error.max_error_relative, error.max_error * per_own

@@ -23,7 +23,7 @@ LEAST = 1 << 16  # bytes that an input counts as, for the work that does not dep
 
 
 @dataclass(frozen=True, kw_only=True)
-class Run:
+class Batch:
     """Number of jobs at a time, cluster, and report of a run."""
 
     jobs: int = 1
@@ -38,7 +38,12 @@ class Run:
 
 
 def run_jobs(
-    run: Run, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Callable[[Facts], str] | None = None
+    run: Batch,
+    asked: Task,
+    console: Console,
+    work: Work,
+    jobs: Sequence[Job],
+    show: Callable[[Facts], str] | None = None,
 ) -> int:
     """Do all jobs of a command and print their results; return the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
@@ -81,7 +86,7 @@ def run_jobs(
 
 
 def run_many(
-    run: Run,
+    run: Batch,
     asked: Task,
     console: Console,
     work: Work,
@@ -169,7 +174,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     )
 
 
-def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
+def _outcomes(run: Batch, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
     processes = min(run.jobs or available_threads(), len(sizes)) or 1
     if run.dask is None and processes == 1:
         return _one_by_one(console, work, tasks, sizes)

@@ -54,7 +54,7 @@ _MOST_COLORS = 1 << 23  # errors of vertices in frames that a page gets
 
 
 @dataclass(frozen=True, eq=False)
-class Layer:
+class Shown:
     """A mesh that the page shows: its stream, the size of the file, and the error of each vertex."""
 
     title: str
@@ -69,13 +69,13 @@ class Content:
     """The layers of a mesh; `main` is the number of the stream, `facts` its promise and measurements."""
 
     name: str
-    layers: tuple[Layer, ...]
+    layers: tuple[Shown, ...]
     main: int = 0
     facts: Mapping[str, Any] = field(default_factory=dict)
 
 
 def alone(name: str, stream: bytes) -> Content:
-    return Content(name, (Layer("BSM", "", len(stream), stream),))
+    return Content(name, (Shown("BSM", "", len(stream), stream),))
 
 
 def carried(source: TriangleMesh | Frames) -> bytes:
@@ -122,8 +122,8 @@ def compared(
         decoder = SequenceStream(Input(stream).chunks(), limits=limits)
         found, off = _over_time(name, decoder, frames, original.faces)
         before = before or carried(replace(original, frames=iter(frames)))
-        first = Layer("Original", "" if size else "as plain arrays", size or 12 * frames.size // 3, before)
-        second = Layer("BSM", preset or "", len(stream), stream, off)
+        first = Shown("Original", "" if size else "as plain arrays", size or 12 * frames.size // 3, before)
+        second = Shown("BSM", preset or "", len(stream), stream, off)
         return Content(name, (first, second), 1, {"preset": preset} | found | _promised(PROMISES, preset))
     from bsm.codec.look.measure import look
     from bsm.codec.static.options import PRESETS as ALL
@@ -132,7 +132,7 @@ def compared(
     used, kept = decoded.without_isolated_vertices()
     source = original.bare.without_isolated_vertices()[0]
     plain = 12 * (len(original.positions) + len(original.faces))
-    first = Layer("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
+    first = Shown("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
     off = np.full(len(decoded.positions), np.nan, np.float32)
     facts: dict[str, Any] = {"preset": preset, "before": [len(original.positions), len(original.faces)]}
     try:
@@ -150,13 +150,13 @@ def compared(
         diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
         facts |= {"angle": errors.angle_deg, "farthest": errors.max_error_relative}
     facts["diagonal"] = diagonal
-    rival: tuple[Layer, ...] = ()
+    rival: tuple[Shown, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
         if alike and not original.attributes:
             rival, facts["draco"] = _rival(source, len(stream), facts["look"])
     facts |= _promised({known: options.contract for known, options in ALL.items()}, preset)
-    return Content(name, (first, Layer("BSM", preset or "", len(stream), stream, off), *rival), 1, facts)
+    return Content(name, (first, Shown("BSM", preset or "", len(stream), stream, off), *rival), 1, facts)
 
 
 def _promised(contracts: Mapping[str, Contract | None], preset: str | None) -> dict[str, Any]:
@@ -204,7 +204,7 @@ def _over_time(
     return facts, off if off.size <= _MOST_COLORS and np.isfinite(off).any() else None
 
 
-def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Layer], dict[str, int] | None]:
+def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Shown], dict[str, int] | None]:
     """Return Draco's finest file of at most `size` bytes, and the size of its smallest file of at most this look."""
     from bsm.codec.look.measure import look
     from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
@@ -221,7 +221,7 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
     good = bisect_left(DRACO_BITS, True, key=lambda bits: look(source, mesh(bits)).distance <= distance)
     stream, order = _carrier(mesh(small))  # joins vertices that Draco merged
     off = np.linalg.norm(mesh(small).positions - source.positions, axis=1)[order]
-    layer = Layer("Draco", f"{small} bits", len(file(small)), stream, off.astype(np.float32))
+    layer = Shown("Draco", f"{small} bits", len(file(small)), stream, off.astype(np.float32))
     if good == len(DRACO_BITS):
         return (layer,), None
     return (layer,), {"bytes": len(file(DRACO_BITS[good])), "bits": DRACO_BITS[good]}

@@ -37,7 +37,7 @@ _PAUSE = 0.05  # seconds between looks at a file that has not grown
 _PATIENCE = 1.0  # seconds between looks whether a page is still there
 
 
-class Growing:
+class Arrival:
     """A stream that one thread receives and other threads send."""
 
     def __init__(self, name: str) -> None:
@@ -236,15 +236,15 @@ class PageServer(ThreadingHTTPServer):
 
     daemon_threads = True
 
-    def __init__(self, contents: Sequence[Content | Growing | Tiled], port: int = 0) -> None:
+    def __init__(self, contents: Sequence[Content | Arrival | Tiled], port: int = 0) -> None:
         super().__init__((LOOPBACK, port), _Handler)
-        self.content: dict[str, tuple[str, bytes | Growing | Ranged]] = {}
+        self.content: dict[str, tuple[str, bytes | Arrival | Ranged]] = {}
         self.encoding = Lock()
         self.token = secrets.token_urlsafe(16)  # another user of this machine may reach the port, and does not know it
         entries = []
         for number, content in enumerate(contents):
             path = f"/{number}"
-            if isinstance(content, Growing):
+            if isinstance(content, Arrival):
                 layer = {"title": "BSM", "detail": "", "size": 0} | self.place(path, content)
                 entries.append({"name": content.name, "main": 0, "facts": {}, "live": True, "layers": [layer]})
             elif isinstance(content, Tiled):
@@ -256,7 +256,7 @@ class PageServer(ThreadingHTTPServer):
         self.content["/"] = ("text/html; charset=utf-8", _page(entries, module).encode())
         self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
 
-    def place(self, path: str, data: bytes | Growing) -> dict[str, str]:
+    def place(self, path: str, data: bytes | Arrival) -> dict[str, str]:
         """Have the page fetch these bytes, at an address relative to its own."""
         self.content[path] = ("application/wasm" if path.endswith(".wasm") else _BYTES, data)
         return {"url": path[1:]}
@@ -361,7 +361,7 @@ class _Handler(BaseHTTPRequestHandler):
                 line = {"entry": self.server.dropped(report)} if isinstance(report, Content) else report
                 yield json.dumps(line).encode() + b"\n"
 
-    def _answer(self, data: bytes | Growing | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:
+    def _answer(self, data: bytes | Arrival | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:
         """Send bytes, or chunks of them until the page is gone."""
         self.send_response(status)
         if isinstance(data, bytes) and kind != _BYTES and _GZIP.search(self.headers.get("Accept-Encoding", "")):
@@ -377,7 +377,7 @@ class _Handler(BaseHTTPRequestHandler):
             data = iter([data])
         self.end_headers()
         with suppress(OSError):  # the page is closed
-            for piece in data.chunks() if isinstance(data, Growing) else data:
+            for piece in data.chunks() if isinstance(data, Arrival) else data:
                 # The page has gone; it says nothing more while it is there.
                 quiet = (kind != _BYTES or not piece) and select.select([self.connection], [], [], 0)[0]
                 if quiet and not self.connection.recv(1, socket.MSG_PEEK):

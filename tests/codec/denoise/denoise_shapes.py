@@ -9,7 +9,7 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.surface import Topology
-from bsm.codec.geometry.graph import Rows
+from bsm.codec.geometry.graph import Lists
 
 Partners = Callable[[str, str], tuple[TriangleMesh, TriangleMesh]]
 
@@ -22,7 +22,7 @@ def find(positions: np.ndarray, faces: np.ndarray) -> Finding:
     return find_noise(positions, probe_of(positions, faces))
 
 
-def members(rows: Rows, i: int) -> list[int]:
+def members(rows: Lists, i: int) -> list[int]:
     return rows.members[rows.starts[i] : rows.starts[i + 1]].tolist()
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise import denoise_automatically
-from bsm.codec.denoise.noise.causes import Grid, find_grid
+from bsm.codec.denoise.noise.causes import Spacing, find_grid
 from bsm.codec.denoise.noise.outliers import put_outliers_back, put_strays_back
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import find_ripples
@@ -84,7 +84,7 @@ def test_rounded_positions_are_known_for_it_and_stay_in_their_cells(sigma: float
     clean, faces = sphere(30)
     noisy = rounded(clean, faces, sigma, 3)
     finding = find(noisy, faces)
-    assert finding.kind == "grid" and isinstance(finding.bound, Grid)
+    assert finding.kind == "grid" and isinstance(finding.bound, Spacing)
     step = np.sqrt(12.0) * sigma * mean_edge_length(clean, faces)
     assert finding.bound.steps == pytest.approx(step, rel=1e-3)
     result, choice = denoise_automatically(noisy, faces)

@@ -20,7 +20,7 @@ from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import Contract, Target
-from bsm.codec.static.ways.grid import SAMPLE, Grid, encode_grid, grid_of, sampled_size
+from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 from bsm.commands.info import summarize
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh
@@ -114,7 +114,7 @@ def test_the_search_finds_a_turn():
     positions = prepared.mesh.positions
     low, extent = positions.min(axis=0), np.ptp(positions, axis=0)
     step = float(extent.max()) / 4095
-    rows = transforms_of(prepared, Grid(tuple(low), step, tuple(np.rint(extent / step).astype(int).tolist())))
+    rows = transforms_of(prepared, Raster(tuple(low), step, tuple(np.rint(extent / step).astype(int).tolist())))
     ((*turn, x, y, z),) = next(iter(prepared.motions.values()))
     assert len(rows) == 1 and rows[0, 0] >= 48
     images = positions @ np.reshape(turn, (3, 3)).T + (x, y, z)

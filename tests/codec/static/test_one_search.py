@@ -9,7 +9,7 @@ import pytest
 
 from bsm import Contract, EncodeOptions, Encoder, TriangleMesh, read_mesh
 from bsm.codec.look.pictures import Canvas
-from bsm.codec.static.choice.attributes import Input
+from bsm.codec.static.choice.attributes import Sent
 from bsm.codec.static.preamble_encoding import Draft
 from tests.shapes import torus
 
@@ -61,14 +61,14 @@ def test_folds_do_not_leave_the_look_unused(meshes: Path) -> None:
 
 @pytest.mark.parametrize("scale", [0.7, 1.1, 3.0])
 def test_the_last_check_draws_no_grid_again(scale: float) -> None:
-    draw, measured = Canvas.draw, Input.measured
+    draw, measured = Canvas.draw, Sent.measured
     drawn, last = list[Any](), list[tuple[bool, int]]()
 
     def counted(*given: Any, **words: Any) -> Any:
         drawn.append(given)
         return draw(*given, **words)
 
-    def checked(given: Input, draft: Draft, contract: Contract) -> Any:
+    def checked(given: Sent, draft: Draft, contract: Contract) -> Any:
         before, found = len(drawn), measured(given, draft, contract)
         last.append((draft.places is not None, len(drawn) - before))
         return found
@@ -76,6 +76,6 @@ def test_the_last_check_draws_no_grid_again(scale: float) -> None:
     mesh = torus()
     noise = np.random.default_rng(5).normal(0.0, 0.1, mesh.positions.shape)
     mesh = TriangleMesh(scale * (mesh.positions + noise) + 0.1, mesh.faces)
-    with patch.object(Canvas, "draw", counted), patch.object(Input, "measured", checked):
+    with patch.object(Canvas, "draw", counted), patch.object(Sent, "measured", checked):
         Encoder(mesh, EncodeOptions(threads=1)).encode()
     assert last == [(True, 0)]

@@ -21,7 +21,7 @@ from scipy.sparse.linalg import splu
 from bsm.codec.arrays import Faces, Floats, Positions
 from bsm.codec.denoise.normals import bilateral_normal_filtering, guided_normal_filtering
 from bsm.codec.denoise.surface import Topology, follow_normals, surface_normals
-from bsm.codec.geometry.graph import Rows
+from bsm.codec.geometry.graph import Lists
 from bsm.codec.geometry.metrics import face_geometry, face_normals, mean_edge_length
 
 Whole = npt.NDArray[np.int64]
@@ -36,13 +36,13 @@ L0_ALPHA, L0_LAMBDA, L0_GROWTH, L0_FIRST, L0_LAST = 0.1, 0.5, 2.0**0.5, 1e-3, 1e
 """He and Schaefer: alpha in mean dihedral angles, lambda in those times squared mean edges; beta's growth and range."""
 
 
-def owners(rows: Rows) -> Whole:
+def owners(rows: Lists) -> Whole:
     """The row of each member."""
     return np.repeat(np.arange(len(rows.starts) - 1), np.diff(rows.starts))
 
 
 def reached(
-    first: tuple[Whole, Whole], adjacent: Rows, centers: Positions, points: Positions, radii: Floats
+    first: tuple[Whole, Whole], adjacent: Lists, centers: Positions, points: Positions, radii: Floats
 ) -> tuple[Whole, Whole]:
     """Points within a radius of each center that a path of such points connects with it, as (center, point) pairs.
 

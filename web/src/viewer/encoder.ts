@@ -14,9 +14,9 @@ export interface Result {
     notes: string[];
     less: boolean;
 }
-export type Report = { stage: string; share: number } | { error: string } | Result;
+export type Status = { stage: string; share: number } | { error: string } | Result;
 
-async function work({ file, preset }: Job, report: (report: Report) => void): Promise<void> {
+async function work({ file, preset }: Job, report: (report: Status) => void): Promise<void> {
     report({ stage: "reading", share: 0 });
     const { mesh, ...told } = await readMesh(file.name, await file.arrayBuffer());
     const encode = (from: number) => (options: EncodeOptions) => encodeHere(mesh, { ...options, onProgress: (part) => report({ stage: "encoding", share: from + part / 2 }) });
@@ -26,6 +26,6 @@ async function work({ file, preset }: Job, report: (report: Report) => void): Pr
 }
 
 self.onmessage = ({ data }: MessageEvent<Job>): void => {
-    const report = (report: Report): void => self.postMessage(report);
+    const report = (report: Status): void => self.postMessage(report);
     work(data, report).catch((error: unknown) => report({ error: error instanceof Error ? error.message : String(error) }));
 };

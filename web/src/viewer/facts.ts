@@ -1,17 +1,17 @@
 /** The numbers of the result card, in the words of the command line. */
 import type { BSMGeometry } from "../geometry";
-import type { Place } from "./inlined";
+import type { Inlined } from "./inlined";
 
 const SECOND = 1000;
 const CLOSE = 2; // look distance up to which two meshes are close
 const PIXEL = 1e-3; // of the diagonal: what a pixel is of a mesh that fills a large picture
 
 /** A mesh: its stream, the size of the file, and the error of each vertex, if it is known. */
-export interface Layer extends Place {
+export interface Layer extends Inlined {
     title: string;
     detail: string;
     size: number;
-    off?: Place;
+    off?: Inlined;
 }
 
 /** What is shown, as `bsm.viewer.page` lists it; `main` is the stream that arrives, the others are there at once. */

@@ -4,14 +4,14 @@ import { once, type Source } from "../source";
 import { hasVectors } from "../threads";
 
 /** Bytes, or their address, or in base64. */
-export interface Place {
+export interface Inlined {
     url?: string;
     data?: string;
     bytes?: Uint8Array;
 }
 
 /** What `bsm.viewer.page` says before the script. */
-declare const KERNELS: { kernels: Place; "kernels-scalar": Place; small?: Place; encoder?: Place };
+declare const KERNELS: { kernels: Inlined; "kernels-scalar": Inlined; small?: Inlined; encoder?: Inlined };
 
 /** The script of the thread that encodes, where no server does; whether `bsm view` serves the page, and can encode. */
 export const encoder = KERNELS.encoder?.url;
@@ -23,7 +23,7 @@ export async function fetched(url: string, start?: RequestInit): Promise<Respons
     return response;
 }
 
-export async function bytesOf({ url, data, bytes }: Place): Promise<Uint8Array<ArrayBuffer>> {
+export async function bytesOf({ url, data, bytes }: Inlined): Promise<Uint8Array<ArrayBuffer>> {
     if (bytes) return bytes.slice(); // the decoder takes them
     if (data !== undefined) return Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
     return new Uint8Array(await (await fetched(url!)).arrayBuffer());

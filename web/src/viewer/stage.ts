@@ -19,7 +19,7 @@ export type Shading = "smooth" | "flat" | "wire";
 type AnyMesh = Mesh<BufferGeometry, Material | Material[]>;
 
 /** A mesh, or the tiles of one, plain or in materials of its own. */
-class Drawn {
+class Figure {
     readonly holder = new Group();
     readonly clay = new MeshStandardMaterial({ color: CLAY, roughness: 0.6, side: DoubleSide });
     clothes: MeshStandardMaterial[] = [];
@@ -73,7 +73,7 @@ export class Stage {
     private readonly wires = new MeshBasicMaterial({ wireframe: true, color: 0x101418, transparent: true, opacity: 0.35 });
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
-    private readonly drawn = [new Drawn(), new Drawn(), new Drawn()];
+    private readonly drawn = [new Figure(), new Figure(), new Figure()];
     /** How far down the ground is. */
     private depth = Infinity;
     /** Has the camera show everything again. */

@@ -1,6 +1,6 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { Pool } from "../pool";
-import type { Job, Report, Result } from "./encoder";
+import type { Job, Status, Result } from "./encoder";
 import type { Content } from "./facts";
 import { bytesOf, encoder, fetched, inlined, served } from "./inlined";
 import { bytesIn, contentOf, type Encode, isStream, pathOf } from "./upload";
@@ -52,7 +52,7 @@ function inThread(job: Job, report: (stage: string, share: number) => void, sign
     return new Promise<Result>((resolve, fail) => {
         signal.addEventListener("abort", () => fail(signal.reason), { once: true });
         worker.onerror = ({ message }) => fail(new Error(message || "The encoder cannot be loaded."));
-        worker.onmessage = ({ data }: MessageEvent<Report>) => ("error" in data ? fail(new Error(data.error)) : "stage" in data ? report(data.stage, data.share) : resolve(data));
+        worker.onmessage = ({ data }: MessageEvent<Status>) => ("error" in data ? fail(new Error(data.error)) : "stage" in data ? report(data.stage, data.share) : resolve(data));
         worker.postMessage(job);
     }).finally(() => worker.terminate());
 }

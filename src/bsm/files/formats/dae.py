@@ -41,7 +41,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     with as_library_error("pycollada"), np.errstate(all="ignore"):  # a later check refuses infinite values
         prepared, tags = _prepared(data)
         document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
-        scene = _Scene(collada, beside)
+        scene = _Nodes(collada, beside)
         nodes = document.scene.nodes if document.scene is not None else ()
         surfaces = [one for node, matrix in _placed(collada, nodes) for one in scene.surfaces(node, matrix)]
         shapes = [scene.shape(primitive) for primitive, _, _ in surfaces]
@@ -93,7 +93,7 @@ def _placed(collada: Any, nodes: Any) -> Iterator[tuple[Any, Doubles]]:
             waiting += [(child, moved) for child in reversed(node.children)]
 
 
-class _Scene:
+class _Nodes:
     """The materials and images of the surfaces so far."""
 
     def __init__(self, collada: Any, beside: Beside) -> None:
