@@ -10,12 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
-from bsm.bitstream.container.header import HEADER_FIELDS, MOST_GRID
-from bsm.bitstream.container.wire import FrameType, write_map, write_varint
+from bsm.bitstream.container.header import MOST_GRID
+from bsm.bitstream.container.wire import FrameType, write_varint
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.ways.grid import Raster, grid_field
-from tools.payloads import decode_connectivity
-from tools.surgery import Frames, frames_of, header_entries, header_frame, parse_packet, stream_of
+from tools.surgery import Frames, header_frame, stream_of
 
 Ints = npt.NDArray[np.int32]
 LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_GRID)
@@ -76,40 +75,6 @@ def any_transforms(random: Random, count: int, largest: Sequence[int]) -> Ints:
             row[1:5] = random.randrange(4), *(random.randint(0, fine) for _ in range(3))
             row[5:] = [random.randint(0, 24 * most) for _ in range(3)]
     return rows
-
-
-def lightened(stream: bytes, *counts: int) -> bytes:
-    """Recode a stream on a grid by the small model, in as many packets, or in packets of this many vertices."""
-    return _recoded(stream, counts, light=1)
-
-
-def latticed(stream: bytes, cells: int, points: int) -> bytes:
-    """Recode a stream on a grid of so many cells by the points of a lattice on which all of its values are."""
-    return _recoded(stream, (), lattice=[cells, points])
-
-
-def _recoded(stream: bytes, counts: Sequence[int], light: int = 0, lattice: Sequence[int] = ()) -> bytes:
-    frames = frames_of(stream)
-    header, keys = header_entries(frames[0][1]), {name: field.key for name, field in HEADER_FIELDS.items()}
-    vertices, of_faces, largest = (header[keys[name]] for name in ("vertices", "faces", "grid"))
-    data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
-    faces = decode_connectivity(data, vertices, of_faces)
-    chunks: list[Any] = [parse_packet(kind, payload) for kind, payload in frames if kind == FrameType.GRID]
-    values = np.zeros((vertices, 3), np.int32)
-    field = grid_field(faces, largest, values)
-    for chunk in chunks:
-        values = field.read(chunk.data, chunk.count)
-    if lattice:
-        cells, points = lattice
-        values = ((2 * values.astype(np.int64) * points + cells) // (2 * cells)).astype(np.int32)
-        header |= {keys["lattice"]: lattice, keys["grid"]: values.max(axis=0).tolist()}
-    if light:
-        header[keys["light"]] = light
-    coded_again = grid_frames(faces, values, counts or [chunk.count for chunk in chunks], header[keys["grid"]], light)
-    place = next(i for i, (kind, _) in enumerate(frames) if kind == FrameType.GRID)
-    behind = [frame for frame in frames[place:] if frame[0] != FrameType.GRID]
-    frames = [(FrameType.HEADER, write_map(sorted(header.items()))), *frames[1:place], *coded_again, *behind]
-    return stream_of(frames, positions=stream[-6:-2] if lattice else b"")
 
 
 def random_grid(random: Random, mesh: TriangleMesh) -> bytes:

@@ -2,8 +2,8 @@
 
     python -m tools.measure same OTHER [--only TEXT]
 
-OTHER is a checkout with kernels, or a file that `--write` wrote there. The streams are all vectors, which are made
-again, and made meshes with many options.
+OTHER is a checkout with kernels, or a file that `--write` wrote there. The streams are the vectors that can be made
+again, and made meshes and sequences with many options.
 """
 
 from __future__ import annotations
@@ -36,6 +36,11 @@ WAYS: dict[str, dict[str, Any]] = {
     "exact": {"exact": True},
     "quick": {"effort": "quick"},
     "default": {},
+}
+SEQUENCES: dict[str, dict[str, Any]] = {
+    "frames": {"step": 1 / 256, "gop": 3},
+    "frames, order": {"step": 1 / 64, "keep_order": True},
+    "low delay": {"step": 1 / 256, "gop": 5, "low_delay": 2},
 }
 ATTRIBUTES = {"dressed": "exact", "coarser": "9bits"}
 """Meshes with attributes, and the quality of these."""
@@ -74,6 +79,10 @@ def cases() -> Iterator[Case]:
         yield f"{way} {name}, order", partial(bsm.encode, mesh, keep_order=True, **options)
         for what, quality in ATTRIBUTES.items():
             yield f"{way} {name}, {what}", partial(bsm.encode, dressed(mesh), attributes={"*": quality}, **options)
+    for (name, mesh), (way, options) in product(meshes.items(), SEQUENCES.items()):
+        frames = [mesh.positions * (1 + 0.02 * t) + 0.01 * np.sin(3 * mesh.positions + 0.3 * t) for t in range(7)]
+        given = dressed(mesh).attributes if options.get("keep_order") else ()
+        yield f"{way} {name}", partial(bsm.encode_sequence, frames, mesh.faces, mesh_attributes=given, **options)
 
 
 def sums(only: str) -> dict[str, str]:

@@ -25,10 +25,8 @@ from tools.gridded import gridded
 from tools.surgery import frames_of, header_frame, stream_of, with_header, write_stream
 from tools.vectors.good import BASE, PAPER, Good
 from tools.vectors.good_fields import base
-from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
+from tools.vectors.meshes import patch, shuffled, tent, tetrahedron, together, torus, triangle
 
-ASKED = 73786976294838435356
-"""Bits behind the first: predictions that hit or miss, after which the chance of a hit is 699050 of 2^22, no more."""
 MOST = (1 << 20) - 1
 TILTED = "700302200031320344"
 """Which of its three values are the largest and not 0, of each vertex of a tent, so that V 9.3 comes beyond 2^26."""
@@ -83,48 +81,6 @@ def _tetrahedra() -> bytes:
 def _header(**values: Any) -> bytes:
     """A header, and nothing behind it."""
     return MAGIC + bytes([VERSION]) + write_frame(*header_frame(**values))
-
-
-def _asked() -> bytes:
-    """Vertices without neighbors, each at the place of the one before or at another."""
-    misses = [bit == "0" for bit in f"{ASKED:b}"[1:]]
-    values = np.random.default_rng(5).integers(0, 10, (len(misses) + 12, 3)).astype(np.int32)
-    values[0] = 0
-    values[:, 0] = np.cumsum([0, *misses, *[0] * 11]) % 10
-    faces = np.repeat(np.arange(len(values)), 3).reshape(-1, 3)
-    return stream_of(gridded(encode_connectivity(faces, len(values)), values, [len(values)], grid=[9, 9, 9]))
-
-
-def _noise(mesh: TriangleMesh, seed: int) -> bytes:
-    """Any place on the largest grid for each vertex, its ends more often than others."""
-    random, size = np.random.default_rng(seed), len(mesh.positions)
-    any_ = random.integers(0, MOST + 1, (size, 3))
-    values = np.where(random.random((size, 1)) < 0.6, random.choice([0, MOST], (size, 3)), any_).astype(np.int32)
-    return stream_of(gridded(encode_connectivity(mesh.faces, size), values, [size], grid=[MOST, MOST, MOST]))
-
-
-def _scales(mesh: TriangleMesh, seed: int) -> bytes:
-    """From vertices that hardly differ to ones that have nothing in common."""
-    random, size = np.random.default_rng(seed), len(mesh.positions)
-    near = np.exp2(np.linspace(0, 20, size))[:, None] * random.normal(0, 0.3, (size, 3))
-    return _gridded(mesh.faces, np.clip(np.rint(near + MOST / 2), 0, MOST), grid=[MOST, MOST, MOST])
-
-
-def _levels(mesh: TriangleMesh, seed: int, growth: int) -> bytes:
-    """Levels up to the largest: some multiple of what the first neighbor has, as long as there is room, or any."""
-    made = base(mesh)
-    faces, random, size = made.prepared.mesh.faces, np.random.default_rng(seed), len(mesh.positions)
-    first = np.arange(size)
-    for face in faces:
-        first[face] = np.minimum(first[face], face.min())
-    levels = random.integers(-(1 << 20), (1 << 20) + 1, (size, 3))
-    if growth:
-        for v in range(size):
-            grown = growth * levels[first[v]]
-            levels[v] = np.where(abs(grown) <= 1 << 20, grown, levels[v] >> 15) if first[v] < v else levels[v] >> 15
-    data = levels_field(faces, levels.astype(np.int32)).write(size)[0]
-    header = replace(made.draft.header, refinement=(2.0**-20, 3.0))
-    return write_stream([header, *made.draft.body, Refinement(0, size, data)])
 
 
 def _tilted() -> bytes:
@@ -222,23 +178,6 @@ ILLEGAL: dict[str, tuple[str, dict[str, Any]]] = {
     "refinement-ratio": ("corrupt", BLOCKS | {"refinement": [2.0**-40, 1 / 17]}),
 }
 BOUNDS: dict[str, Good] = {
-    "good-grid-asks": Good("a question whose chance is the least that is asked (V 5.4)", _asked),
-    "good-grid-bounds": Good("any values on the largest grid", lambda: _noise(together(torus(16, 12), hub()), 1)),
-    "good-grid-bounds-tangled": Good(
-        "any values on the largest grid, of a mesh with boundary and without order",
-        lambda: _noise(together(patch(9, 8), tangled(), hub()), 2),
-    ),
-    "good-grid-scales": Good("differences of 1 to 2^20", lambda: _scales(together(torus(24, 16), hub()), 6)),
-    "good-refined-bounds": Good(
-        "any levels up to 2^20", lambda: _levels(together(torus(10, 8), hub(), patch(6, 5)), 3, 0)
-    ),
-    "good-refined-steep": Good(
-        "levels that grow eightfold from neighbor to neighbor: weights at their bounds",
-        lambda: _levels(torus(24, 16), 4, 8),
-    ),
-    "good-refined-steep-turned": Good(
-        "levels that grow so and change their sign", lambda: _levels(torus(24, 16), 5, -8)
-    ),
     "good-grid-tilted": Good("a vertex farther from a plane than terms may be (V 6.1)", _tilted),
     "good-grid-knot": Good("any faces of 24 vertices (C 7)", lambda: _knot(8, 24, 90)),
     "good-grid-knot-small": Good("any faces of 10 vertices", lambda: _knot(1, 10, 60)),
@@ -257,17 +196,6 @@ BOUNDS: dict[str, Good] = {
     "good-refined-grown-turned": Good("weights at their lower bound", lambda: _grown(-20)),
 }
 BOUNDS_BAD: dict[str, Bad] = {
-    "bad-counts-lonely": Bad(
-        "more vertices of degenerate faces alone than these have corners, and no face behind the counts",
-        "corrupt",
-        lambda: _counts(2000, 100, 301, 1000, 0),
-    ),
-    "bad-counts-fans": Bad(
-        "more fans than corners, and no face behind the counts", "corrupt", lambda: _counts(2000, 0, 0, 6001, 0)
-    ),
-    "bad-counts-dummies": Bad(
-        "more loops than corners, and no face behind the counts", "corrupt", lambda: _counts(2000, 0, 0, 1000, 6001)
-    ),
     "bad-counts-most": Bad(
         "more fans and loops than vertices may be", "limit", lambda: _counts(1 << 24, 0, 0, 9, 1 << 24)
     ),

@@ -20,6 +20,7 @@ from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anyw
 from bsm.lengths import UnitError
 
 LEAST = 1 << 16  # bytes that an input counts as, for the work that does not depend on its size
+Show = Callable[[Facts], str]  # the result for an input, as it is printed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,12 +39,7 @@ class Batch:
 
 
 def run_jobs(
-    run: Batch,
-    asked: Task,
-    console: Console,
-    work: Work,
-    jobs: Sequence[Job],
-    show: Callable[[Facts], str] | None = None,
+    run: Batch, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Show | None = None
 ) -> int:
     """Do all jobs of a command and print their results; return the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
