@@ -70,7 +70,6 @@ SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along t
 BEGUN, ROUND, CHOSEN = 0.05, 0.2, 0.5  # of all work: before rehearsals, in a round of them, and before the filter
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
-WORTH_STEADIED = 0.8  # the same after the temporal filter, for normals times vertices
 AS_LARGE = 1.05  # rehearsed error over the change from which on nothing tells noise from shape
 UNPROMISED = 1.2  # rehearsed error over that which the roughness tells, from which on thin parts became worse
 
@@ -147,8 +146,7 @@ def choose(
     if finding.kind in ("cells", "steps") or finding.uneven > EVEN:
         return _by_cause(finding)
     filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
-    # The networks were not trained on the noise that the temporal filter leaves, and would take shape away with it.
-    learnt = (len(positions) <= MOST_TAUGHT or finding.kind != "white") and finding.kind != "unsteady"
+    learnt = len(positions) <= MOST_TAUGHT or finding.kind not in ("white", "unsteady")
     finishes = [each for each in FINISHES if each == "none" or (filters is CANDIDATES and (learnt or each == "flat"))]
     members, part = sample(surface.topology.faces, finding.levels)
     chosen = positions
@@ -170,7 +168,7 @@ def choose(
     expected, untreated, reason = winner.error, rehearsal.untreated, finding.reason
     forecast = rehearsal.forecast(winner) if goal == "shading" or not finding.clear else None
     doubts = {
-        "any filter would cost more than it gains": (WORTH_STEADIED if steadied else WORTH) * untreated,
+        "any filter would cost more than it gains": WORTH * untreated,
         # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
         "the expected error is as large as the change": AS_LARGE * (np.inf if steadied else rehearsal.changed(winner)),
         "the triangles are so uneven that any filter would turn their normals farther": (
