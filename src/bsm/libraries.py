@@ -57,10 +57,10 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         return mesh.mesh
     if isinstance(mesh, (str, os.PathLike, Input)):
         return read_any(mesh if isinstance(mesh, Input) else Input(mesh))
-    return told(_of_library(mesh))
+    return with_warnings(_of_library(mesh))
 
 
-def told(found: MeshFile) -> TriangleMesh:
+def with_warnings(found: MeshFile) -> TriangleMesh:
     """Return the mesh, after warnings about changes and losses."""
     warn(found.notes)
     return found.mesh

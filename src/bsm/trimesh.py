@@ -24,7 +24,7 @@ from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import Array
 from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
-from bsm.libraries import as_mesh, told
+from bsm.libraries import as_mesh, with_warnings
 
 __all__ = ["from_trimesh", "to_scene", "to_trimesh"]
 _library = import_trimesh(".bsm files are opened by trimesh only")
@@ -55,7 +55,7 @@ def to_scene(mesh: Any) -> Any:
 def from_trimesh(mesh: Any) -> TriangleMesh:
     """Convert a mesh of trimesh, or a scene with all its parts at their places, with attributes and materials."""
     found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
-    return told(found.checked(DEFAULT_LIMITS))
+    return with_warnings(found.checked(DEFAULT_LIMITS))
 
 
 def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from bsm import Limits
+from bsm.files.isolation import lack
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.files.table import MESH_FORMATS
-from bsm.files.wall import lack
 from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth
 from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up, written

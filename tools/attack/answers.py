@@ -23,8 +23,8 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.files.answer import found_in, leave
 from bsm.files.formats.polygons import MeshFile
+from bsm.files.isolation import shared
 from bsm.files.motion.frames import Frames
-from bsm.files.wall import shared
 from tools.vectors.meshes import torus
 
 SIZE = 1 << 20  # bytes of shared memory

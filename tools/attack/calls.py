@@ -1,7 +1,7 @@
 """What reading asks of the kernel: `python -m tools.attack calls`; exit code 1 if a call was refused (needs strace).
 
-Every attack on readers is read behind the wall under a recorder. What is recorded after a process has closed its calls
-is held against src/bsm/files/calls.csv.
+Every attack on readers is read in isolation under a recorder. What is recorded after a process has closed its calls is
+held against src/bsm/files/calls.csv.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from bsm.files import wall
+from bsm.files import isolation
 
-_TABLE = Path(wall.__file__).with_name("calls.csv")
+_TABLE = Path(isolation.__file__).with_name("calls.csv")
 _LINE = re.compile(r"(\d+) +(\w+)\((.*)")
 _CLOSES = "PR_SET_SECCOMP"
 

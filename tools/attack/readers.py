@@ -33,7 +33,7 @@ from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files import wall
+from bsm.files import isolation
 from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.motion.frames import Shared, Wanted
@@ -47,7 +47,7 @@ HUGE_BYTES = tuple(
 )
 _NUMBER = re.compile(rb"(?<![\w.+-])-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?![\w.])")
 MOST_SECONDS = 60
-END_OF_CHILD = wall.end_of_child
+END_OF_CHILD = isolation.end_of_child
 
 
 @dataclass(frozen=True)
@@ -685,22 +685,22 @@ def problems(cases: list[Case], limits: str, most: float = 1.0) -> Iterator[str]
 
 
 def is_ours(name: str) -> bool:
-    """Whether our own readers read a case; others have no bounds but the wall's."""
+    """Whether our own readers read a case; others have no bounds but those of isolation."""
     return not name.startswith(("3mf", "usd", "dae"))
 
 
 def reading(make: Callable[[], Sample], folder: Path, limits: Limits) -> Callable[[], Taken]:
-    """Write a file and those beside it, then measure the reader, with its processes behind the wall."""
+    """Write a file and those beside it, then measure the reader, with its processes behind the isolation."""
     path, size = written(make(), folder)
 
     def read() -> Taken:
-        ends: list[wall.End] = []
+        ends: list[isolation.End] = []
 
-        def noted(*given: Any) -> wall.End:
+        def noted(*given: Any) -> isolation.End:
             ends.append(END_OF_CHILD(*given))
             return ends[-1]
 
-        with mock.patch.object(wall, "end_of_child", noted):
+        with mock.patch.object(isolation, "end_of_child", noted):
             taken = read_all(path, limits)
         memory, seconds = max((end[1] for end in ends), default=0), sum(end[2] for end in ends)
         return replace(taken, size=size, memory=memory, seconds=seconds)

@@ -96,7 +96,7 @@ def read_cut(
     given, limits = as_input(source), as_limits(limits)
     kind = kind_of(given, file_format)
     if is_apart((kind,), limits, isolated):
-        found: MeshFile = by_name("bsm.files.wall", "read_behind_wall")(given, file_format, limits, kind)
+        found: MeshFile = by_name("bsm.files.isolation", "read_isolated")(given, file_format, limits, kind)
         return found
     path, name = (given.name if given.is_file else None), given.name
     folder = Path(path).parent if path else None
@@ -142,7 +142,7 @@ def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> boo
     """Whether files of these formats are read in a process of its own; refused if they must be and cannot."""
     if not (limits.most_memory < math.inf if isolated is None else isolated):
         return False
-    lack = by_name("bsm.files.wall", "lack")() if sys.platform == "linux" else "Linux"
+    lack = by_name("bsm.files.isolation", "lack")() if sys.platform == "linux" else "Linux"
     foreign = next((kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None)
     if lack is not None and foreign is not None:
         error = DependencyError if "pip" in lack else UnsupportedError

@@ -99,7 +99,7 @@ def open_frames(
 
 
 def _apart(*given: Any) -> Any:
-    return by_name("bsm.files.wall", "frames_behind_wall")(*given)
+    return by_name("bsm.files.isolation", "frames_isolated")(*given)
 
 
 @contextmanager

@@ -54,7 +54,7 @@ def test_no_reader_lets_another_error_out(kind: str, tmp_path: Path) -> None:
     cuts = [whole[: len(whole) * part // 9] for part in range(1, 9)]
     counts = [whole[: m.start()] + b"999999999" + whole[m.end() :] for m in list(re.finditer(rb"\d+", whole))[:40:4]]
     longs = [whole[:at] + b"\xff\xff\xff\x7f" + whole[at + 4 :] for at in range(0, min(len(whole) - 4, 400), 20)]
-    if kind in ("usd", "usdc"):  # usd-core takes memory for such counts, and only the wall bounds it
+    if kind in ("usd", "usdc"):  # usd-core takes memory for such counts, and only isolation bounds it
         counts = longs = []
     path = tmp_path / f"mesh.{kind}"
     path.write_bytes(whole)

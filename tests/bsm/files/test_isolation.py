@@ -13,18 +13,18 @@ import pytest
 import bsm
 from bsm import FormatError, LimitError, Limits, MeshFile, read_mesh
 from bsm.cli import main
-from bsm.files import wall
+from bsm.files import isolation
 from bsm.files.answer import found_in, leave
+from bsm.files.isolation import lack
 from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
-from bsm.files.wall import lack
 from tests.shapes import torus
 from tools.attack.answers import SIZE, answers, fault
 from tools.attack.readers import chained_objects, three_mf
 from tools.attack.uses import of_size, uses
 
-pytestmark = pytest.mark.skipif(lack() is not None, reason=f"no wall here: it needs {lack()}")
+pytestmark = pytest.mark.skipif(lack() is not None, reason=f"no isolation here: it needs {lack()}")
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
@@ -70,25 +70,25 @@ def test_files_beside_are_read_and_others_are_not(tmp_path):
 
 
 def acting(monkeypatch, tmp_path, act, before=""):
-    """What reading does if a library behind the wall is taken over by a file."""
+    """What reading does if a library in an isolated process is taken over by a file."""
     (tmp_path / "library").mkdir(exist_ok=True)
     (tmp_path / "library" / "evil.py").write_text(f"import os, socket\ndef act(here):\n    {act}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "library"))
     code = (
-        "from bsm.files import mesh, wall; import evil; plain, known = mesh.read_mesh, wall._libraries\n"
+        "from bsm.files import mesh, isolation; import evil; plain, known = mesh.read_mesh, isolation._libraries\n"
         "def taken(source, *given, **more):\n"
         "    if not isinstance(source, bytes): evil.act(source)\n"
         "    return plain(source, *given, **more)\n"
-        f"{before}mesh.read_mesh = taken; wall.serve({{number}})"
+        f"{before}mesh.read_mesh = taken; isolation.serve({{number}})"
     )
-    monkeypatch.setattr(wall, "_COMMAND", code)
-    wall._server.cache_clear()
+    monkeypatch.setattr(isolation, "_COMMAND", code)
+    isolation._server.cache_clear()
 
 
 @pytest.fixture(autouse=True)
 def _fresh():
     yield
-    wall._server.cache_clear()
+    isolation._server.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def _fresh():
 )
 def test_the_parent_goes_on(act, error, words, monkeypatch, tmp_path):
     acting(monkeypatch, tmp_path, act)
-    monkeypatch.setattr(wall, "_PATIENCE", 1 if "sleep" in act else 1000)
+    monkeypatch.setattr(isolation, "_PATIENCE", 1 if "sleep" in act else 1000)
     for _ in range(2):
         with pytest.raises(error, match=words):
             read_mesh(TRIANGLE, limits=replace(Limits.service(), most_work=1e8))
@@ -135,7 +135,7 @@ def test_what_a_library_multiplies_is_ended(kind, library, tmp_path):
 SOCKETS = (("AF_INET", "STREAM"), ("AF_INET6", "DGRAM"), ("AF_UNIX", "STREAM"), ("AF_NETLINK", "RAW"))
 
 
-@pytest.mark.parametrize("before", ["", "wall._close_files = lambda beside: None; "], ids=["all", "calls alone"])
+@pytest.mark.parametrize("before", ["", "isolation._close_files = lambda beside: None; "], ids=["all", "calls alone"])
 def test_nothing_is_written_and_no_other_folder_read(before, monkeypatch, tmp_path):
     """By the filter of calls alone, too, since old kernels have a Landlock that knows less."""
     victim = tmp_path / "victim"
@@ -171,7 +171,7 @@ def test_nothing_is_written_and_no_other_folder_read(before, monkeypatch, tmp_pa
         "raise KeyError('all were refused', dict(os.environ))",
     )
     monkeypatch.setenv("SECRET", "a key")
-    acting(monkeypatch, tmp_path, "\n    ".join(acts), f"wall._libraries = lambda: ('/gone', *known()); {before}")
+    acting(monkeypatch, tmp_path, "\n    ".join(acts), f"isolation._libraries = lambda: ('/gone', *known()); {before}")
     with pytest.raises(FormatError, match="all were refused") as refused:
         read_mesh(TRIANGLE, isolated=True)
     assert "SECRET" not in str(refused.value)
@@ -189,7 +189,7 @@ def test_threads_run_and_nothing_stays(monkeypatch, tmp_path):
     acting(monkeypatch, tmp_path, act)
     with pytest.raises(FormatError, match="ran"):
         read_mesh(TRIANGLE, isolated=True)
-    server = wall._server().process
+    server = isolation._server().process
     os.kill(server.pid, signal.SIGKILL)
     with pytest.raises(FormatError, match="ran"):
         read_mesh(TRIANGLE, isolated=True)
@@ -198,14 +198,14 @@ def test_threads_run_and_nothing_stays(monkeypatch, tmp_path):
 
 def test_lies_are_refused():
     """100,000 of them: `python -m tools.attack answers`."""
-    with wall.shared(SIZE) as memory:
+    with isolation.shared(SIZE) as memory:
         for data in answers(Random(7), 1500):
             assert fault(memory, data, Limits.service()) == ""
         for number in (0, 9, 400):
             os.pwrite(memory, b"\xff" * 8 + bytes(number), 0)
             with pytest.raises(FormatError, match="left no mesh"):
                 found_in(memory, Limits())
-    with wall.shared(SIZE) as memory, pytest.raises(FormatError, match="left no mesh"):
+    with isolation.shared(SIZE) as memory, pytest.raises(FormatError, match="left no mesh"):
         found_in(memory, Limits())
 
 
@@ -215,7 +215,7 @@ def test_what_a_process_leaves_is_within_limits():
     def frames():
         return Frames(mesh.faces, 2, iter([mesh.positions] * 2), meshes=iter([mesh] * 2))
 
-    with wall.shared(1 << 22) as memory:
+    with isolation.shared(1 << 22) as memory:
         for found, name in ((MeshFile(mesh), "vertices"), (frames(), "vertices"), (frames(), "frames")):
             leave(memory, found)
             with pytest.raises(LimitError, match=name):
@@ -238,7 +238,7 @@ def test_many_threads_read_at_a_time():
 
 def test_a_server_that_was_ended_is_started_again():
     read_mesh(TRIANGLE, isolated=True)
-    os.kill(wall._server().process.pid, signal.SIGKILL)
+    os.kill(isolation._server().process.pid, signal.SIGKILL)
     assert len(read_mesh(TRIANGLE, isolated=True).mesh.faces) == 1
 
 

@@ -1,4 +1,4 @@
-"""A wall around readers of files: a process of its own for each file, with limits that the kernel enforces.
+"""Readers of files in isolation: a process of its own for each file, with limits that the kernel enforces.
 
 A server with all readers loaded is started once, and forks for each file. The child opens no socket, starts no program,
 writes nothing, and ends where it exceeds its memory or time. With Landlock (landlockpy) it may only read the folder of
@@ -42,7 +42,7 @@ from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input
 from bsm.files.table import FORMATS, MESH_FORMATS
 
-_COMMAND = "from bsm.files.wall import serve; serve({number})"
+_COMMAND = "from bsm.files.isolation import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
 _KIND = struct.Struct("<32sI")  # a format, and seconds, as they are sent
 _END = struct.Struct(
@@ -73,13 +73,13 @@ def lack() -> str | None:
     return None if landlock.supported() else "a kernel with Landlock"
 
 
-def read_behind_wall(given: Input, file_format: str | None, limits: Limits, kind: str) -> MeshFile:
+def read_isolated(given: Input, file_format: str | None, limits: Limits, kind: str) -> MeshFile:
     """Read a mesh file in a process of its own; errors as of `read_mesh`."""
     found: MeshFile = _read_there(_asked(given, file_format, kind), limits, kind)
     return found
 
 
-def frames_behind_wall(
+def frames_isolated(
     given: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, wanted: Wanted | None
 ) -> Frames | None:
     """Read all frames of a sequence in a process of its own; errors as of `open_sequence`."""
@@ -279,7 +279,7 @@ def _read(memory: int) -> None:
 
 
 def _called(asked: dict[str, Any]) -> MeshFile | Frames | None:
-    """Read as without a wall, in here."""
+    """Read as without isolation, in here."""
     given = (asked["format"], Limits(**asked["limits"]))
     wanted = Wanted(**asked["wanted"]) if asked.get("wanted") else None
     if names := asked.get("names"):

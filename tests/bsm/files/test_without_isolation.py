@@ -8,7 +8,7 @@ from bsm import DependencyError, LimitError, Limits, MeshError, UnsupportedError
 from bsm.cli import main
 from bsm.files.sequence import open_sequence
 
-wall = pytest.importorskip("bsm.files.wall")
+isolation = pytest.importorskip("bsm.files.isolation")
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 SERVICE = Limits.service()
 
@@ -17,7 +17,7 @@ SERVICE = Limits.service()
 def lacking(request, monkeypatch):
     if request.param == "Linux":
         monkeypatch.setattr(sys, "platform", "darwin")
-    monkeypatch.setattr(wall, "lack", lambda: request.param)
+    monkeypatch.setattr(isolation, "lack", lambda: request.param)
     return (DependencyError if "pip" in request.param else UnsupportedError), f"needs {request.param}"
 
 
@@ -54,4 +54,4 @@ def test_what_we_read_ourselves_is_read(lacking, tmp_path):
 
 def test_the_package_is_looked_for(monkeypatch):
     monkeypatch.setitem(sys.modules, "landlockpy", None)
-    assert "pip install landlockpy" in wall.lack.__wrapped__()
+    assert "pip install landlockpy" in isolation.lack.__wrapped__()
