@@ -76,9 +76,7 @@ def _of_library(mesh: Any) -> MeshFile:
     if points is not None and faces is None and hasattr(mesh, "extract_surface"):
         raise MeshError("this is a mesh of cells: give its surface, mesh.extract_surface()")
     if points is not None and faces is not None:
-        left: list[str] = []
-        columns, metadata = columns_of(mesh, left), metadata_of(mesh, left)
-        return _of_arrays(points, faces, columns, metadata, left)
+        return _of_arrays(points, faces)
     raise ArgumentError(
         "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), or a "
         f"path; not {type(mesh).__name__}"
@@ -124,25 +122,20 @@ def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
     return next((value for value in values if value is not None and not callable(value)), None)
 
 
-def _of_arrays(
-    positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING, left: Sequence[str] = ()
-) -> MeshFile:
+def _of_arrays(positions: Any, faces: Any) -> MeshFile:
     try:
         table = np.asarray(faces)
     except ValueError:  # lists of different lengths
         rows = [as_array(face, f"face {number}").reshape(-1) for number, face in enumerate(faces)]
         sizes, corners = np.array([len(row) for row in rows]), np.concatenate(rows)
     else:
-        wide = table.ndim == 2 and table.shape[1] > 3
         if table.ndim == 1 and table.size and table.dtype.kind in "iu":
             sizes, corners = _split(table.astype(np.int64))
-        elif left and not table.size:
-            sizes, corners = np.zeros((2, 0), np.int64)
-        elif wide or (table.ndim == 2 and table.shape[1] == 3 and len(table) and any((columns, metadata, left))):
+        elif table.ndim == 2 and table.shape[1] > 3:
             sizes, corners = np.full(len(table), table.shape[1]), table.reshape(-1)
         else:
             return MeshFile(TriangleMesh(positions, table))
-    return _of_polygons(positions, sizes, corners, columns, metadata, left).checked(DEFAULT_LIMITS)
+    return _of_polygons(positions, sizes, corners).checked(DEFAULT_LIMITS)
 
 
 def _of_meshio(mesh: Any) -> Polygons:
@@ -170,15 +163,6 @@ def _of_meshio(mesh: Any) -> Polygons:
     return _of_polygons(mesh.points, sizes, corners, columns, left=left)
 
 
-_LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
-    ("visual", "vertex_attributes", polygons_of),
-    ("fv_indices", "halfedge_to_vertex_indices", of_openmesh),
-    ("graph", "geometry", lambda scene: joined(scene, DEFAULT_LIMITS)),
-    ("cells", "cell_sets", _of_meshio),
-)
-"""Two attributes that the meshes of a library have, and how they are read."""
-
-
 def _of_polygons(
     positions: Any,
     sizes: Ints,
@@ -198,39 +182,26 @@ def _of_polygons(
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:
     """Return the sizes and corners of polygons in a flat list, where the number of corners precedes each polygon."""
-    starts, at = [], 0
+    starts, at = list[int](), 0
     while 0 <= at < len(flat):
         starts.append(at)
         at += 1 + max(int(flat[at]), 0)
-    sizes = flat[starts]
+    sizes = flat[np.array(starts, np.int64)]
     if (sizes < 0).any() or at != len(flat):
         raise MeshError("flat faces must be a count followed by as many vertices, for each face")
-    return sizes, flat[ranges(np.array(starts) + 1, sizes)]
+    return sizes, flat[ranges(np.array(starts, np.int64) + 1, sizes)]
 
 
-# ------------------------------------------------------------------------------------------- beside points and faces
-
-
-def columns_of(mesh: Any, left: list[str]) -> list[Column]:
-    """The values of vertices, corners and polygons; `left` takes the names of those that a mesh cannot have."""
-    if hasattr(mesh, "point_data") and hasattr(mesh, "cell_data") and hasattr(mesh, "n_lines"):
-        left += [name for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")]
-        first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
-        cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
-        normals, texcoords = mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name
-        active: dict[str, Semantic] = {normals: "normal", texcoords: "texcoord"}
-        return [*_columns(mesh.point_data, "vertex", left, active), *_columns(cells, "face", left)]
-    if hasattr(mesh, "triangle_uvs") and hasattr(mesh, "vertex_colors"):
-        left += ["textures"] if len(getattr(mesh, "textures", ())) else []
-        return list(_of_open3d(mesh))
-    return []
-
-
-def metadata_of(mesh: Any, left: list[str]) -> Metadata:
-    """The field data of pyvista."""
-    found, others = plain_fields(mesh.field_data) if hasattr(mesh, "n_lines") else ({}, [])
+def _of_pyvista(mesh: Any) -> Polygons:
+    left = [name for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")]
+    first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
+    cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
+    normals, texcoords = mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name
+    active: dict[str, Semantic] = {normals: "normal", texcoords: "texcoord"}
+    columns = [*_columns(mesh.point_data, "vertex", left, active), *_columns(cells, "face", left)]
+    metadata, others = plain_fields(mesh.field_data)
     left += [f"field data {name}" for name in others]
-    return found
+    return _of_polygons(mesh.points, *_split(np.array(mesh.faces, np.int64)), columns, metadata, left)
 
 
 def _columns(
@@ -246,19 +217,32 @@ def _columns(
         yield named_column(name, values, domain, active.get(name))
 
 
-def _of_open3d(mesh: Any) -> Iterator[Column]:
+def _of_open3d(mesh: Any) -> Polygons:
     normals, colors, uvs = (_table(mesh, name) for name in ("vertex_normals", "vertex_colors", "triangle_uvs"))
-    materials = _table(mesh, "triangle_material_ids")
+    materials, columns = _table(mesh, "triangle_material_ids"), list[Column]()
     if normals is not None:
-        yield Column("normal", compact(normals), semantic="normal")
+        columns.append(Column("normal", compact(normals), semantic="normal"))
     if colors is not None:
-        yield color_column(colors, "vertex")
+        columns.append(color_column(colors, "vertex"))
     if uvs is not None:
-        yield Column("texcoord", compact(uvs), "corner", "texcoord")
+        columns.append(Column("texcoord", compact(uvs), "corner", "texcoord"))
     if materials is not None:
-        yield Column("material", materials.reshape(-1, 1), "face")
+        columns.append(Column("material", materials.reshape(-1, 1), "face"))
+    left, faces = ["textures"] if len(getattr(mesh, "textures", ())) else [], np.asarray(mesh.triangles)
+    return _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns, left=left)
 
 
 def _table(mesh: Any, name: str) -> Array | None:
     values = np.asarray(getattr(mesh, name))
     return values if values.size else None
+
+
+_LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
+    ("visual", "vertex_attributes", polygons_of),
+    ("fv_indices", "halfedge_to_vertex_indices", of_openmesh),
+    ("graph", "geometry", lambda scene: joined(scene, DEFAULT_LIMITS)),
+    ("cells", "cell_sets", _of_meshio),
+    ("point_data", "n_lines", _of_pyvista),
+    ("triangle_uvs", "vertex_colors", _of_open3d),
+)
+"""Two attributes that the meshes of a library have, and how they are read."""
