@@ -22,6 +22,7 @@ from bsm.files.formats.metadata import plain_fields, without_materials, without_
 from bsm.files.formats.om import of_openmesh
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact, named_column
 from bsm.files.formats.with_trimesh import joined, polygons_of
+from bsm.files.images import with_linked_images
 from bsm.files.mesh import read_mesh
 from bsm.files.pipes import Input
 from bsm.files.room import PRECISION, Ints, is_single_and_far, ranges
@@ -111,7 +112,8 @@ def with_metadata(mesh: TriangleMesh, options: EncodeOptions | None, metadata: M
 def read_any(source: Input, **reading: Any) -> TriangleMesh:
     """The mesh in a stream or a mesh file; `reading` are arguments of `read_mesh`."""
     if is_stream(source):
-        return decode_whole(source.chunks(), reading.get("limits", DEFAULT_LIMITS))
+        mesh = decode_whole(source.chunks(), reading.get("limits", DEFAULT_LIMITS))
+        return with_linked_images(mesh, source.name) if source.name else mesh
     found = read_mesh(source, **reading)
     warn(f"{source.name}: {note}" if source.name else note for note in found.notes)
     return found.mesh

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import bsm
 from bsm.cli import main
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.shapes import torus
@@ -35,17 +36,35 @@ def files_of(folder):
     return {str(path.relative_to(folder)) for path in Path(folder).rglob("*") if path.suffix not in (".mtl", "")}
 
 
-def test_a_folder_comes_back_under_its_names(robot, capsys):
-    assert main(["encode", "-r", "robot", "-o", "small", "--images", "none"]) == 0
-    assert f"6 of 6 files, {robot} -> " in capsys.readouterr().err, "an image of several meshes counts once"
-    size = Path("robot/skin.png").stat().st_size
-    assert all(path.stat().st_size < size for path in Path("small").rglob("*.bsm"))
+def test_a_shared_image_is_stored_once_and_a_folder_comes_back_under_its_names(robot, capsys):
+    assert main(["encode", "-r", "robot", "-o", "small"]) == 0
+    said, image = capsys.readouterr().err, Path("robot/skin.png").read_bytes()
+    assert "1 image of several meshes" in said and f"6 of 6 files, {robot} -> " in said
+    assert [path.read_bytes() for path in Path("small/images").iterdir()] == [image]
+    streams = [path.stat().st_size for path in Path("small").rglob("*.bsm")]
+    assert max(streams) < len(image) and f"-> {sum(streams) + len(image)} bytes" in said
     assert main(["compare", "-r", "robot", "small"]) == 0
     assert "6 of 6 files compared" in capsys.readouterr().out
     assert main(["decode", "-r", "small", "-o", "back", "--format", "same"]) == 0
-    assert files_of("back") == {name for name in files_of("robot") if not name.endswith(".png")}
-    assert "map_Kd skin.png" in Path("back/arm/foot.mtl").read_text()
+    assert files_of("back") == files_of("robot")
+    assert read_mesh("back/arm/foot.obj").mesh.metadata["image.0.data"] == image
     assert main(["compare", "-r", "robot", "back"]) == 0
+
+
+def test_images_are_linked_kept_or_left_out(robot, capsys):
+    image = Path("robot/skin.png").read_bytes()
+    for rule in ("keep", "none", "link"):
+        assert main(["encode", "robot/hand.obj", "-f", "-o", "hand.bsm", "--images", rule]) == 0
+        assert (Path("hand.bsm").stat().st_size > len(image)) == (rule == "keep")
+        assert Path("images").is_dir() == (rule == "link")
+    assert bsm.load("hand.bsm").metadata["image.0.data"] == image
+    assert main(["encode", "robot/hand.obj", "-o", "-", "--images", "link"]) == 2
+    for link in ("", "../secret.png", f"images/../{32 * '0'}.png", f"images/{32 * '0'}.png"):
+        if link:
+            next(Path("images").iterdir()).write_bytes(b"another")
+            bsm.save(bsm.TriangleMesh(SHAPE.positions, SHAPE.faces, (), {"image.0.link": link}), "hand.bsm")
+        assert main(["decode", "hand.bsm", "-f", "-o", "out.obj"]) == 0
+        assert ("which is not there" in capsys.readouterr().err) == bool(link)
 
 
 def test_coordinates_are_scaled_to_the_unit_that_is_asked_for(robot):

@@ -19,8 +19,9 @@ from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
-from bsm.console import Console
+from bsm.console import Console, printable
 from bsm.files.formats.metadata import Written
+from bsm.files.images import is_link, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import by_name, format_of_name, save_written, unknown_suffix, written_mesh
 from bsm.files.motion.folder import is_numbered, mesh_files, names_many
@@ -147,7 +148,10 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
-    mesh = _as_asked(args, mesh, kind, header)
+    mesh = _as_asked(args, with_linked_images(mesh, args.input), kind, header)
+    for name in mesh.metadata:
+        if is_link(name) and name.replace("link", "data") not in mesh.metadata:
+            console.note(f"{args.input}: left out: the image {printable(str(mesh.metadata[name]))}, which is not there")
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
         console.note(f"{args.input}: left out: {missing}, whose values are missing")
@@ -159,7 +163,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
 
 def _as_asked(args: DecodeJob, mesh: TriangleMesh, kind: str, header: Header | None) -> TriangleMesh:
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
-    metadata, scale = dict(mesh.metadata), 1.0
+    metadata, scale = {n: value for n, value in mesh.metadata.items() if kind == "obj" or not is_link(n)}, 1.0
     metadata.pop("source_name", None)
     if kind in SAYING and (header is None or header.light != WITH_FLOATS):
         metadata.setdefault(PROVENANCE, f"bsm {__version__}")

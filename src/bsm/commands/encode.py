@@ -7,14 +7,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import IMAGES, add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
-from bsm.files.images import ImageRule
+from bsm.files.images import ImageRule, shared_images
 from bsm.files.mesh import format_of_name
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.output import refuse_collisions
+from bsm.files.pipes import is_url
 from bsm.files.sequence import SEQUENCE_FORMATS, SEQUENCES_READ
 from bsm.files.table import GLTF, MESH_FORMATS, WRITTEN_FORMATS
 from bsm.jobs.encode import EncodeJob, encode_one
@@ -42,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     fewer = "try fewer triangles in steps of 16 %%, and keep the smallest file that keeps the promise to the "
     fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"
     add("--simplify", "", fewer)
-    add("--images", "RULE", f"keep (default), none, or {IMAGES}")
+    add("--images", "RULE", f"keep, none, link (files in the folder images), or {IMAGES}")
     add("--permutation", "FILE.npy", "write the input vertex of each decoded vertex")
     meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
     add("--meta", "NAME=TEXT", meta, action="append", default=[])
@@ -92,7 +93,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
         metadata[name] = value
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
-    if args.images not in (None, "keep", "none"):
+    if args.recursive and args.images is None and (shared := shared_images(Path(job.input) for job in jobs)):
+        more["shared"] = shared
+        once = f"{counted(images=len(shared))} of several meshes: once in the folder images"
+        console.note(f"{once}, to which the streams link; --images keep stores them in each")
+    if args.images == "link" and any(job.output == "-" or is_url(job.output) for job in jobs):
+        raise OptionError("--images link writes files beside streams; it takes neither a pipe nor a URL")
+    if args.images not in (None, "keep", "none", "link"):
         ImageRule.parse(args.images)
         if args.untrusted:
             raise OptionError("--images lets Pillow read images; leave it out with --untrusted")

@@ -7,7 +7,7 @@ from pathlib import Path
 from bsm.bitstream.errors import HarmError, OptionError
 from bsm.commands.flags import IMAGES, adder, within
 from bsm.console import Console
-from bsm.files.images import ImageRule
+from bsm.files.images import ImageRule, with_linked_images
 from bsm.files.mesh import read_mesh, size_with_parts, written_mesh
 from bsm.files.output import refuse_collisions, write_output
 from bsm.files.pipes import read_bytes, read_chunks
@@ -104,7 +104,7 @@ def _moves(path: str) -> bool:
 def _document(path: str, console: Console) -> tuple[Document, int | None]:
     """Return a scene, or a mesh as one; and the bytes of the mesh file."""
     if not Path(path).is_dir() and is_stream(path):
-        mesh = decode_whole(read_chunks(path))
+        mesh = with_linked_images(decode_whole(read_chunks(path)), path)
         console.note(f"{path}: compressed already: errors add up")
     elif Path(path).suffix[1:].lower() in GLTF:
         document = read_document(path)

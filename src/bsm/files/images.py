@@ -1,16 +1,22 @@
-"""Images written anew by a rule, where that makes them smaller."""
+"""Images written anew by a rule, where that makes them smaller, and images beside streams, which link to them."""
 
 import io
 import re
-from dataclasses import dataclass
-from pathlib import PurePath
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path, PurePath
 from typing import Any, Self
 
 from bsm.bitstream.errors import OptionError, imported
-from bsm.codec.geometry.mesh import Metadata
-from bsm.files.formats.metadata import images_in
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.metadata import images_in, kind_of_image
 
 _MOST_PIXELS = 1 << 26  # of an image that is written anew
+_LINK = re.compile(r"(?:\.\./)*images/([0-9a-f]{32})\.\w{1,5}")
+_NAMED = re.compile(rb"[^\s\"'<>]+\.(?:png|jpe?g|webp|bmp|tga|tiff?)\b", re.IGNORECASE)
+_HEAD = 1 << 16  # bytes of a mesh that are searched for the names of images
 
 
 @dataclass(frozen=True)
@@ -70,3 +76,49 @@ def with_smaller_images(metadata: Metadata, rule: ImageRule) -> Metadata:
             other = str(PurePath(name).with_suffix(f".{rule.kind}"))
             found[f"image.{number}.name"] = other if other not in names - {name} else f"{name}.{rule.kind}"
     return found
+
+
+def _digest(data: bytes) -> str:
+    return sha256(data).hexdigest()[:32]
+
+
+def is_link(name: str) -> bool:
+    return re.fullmatch(r"image\.\d+\.link", name) is not None
+
+
+def shared_images(paths: Iterable[Path]) -> tuple[str, ...]:
+    """Return digests of the image files that several meshes name, themselves or in their materials."""
+    users, digests = Counter[str](), dict[Path, str]()
+    for path in paths:
+        with path.open("rb") as file:
+            text = file.read(_HEAD)
+        for name in re.findall(rb"mtllib[ \t]+(.+)", text):
+            library = path.parent / name.decode(errors="replace").strip()
+            text += library.read_bytes() if library.is_file() else b""
+        images = {(path.parent / name.decode(errors="replace")).resolve() for name in _NAMED.findall(text)}
+        found = {name for name in images if name in digests or name.is_file()}
+        digests |= {name: _digest(name.read_bytes()) for name in found - digests.keys()}
+        users.update({digests[name] for name in found})
+    return tuple(sorted(digest for digest, count in users.items() if count > 1))
+
+
+def with_links(metadata: Metadata, way: str, chosen: tuple[str, ...]) -> tuple[Metadata, dict[str, bytes]]:
+    """Return metadata that links to the chosen images, or to all, in a folder a way off, and these files by name."""
+    found, files = dict(metadata), dict[str, bytes]()
+    for number, (_, data) in images_in(metadata).items():
+        if data and (not chosen or _digest(data) in chosen):
+            name = f"images/{_digest(data)}.{kind_of_image(data) or 'img'}"
+            del found[f"image.{number}.data"]
+            found[f"image.{number}.link"], files[name] = way + name, data
+    return found, files
+
+
+def with_linked_images(mesh: TriangleMesh, stream: str) -> TriangleMesh:
+    """Return a mesh with the images that its stream links to, as far as they are there."""
+    found = dict(mesh.metadata)
+    for key, link in mesh.metadata.items():
+        match = _LINK.fullmatch(str(link)) if is_link(key) else None
+        path = Path(stream).parent / str(link)
+        if match and path.is_file() and _digest(data := path.read_bytes()) == match[1]:
+            found[key.removesuffix("link") + "data"] = data
+    return replace(mesh, metadata=found)

@@ -212,7 +212,10 @@ def save_written(
     follow: bool | str = True,
 ) -> tuple[str, ...]:
     """Write the files beside a mesh file, then the file; return the losses. A pipe has no files beside it."""
-    beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
+    beside = {beside_it: data for name, data in written.beside.items() if (beside_it := _sibling(path, name))}
+    lost = () if beside else tuple(written.beside)
+    there = {name for name in beside if not is_url(name) and Path(name).is_file()}
+    beside = {name: data for name, data in beside.items() if name not in there or Path(name).read_bytes() != data}
     replace_beside = overwrite if overwrite_beside is None else overwrite_beside
     refuse_to_overwrite(path, overwrite)
     for name in beside:
@@ -220,7 +223,7 @@ def save_written(
     for name, data in beside.items():
         write_output(name, data, overwrite=replace_beside, follow=follow if isinstance(follow, str) else False)
     write_output(path, written.data, overwrite=overwrite, follow=follow)
-    return (*written.left_out, *(() if beside else written.beside))
+    return (*written.left_out, *lost)
 
 
 def _sibling(path: str | os.PathLike[str], name: str) -> str | None:

@@ -1,6 +1,7 @@
 """Encode meshes and sequences for `bsm encode` and `bsm.encode_many`."""
 
 import math
+import os
 import re
 import time
 from collections.abc import Mapping
@@ -18,10 +19,10 @@ from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.comparison import write_permutation
 from bsm.console import Console, finite
 from bsm.files.formats.metadata import images_in
-from bsm.files.images import ImageRule, with_smaller_images
+from bsm.files.images import ImageRule, is_link, with_links, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
-from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.output import open_output, refuse_to_overwrite, write_output
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.jobs.task import Facts, Task, came_to
@@ -52,6 +53,7 @@ class EncodeJob(Task):
     simplify: bool = False
     untrusted: bool = False
     recursive: bool = False
+    shared: tuple[str, ...] = ()  # digests of images that several meshes have
     dry_run: bool = False
     images: str | None = None
 
@@ -84,7 +86,8 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     origin = {"source_name": Path(job.input).name} if job.recursive else {}
     mesh = with_metadata(source.mesh, chosen, {**origin, **job.metadata})
     left_out = source.mesh.metadata.keys() - mesh.metadata.keys()
-    mesh = replace(mesh, metadata=_images_of(job, mesh.metadata))
+    entries, linked = _images_of(job, mesh.metadata)
+    mesh = replace(mesh, metadata=entries)
     if lengths := in_own_unit(job.options, mesh.metadata, mesh):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
     begin = time.perf_counter()
@@ -102,6 +105,9 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         file.writelines(result.frames)
         if job.permutation:  # before the stream has its name, so that no stream stands beside another's
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
+        for name, data in {} if job.dry_run else linked.items():
+            Path(name).parent.mkdir(exist_ok=True)
+            write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
     seconds = time.perf_counter() - begin
     images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
     smaller = "" if job.images or 2 * images < result.size else "; --images webp:85 makes them smaller"
@@ -118,6 +124,8 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
     errors, numbers = _errors(found, job.simplify, *asked_unit(job.options, mesh.metadata))
     (taken, parts), bpv = size_with_parts(job.input, source.mesh.metadata), 8 * (size - images) / vertices
+    beside = {name: len(data) for name, data in linked.items()}
+    written = size + sum(beside.values())
     promise = chosen.promise
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     other = encoder.binding not in ("", "look") and found.apart is None
@@ -126,24 +134,31 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         job,
         console,
         notes,
-        f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, size)}, "
+        f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, "
         f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{binds}{errors}; "
         f"{seconds:.2f} s",
     )
     names = {"input": job.input, "output": None if job.dry_run else job.output}
     counts = {"vertices": vertices, "faces": faces}
-    sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
-    apart = {"input_parts": parts} if parts else {}
+    sizes = {"input_bytes": taken, "output_bytes": written, "bytes": size, "bpv_total": bpv}
+    apart = {"input_parts": parts, "output_parts": beside} if parts else {}
     ends = {"look": encoder.look, "binding": encoder.binding, "seconds": seconds, "notes": notes}
     return {**names, **counts, **sizes, **apart, **numbers, **ends}
 
 
-def _images_of(job: EncodeJob, metadata: Metadata) -> Metadata:
-    """Return metadata with images as the job wants them."""
+def _images_of(job: EncodeJob, metadata: Metadata) -> tuple[Metadata, dict[str, bytes]]:
+    """Return metadata with images as the job wants them, and linked images by their files."""
+    metadata = {name: value for name, value in metadata.items() if not is_link(name)}
+    if job.images == "link" or job.shared:
+        folder = Path(job.output).parent
+        root = Path(job.follow) if isinstance(job.follow, str) else folder
+        way = "".join(f"{part}/" for part in Path(os.path.relpath(root, folder)).parts)
+        metadata, files = with_links(metadata, way, job.shared)
+        return metadata, {str(root / name): data for name, data in files.items()}
     if job.images == "none":
         images = {f"image.{number}.data" for number in images_in(metadata)}
-        return {name: value for name, value in metadata.items() if name not in images}
-    return metadata if job.images in (None, "keep") else with_smaller_images(metadata, ImageRule.parse(job.images))
+        return {name: value for name, value in metadata.items() if name not in images}, {}
+    return metadata if job.images in (None, "keep") else with_smaller_images(metadata, ImageRule.parse(job.images)), {}
 
 
 def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[str, Facts]:

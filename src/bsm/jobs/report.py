@@ -88,7 +88,7 @@ _FIELDS: Mapping[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
     **dict.fromkeys(("seconds", "max_error_relative", "max_error", "kg"), lambda value: type(value) in (int, float)),
     **dict.fromkeys(("input", "output", "output_sha256", "unit"), lambda value: isinstance(value, str)),
-    "input_parts": lambda value: all(type(size) is int for size in value.values()),
+    **dict.fromkeys(("input_parts", "output_parts"), lambda value: all(type(size) is int for size in value.values())),
     "error": lambda value: isinstance(value, str) and bool(value.strip()),
     "exit": lambda value: type(value) is int and 0 < value < 256,
 }
@@ -144,10 +144,7 @@ def digest_of(path: str) -> str | None:
 
 def totals(files: Sequence[Facts]) -> Facts:
     done = [facts for facts in files if facts.keys() - {"input", "output"} and "error" not in facts]
-    parts: dict[str, int] = dict(chain.from_iterable(facts.get("input_parts", {}).items() for facts in done))
-    again = sum(sum(facts.get("input_parts", {}).values()) for facts in done) - sum(parts.values())
-    taken, given = (sum(facts.get(key) or 0 for facts in done) for key in ("input_bytes", "output_bytes"))
-    taken -= again  # a file beside several inputs counts once
+    taken, given = _bytes_of(done, "input"), _bytes_of(done, "output")
     return {
         "files": len(files),
         "done": len(done),
@@ -158,6 +155,13 @@ def totals(files: Sequence[Facts]) -> Facts:
         "ratio": taken / given if given else None,
         "largest_error": largest_error(done),
     }
+
+
+def _bytes_of(files: Sequence[Facts], way: str) -> int:
+    """Return the bytes of inputs or outputs; a file beside several of them counts once."""
+    parts = [facts.get(f"{way}_parts") or {} for facts in files]
+    again = sum(sum(each.values()) for each in parts) - sum(dict(chain.from_iterable(map(dict.items, parts))).values())
+    return sum(facts.get(f"{way}_bytes") or 0 for facts in files) - again
 
 
 def largest_error(files: Sequence[Facts]) -> str:

@@ -566,7 +566,7 @@ def rgba(color: Attribute) -> npt.NDArray[np.uint8]:
 
 
 class Library:
-    """The materials of a mesh as files beside it; their names begin with that of the mesh."""
+    """The materials of a mesh as files beside it; names begin with that of the mesh, or are those of linked images."""
 
     def __init__(self, mesh: TriangleMesh, stem: str) -> None:
         self.materials: dict[int, Material] = materials_in(mesh.metadata)
@@ -579,6 +579,7 @@ class Library:
                 self.images[number] = one_line(name)
                 self.written.add(f"image.{number}.name")
             elif kind := kind_of_image(data):
-                self.images[number] = f"{stem}.{number}.{kind}"
+                shared = f"image.{number}.link" in mesh.metadata and re.fullmatch(r"\w[\w .-]*", name)
+                self.images[number] = name if shared else f"{stem}.{number}.{kind}"
                 self.beside[self.images[number]] = data
-                self.written |= {f"image.{number}.data", f"image.{number}.name"}
+                self.written |= {f"image.{number}.{what}" for what in ("data", "name", "link")}
