@@ -21,7 +21,7 @@ from bsm.files.mesh import format_of_name, save_written, unknown_suffix, written
 from bsm.files.pipes import Input, Source, named, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import in_own_unit
-from bsm.libraries import as_mesh, read_any, warn, with_metadata, without_provenance
+from bsm.libraries import as_mesh, read_any, warn, with_metadata, with_texels, without_provenance
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -103,7 +103,8 @@ def encode(
         source = with_metadata(without_provenance(as_mesh(mesh)), chosen, entries)
         if lengths := in_own_unit(keywords, source.metadata, source):
             chosen = keywords_to.encode_options(**{**keywords, **lengths})
-        found = encode_source(source, chosen or EncodeOptions(), reported, simplify=simplify)
+        chosen = with_texels(chosen or EncodeOptions(), source)
+        found = encode_source(source, chosen, reported, simplify=simplify)
     warn(found.encoder.losses)
     return b"".join(found.attempt.frames)
 

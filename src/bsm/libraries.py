@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 import warnings
@@ -22,7 +23,7 @@ from bsm.files.formats.metadata import plain_fields, without_materials, without_
 from bsm.files.formats.om import of_openmesh
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact, named_column
 from bsm.files.formats.with_trimesh import joined, polygons_of
-from bsm.files.images import with_linked_images
+from bsm.files.images import largest_side, with_linked_images
 from bsm.files.mesh import read_mesh
 from bsm.files.pipes import Input
 from bsm.files.room import PRECISION, Ints, is_single_and_far, ranges
@@ -107,6 +108,18 @@ def with_metadata(mesh: TriangleMesh, options: EncodeOptions | None, metadata: M
     known = without_names(without_materials(mesh.metadata) if bare else mesh.metadata, left)
     precision = PRECISION if is_single_and_far(mesh.positions) else {}
     return replace(mesh, metadata={**precision, **known, **metadata})
+
+
+def with_texels(options: EncodeOptions, mesh: TriangleMesh) -> EncodeOptions:
+    """Let texture coordinates be off by a quarter of a texel of the largest image, where looks choose their quality."""
+    side, promise = largest_side(mesh.metadata), options.promise
+    asked = dict(options.attributes)
+    if not side or "*" in asked or promise is None or promise.look == math.inf:
+        return options
+    bounds = {
+        a.name: repr(0.25 / side) for a in mesh.attributes if a.semantic == "texcoord" and a.values.dtype.kind == "f"
+    }
+    return replace(options, attributes={**bounds, **asked})
 
 
 def read_any(source: Input, **reading: Any) -> TriangleMesh:

@@ -254,13 +254,13 @@ def test_identifiers_are_exact(ids, preset):
 
 
 @pytest.mark.parametrize("extent", [1.0, 100.0])
-@pytest.mark.parametrize("side", [16, 4096])
-def test_texture_coordinates_are_bound_in_texels(extent, side):
+@pytest.mark.parametrize(("side", "kind"), [(16, "PNG"), (4096, "JPEG"), (4096, "WEBP")])
+def test_texture_coordinates_are_bound_in_texels(extent, side, kind):
     image = pytest.importorskip("PIL.Image")
-    image.new("L", (side, 8)).save(file := io.BytesIO(), "PNG")
+    image.new("L", (side, 8)).save(file := io.BytesIO(), kind)
     random = np.random.default_rng(1).random((384, 2)).astype(np.float32) * np.float32(extent)
     built, _ = ring({"TEXCOORD_0": random}, {"material": 0})
-    built.tree["images"] = [{"bufferView": built.view(file.getvalue()), "mimeType": "image/png"}]
+    built.tree["images"] = [{"bufferView": built.view(file.getvalue()), "mimeType": f"image/{kind.lower()}"}]
     built.tree["textures"] = [{"source": 0}]
     built.tree["materials"] = [{"normalTexture": {"index": 0}}]
     _, after = rewritten(built)

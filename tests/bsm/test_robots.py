@@ -39,7 +39,7 @@ def files_of(folder):
 def test_a_shared_image_is_stored_once_and_a_folder_comes_back_under_its_names(robot, capsys):
     assert main(["encode", "-r", "robot", "-o", "small"]) == 0
     said, image = capsys.readouterr().err, Path("robot/skin.png").read_bytes()
-    assert "1 image of several meshes" in said and f"6 of 6 files, {robot} -> " in said
+    assert "1 image of several meshes" in said and ", 0.25 texels" in said and f"6 of 6 files, {robot} -> " in said
     assert [path.read_bytes() for path in Path("small/images").iterdir()] == [image]
     streams = [path.stat().st_size for path in Path("small").rglob("*.bsm")]
     assert max(streams) < len(image) and f"-> {sum(streams) + len(image)} bytes" in said

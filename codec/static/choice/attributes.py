@@ -228,9 +228,9 @@ def _roughened(given: Sent, look: float) -> Sent:
 
 def _roughen(given: Sent, at: int, attribute: Attribute, most: float) -> Sent:
     """Make an attribute as coarse as takes at most some of the look."""
-    # Of a texture that repeats, pictures show a mean, however wrong: no place moves by more than 1/128 of its side.
+    # A checker shows nothing of a texture that repeats or is sharper than it: no place moves by more than 1/4096.
     extent = float(np.ptp(attribute.values, axis=0).max(initial=0.0))
-    least = min(math.ceil(math.log2(max(64.0 * extent, 2.0))), MOST_BITS)
+    least = min(math.ceil(math.log2(max(2048.0 * extent, 2.0))), MOST_BITS)
     steps = [Quality("bits", bits) for bits in range(least, MOST_BITS + 1)]
     if attribute.semantic == "color":
         rough = range(0 if kept_whole(attribute) else 15)

@@ -23,6 +23,7 @@ from bsm.commands.flags import add_limits_flag, adder, limits_of
 from bsm.comparison import Pair, compare_meshes, one_each, order_of_used, pair, paired_frames, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.exits import exit_of, worded
+from bsm.files.images import largest_side
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
@@ -220,6 +221,9 @@ def _compared(
         name: errors and {what: value for what, value in errors.items() if value is not None}
         for name, errors in result.pop("attributes").items()
     }
+    for attribute in original.attributes if (side := largest_side(original.metadata)) else ():
+        if attribute.semantic == "texcoord" and (errors := attributes[attribute.name]):
+            errors["max_error_texels"] = side * errors["max_error"]
     before, after, faces = paired.original.positions, paired.positions, paired.original.faces
     result |= {"folded_before": folded_edges(before, faces), "folded_after": folded_edges(after, faces)}
     if args.surface:  # what the literature on denoising measures

@@ -13,6 +13,8 @@ from bsm.bitstream.errors import OptionError, imported
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import images_in, kind_of_image
 
+_PNG_OR_JPEG = re.compile(rb"\A\x89PNG.{12}(.{4})(.{4})|\xff[\xc0-\xc2]\0[\x0b\x11\x14]\x08(..)(..)", re.DOTALL)
+_WEBP = re.compile(rb"RIFF.{4}WEBP(?:VP8X.{8}(...)(...)|VP8 .{7}\x9d\x01\x2a(..)(..)|VP8L.{4}/(.{4}))", re.DOTALL)
 _MOST_PIXELS = 1 << 26  # of an image that is written anew
 _LINK = re.compile(r"(?:\.\./)*images/([0-9a-f]{32})\.\w{1,5}")
 _NAMED = re.compile(rb"[^\s\"'<>]+\.(?:png|jpe?g|webp|bmp|tga|tiff?)\b", re.IGNORECASE)
@@ -76,6 +78,20 @@ def with_smaller_images(metadata: Metadata, rule: ImageRule) -> Metadata:
             other = str(PurePath(name).with_suffix(f".{rule.kind}"))
             found[f"image.{number}.name"] = other if other not in names - {name} else f"{name}.{rule.kind}"
     return found
+
+
+def side_of_image(data: bytes) -> int:
+    """Return the pixels of the longer side of a PNG, JPEG or WebP; 0 for others."""
+    if match := _WEBP.match(data):
+        wide, high, *plain, packed = (int.from_bytes(number or b"", "little") for number in match.groups())
+        return max(*plain, *(1 + side for side in (wide, high, packed & 0x3FFF, packed >> 14 & 0x3FFF)))
+    signed = data.startswith((b"\x89PNG", b"\xff\xd8"))  # a JPEG may contain a smaller one
+    found = (number for sides in _PNG_OR_JPEG.findall(data) for number in sides) if signed else ()
+    return max((int.from_bytes(number, "big") for number in found), default=0)
+
+
+def largest_side(metadata: Metadata) -> int:
+    return max((side_of_image(data) for _, data in images_in(metadata).values()), default=0)
 
 
 def _digest(data: bytes) -> str:

@@ -1,7 +1,6 @@
 """A glTF document, binary or not: its tree, its bytes, and the numbers in them, checked before they are used."""
 
 import base64
-import importlib
 import io
 import json
 import shutil
@@ -22,6 +21,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
+from bsm.files.images import side_of_image
 from bsm.files.pipes import Input, file_beside, is_url
 from bsm.files.room import in_words, require_count
 from bsm.gltf import coding
@@ -310,10 +310,7 @@ class Document:
         if index not in self._sides:
             source = self.source_of(index)
             data = None if source is None else self.image(source)[1]
-            try:
-                self._sides[index] = max(importlib.import_module("PIL.Image").open(io.BytesIO(data or b"")).size)
-            except Exception:  # without Pillow, and of what it does not know
-                self._sides[index] = usual
+            self._sides[index] = side_of_image(data or b"") or usual
         return self._sides[index]
 
     def _strided(self, where: Tree, kind: str, count: int, width: int) -> Array:

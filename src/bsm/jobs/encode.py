@@ -14,12 +14,12 @@ from typing import Any
 from bsm import __version__
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.geometry.mesh import Metadata
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.comparison import write_permutation
 from bsm.console import Console, finite
 from bsm.files.formats.metadata import images_in
-from bsm.files.images import ImageRule, is_link, with_links, with_smaller_images
+from bsm.files.images import ImageRule, is_link, largest_side, with_links, with_smaller_images
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
@@ -27,7 +27,7 @@ from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import asked_unit, in_own_unit
-from bsm.libraries import PROVENANCE, has_provenance, with_metadata
+from bsm.libraries import PROVENANCE, has_provenance, with_metadata, with_texels
 from bsm.options import encode_options, sequence_options
 from bsm.simplification import Chosen, encode_source
 
@@ -90,6 +90,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     mesh = replace(mesh, metadata=entries)
     if lengths := in_own_unit(job.options, mesh.metadata, mesh):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
+    chosen, side = with_texels(chosen, source.mesh), largest_side(source.mesh.metadata)
     begin = time.perf_counter()
     options = {**job.options, "simplify": job.simplify}
     known, generations = with_provenance(mesh.metadata, job.provenance, job.input, options, chosen)
@@ -115,7 +116,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         *source.notes,
         *generations,
         *found.notes,
-        *encoder.notes,
+        *(_in_texels(note, mesh, side) for note in encoder.notes),
         *(["left out: materials, images"] if left_out else []),
         *(["left out: images"] if job.images == "none" else []),
         *([f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []),
@@ -144,6 +145,13 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     apart = {"input_parts": parts, "output_parts": beside} if parts else {}
     ends = {"look": encoder.look, "binding": encoder.binding, "seconds": seconds, "notes": notes}
     return {**names, **counts, **sizes, **apart, **numbers, **ends}
+
+
+def _in_texels(note: str, mesh: TriangleMesh, side: int) -> str:
+    """Return a note of the encoder; one on texture coordinates also says how many texels of the largest image."""
+    found = re.fullmatch(r"(.*): .*within ([\d.e-]+)", note)
+    placed = found and any(a.name == found[1] and a.semantic == "texcoord" for a in mesh.attributes)
+    return f"{note}, {side * float(found[2]):.2g} texels" if found and placed and side else note
 
 
 def _images_of(job: EncodeJob, metadata: Metadata) -> tuple[Metadata, dict[str, bytes]]:

@@ -37,7 +37,7 @@ from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.pipes import Input, read_chunks, size_of
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
-from bsm.libraries import without_provenance
+from bsm.libraries import with_texels, without_provenance
 from bsm.options import encode_options, sequence_options
 from bsm.simplification import encode_source
 
@@ -238,15 +238,15 @@ def made(
     source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
     notes, less = list(given.notes), isinstance(given, MeshFile) and bool(given.dropped)
     if isinstance(source, TriangleMesh):
-        found = encode_source(without_provenance(source), encode_options(preset=preset), Progress(""), simplify=False)
+        chosen = with_texels(encode_options(preset=preset), source)
+        found = encode_source(without_provenance(source), chosen, Progress(""), simplify=False)
         stream = b"".join(found.attempt.frames)
         notes += found.encoder.losses
     else:
         frames = np.array(list(source.frames))
         source = replace(source, frames=iter(frames))
         kept = {**source.metadata, **({"frame_rate": source.frame_rate} if source.frame_rate else {})}
-        chosen = sequence_options(preset=preset)
-        encoder = SequenceEncoder(source.faces, chosen, len(frames), kept, source.attributes)
+        encoder = SequenceEncoder(source.faces, sequence_options(preset=preset), len(frames), kept, source.attributes)
         stream = b"".join(encoder.chunks(iter(frames), Progress("")))
         notes += encoder.losses
     seconds = time.perf_counter() - begin
