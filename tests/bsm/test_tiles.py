@@ -333,7 +333,7 @@ def test_a_full_disk_is_reported(mesh, folder, tmp_path, most):
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     whole = program("verify", tmp_path / "out", text=True)
     assert (done.returncode == 0) == (whole.returncode == 0)
-    assert done.returncode == 0 or "these tiles are unfinished; complete so far: " in whole.stderr
+    assert done.returncode == 0 or "these tiles are unfinished; " in whole.stderr
     assert (back.returncode == 0) == (tmp_path / "back.ply").exists()
     for process in (done, back):
         assert process.returncode == 0 or (
@@ -360,14 +360,9 @@ def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch)
     assert program(*words).returncode == 130
     for what in (("info",), ("verify",), ("untile", "-o", tmp_path / "back.ply"), ("view",)):
         resumed = program(what[0], output, *what[1:], text=True)
-        assert (
-            resumed.returncode == 12
-            and " tiles of level 0, " in resumed.stderr
-            and not (tmp_path / "back.ply").exists()
-        )
+        assert resumed.returncode == 12 and not (tmp_path / "back.ply").exists()
         assert f"bsm tile {source} -o {output} --resume goes on" in resumed.stderr and resumed.stderr.count("\n") == 1
-    levels = json.loads((output / "manifest.json").read_text())["levels"]
-    assert sum(level["whole"] for level in levels) == 5 < sum(level["tiles"] for level in levels)
+    assert json.loads((output / "manifest.json").read_text())["complete"] is False
     monkeypatch.setattr(interrupted, "__defaults__", (1 << 30, *interrupted.__defaults__[1:]))
     assert program(*words, "--resume", "--triangles", 800).returncode == 3
     assert program(*words, "--resume").returncode == 0

@@ -4,8 +4,6 @@ import argparse
 import errno
 import math
 import os
-import sys
-import time
 from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any
@@ -24,7 +22,7 @@ from bsm.tiles.joining import CONTENT_HELP, CONTENTS, write_tileset
 from bsm.tiles.making import TileJob, tile_one
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.reading import read_big
-from bsm.tiles.shards import Unfinished, is_unfinished, open_tiles, write_shards
+from bsm.tiles.shards import is_unfinished, open_tiles, write_shards, write_unfinished
 from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there
 
 
@@ -77,10 +75,9 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
         raise FileExistsError(errno.EEXIST, message, args.output)
     over = args.force or args.resume
     refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished) or (left and over))
-    state = Unfinished(args.output, args.input)
     refuse_others(work)
     if unfinished is not False:
-        state.write()
+        write_unfinished(args.output, args.input)
     with about(args.input), by_its_own_name(work):
         try:
             plan = _planned(args, work, console)
@@ -100,22 +97,15 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     def ended(job: Job, outcome: Outcome) -> None:
         if outcome.error is not None:
             report_error(outcome.error, as_json=args.json)
-        else:
-            state.whole[len(Path(job.output).stem) - 1] += 1
-            state.update(time.perf_counter())
 
-    state.tiles.update(len(name) - 1 for name in names)
     many = asked(Batch, args, report=str(work / "tiles.json"))
-    try:
-        with console.progress(until=0.5 if args.tileset else 0.96):
-            done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)
-    finally:
-        state.update(sys.float_info.max)
+    with console.progress(until=0.5 if args.tileset else 0.96):
+        done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)
     if failed := [facts for facts in done if "error" in facts]:
         console.note(f"{len(failed)} of {len(done)} tiles failed; --resume repeats these and the tiles above them")
         return int(failed[0]["exit"])
     done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
-    state.write()
+    write_unfinished(args.output, args.input)
     manifest = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
     taken, given = size_of(args.input), sum(shard["size"] for shard in manifest["shards"])
     console.note(

@@ -72,10 +72,8 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
             raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
         require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 had no such entry
         if given.get("complete") is False:
-            levels = [tuple(whole(entry[key]) for key in ("whole", "tiles", "level")) for entry in given["levels"]]
-            counts = ", ".join("{} of {} tiles of level {}".format(*level) for level in levels) or "nothing"
             resume = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
-            message = f"these tiles are unfinished; complete so far: {counts}; with its other options, {resume} goes on"
+            message = f"these tiles are unfinished; with its other options, {resume} goes on"
             raise TruncatedError(f"{name}: {printable(message)}")
         return _checked(given)
     except BsmError:

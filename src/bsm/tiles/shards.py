@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import json
-import math
 import os
-import time
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -36,33 +32,12 @@ from bsm.tiles.reading import Kinds
 Table: TypeAlias = npt.NDArray[np.int32]
 SHARD, MOST_TILES = 64_000_000, 1 << 14  # bytes, and tiles, from which on a shard takes no more
 _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
-_EVERY, _SHARE = 1.0, 0.02  # seconds between two manifests of a run, at least, and of all time that they take, at most
 
 
-@dataclass
-class Unfinished:
-    """The manifest of a run until all is done: of each level how many tiles are whole, and of how many."""
-
-    folder: str
-    source: str
-    whole: Counter[int] = field(default_factory=Counter)
-    tiles: Counter[int] = field(default_factory=Counter)
-    due: float = math.inf  # until it is begun, there may be one of whole tiles, which stays
-
-    def update(self, now: float) -> None:
-        with suppress(OSError):  # an earlier one is there
-            if now >= self.due:
-                self.write()
-
-    def write(self) -> None:
-        begin = time.perf_counter()
-        levels = [{"level": tile, "whole": self.whole[tile], "tiles": self.tiles[tile]} for tile in sorted(self.tiles)]
-        head = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": self.source, "complete": False}
-        write_output(
-            inside(self.folder, MANIFEST), json.dumps({**head, "levels": levels}).encode(), overwrite=True, follow=False
-        )
-        end = time.perf_counter()
-        self.due = end + max(_EVERY, (end - begin) / _SHARE)
+def write_unfinished(folder: str, source: str) -> None:
+    """Write the manifest of a run that has not ended."""
+    given = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": source, "complete": False}
+    write_output(inside(folder, MANIFEST), json.dumps(given).encode(), overwrite=True, follow=False)
 
 
 def is_unfinished(folder: str) -> bool | None:
