@@ -11,9 +11,9 @@ import pytest
 
 import bsm
 from tests.library.decoding import WARNINGS, build, compiled, decode, of_sequence
-from tools.amalgamate import ROOT, amalgamated, interface
+from tools.amalgamate import ROOT
 from tools.processors.__main__ import NotHere, complaint, lines, prepare, program
-from tools.release.windows import build_dll, compare, find_wine
+from tools.release.windows import build_all, compare, find_wine
 from tools.vectors.store import read_manifest
 
 AVX2 = ("avx2", "fma")
@@ -114,7 +114,7 @@ def test_the_dll_gives_the_same_bits(tmp_path: Path) -> None:
         pytest.skip("no Wine, Zig or C compiler here")
     subprocess.run([sys.executable, "-m", "tools.amalgamate", tmp_path], cwd=ROOT, check=True)
     (tmp_path / "inside").mkdir()
-    build_dll(tmp_path, tmp_path / "inside/bsmdec.dll")
+    build_all(tmp_path, tmp_path / "inside", ROOT)
     compare(tmp_path, tmp_path / "inside", ROOT, wine)
 
 
@@ -127,7 +127,7 @@ int main(void) { return puts(bsmdec_version()) < 0; }
 CONSUMER = """cmake_minimum_required(VERSION 3.20)
 project(consumer C)
 find_package(bsmdec {wanted} REQUIRED)
-foreach(target bsmdec bsmdec_static)
+foreach(target bsmdec bsmdec_static bsm bsm_static)
   add_executable(with_${{target}} main.c)
   target_link_libraries(with_${{target}} bsmdec::${{target}})
 endforeach()
@@ -175,8 +175,9 @@ def test_clang_has_no_warnings(tmp_path: Path) -> None:
 def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Version 1.1 of what an archive has, by the command of its README, and moved behind that."""
     folder = tmp_path_factory.mktemp("archive")
-    (folder / "bsmdec.c").write_text(amalgamated())
-    (folder / "bsmdec.h").write_text(interface())
+    subprocess.run([sys.executable, "-m", "tools.amalgamate", folder], cwd=ROOT, check=True)
+    for example in ("dec.c", "enc.c"):
+        shutil.copy(ROOT / "library/examples" / example, folder)
     lists = (ROOT / "library/CMakeLists.txt").read_text()
     (folder / "CMakeLists.txt").write_text(lists.replace("VERSION 1.0.0", "VERSION 1.1.0"))
     quickly = "-DCMAKE_C_FLAGS=-O0 -DKERNEL_ONE_TARGET -Werror"
@@ -191,12 +192,12 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.slow
 def test_installed_libraries_export_nothing_else(installed: Path) -> None:
-    objects = [*installed.rglob("*bsmdec.c.o"), *installed.glob("prefix/lib/libbsmdec.*")]
+    objects = [*installed.rglob("*bsm*.c.o"), *installed.glob("prefix/lib/libbsm*.*")]
     assert {file.suffix for file in objects} >= {".o", ".a", ".so"}
     for file in objects:
         names = exported(file)
-        assert "bsmdec_open" in names
-        assert not [name for name in names if not name.startswith("bsmdec_")]
+        assert "bsmdec_open" in names and ("bsmenc_encode" in names) == ("bsmdec" not in file.name)
+        assert not [name for name in names if not name.startswith(("bsmdec_", "bsmenc_"))]
 
 
 @pytest.mark.slow
@@ -204,10 +205,11 @@ def test_installed_libraries_export_nothing_else(installed: Path) -> None:
 def test_pkg_config_finds_it_wherever_it_is(installed: Path) -> None:
     prefix = installed / "prefix"
     path = {"PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig"), "PATH": "/usr/bin:/bin"}
-    flags = run("pkg-config", "--cflags", "--libs", "bsmdec >= 1.0", environment=path).split()
-    assert [Path(flag[2:]).resolve() for flag in flags[:2]] == [prefix / "include", prefix / "lib"]
-    run("cc", installed / "main.c", *flags, f"-Wl,-rpath,{prefix}/lib", "-o", installed / "linked")
-    assert run(installed / "linked").strip() == "1.0.0"
+    for name, source in (("bsmdec", "main.c"), ("bsm", "enc.c")):
+        flags = run("pkg-config", "--cflags", "--libs", f"{name} >= 1.0", environment=path).split()
+        assert [Path(flag[2:]).resolve() for flag in flags[:2]] == [prefix / "include", prefix / "lib"]
+        run("cc", installed / source, *flags, f"-Wl,-rpath,{prefix}/lib", "-o", installed / name)
+    assert run(installed / "bsmdec").strip() == "1.0.0"
 
 
 @pytest.mark.slow
@@ -224,7 +226,7 @@ def test_cmake_finds_a_later_minor_version(installed: Path) -> None:
         )
         assert (done.returncode == 0) is found, done.stderr
     run("cmake", "--build", lists.parent / "build-1.0")
-    for target in ("bsmdec", "bsmdec_static"):
+    for target in ("bsmdec", "bsmdec_static", "bsm", "bsm_static"):
         assert run(lists.parent / f"build-1.0/with_{target}").strip() == "1.0.0"
 
 
@@ -234,9 +236,9 @@ def test_a_checkout_is_built_by_the_same_command(tmp_path: Path) -> None:
     run("cmake", "-S", ROOT / "library", "-B", tmp_path / "b", *quickly)
     run("cmake", "--build", tmp_path / "b")
     run("cmake", "--install", tmp_path / "b", "--prefix", tmp_path / "p")
-    linked = ["-I", tmp_path / "p/include", tmp_path / "p/lib/libbsmdec.a", "-lm", "-o", tmp_path / "obj"]
-    run("cc", ROOT / "library/examples/obj.c", *linked)
-    assert run(tmp_path / "obj", STREAM).count("\nf ") == 4
+    run(tmp_path / "p/bin/bsmdec", STREAM, tmp_path / "a.obj")
+    run(tmp_path / "p/bin/bsmenc", tmp_path / "a.obj", tmp_path / "a.bsm")
+    assert len(bsm.decode(tmp_path / "a.bsm").faces) == 4
 
 
 @pytest.mark.slow

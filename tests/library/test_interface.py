@@ -163,16 +163,16 @@ def test_positions_are_checked_from_whatever_start(library: ctypes.CDLL, name: s
 
 def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:
     made = compiled()
-    program, example = tmp_path / "obj", ROOT / "library/examples/obj.c"
+    program, example = tmp_path / "bsmdec", ROOT / "library/examples/dec.c"
     subprocess.run(
         ["cc", *WARNINGS, f"-I{made}", example, made / "bsmdec.so", f"-Wl,-rpath,{made}", "-o", program], check=True
     )
-    written = subprocess.run([program, VECTORS / "good-chain.bsm"], check=True, capture_output=True, text=True).stdout
-    (tmp_path / "mesh.obj").write_text(written)
+    subprocess.run([program, VECTORS / "good-chain.bsm", tmp_path / "mesh.obj"], check=True)
     mesh, expected = bsm.load(tmp_path / "mesh.obj"), bsm.decode(VECTORS / "good-chain.bsm")
     assert np.array_equal(mesh.faces, expected.faces)
     assert np.allclose(mesh.positions, expected.positions, atol=1e-6)
-    refused = subprocess.run([program, VECTORS / "bad-block-index.bsm"], capture_output=True, text=True, check=False)
+    words = [program, VECTORS / "bad-block-index.bsm", tmp_path / "mesh.obj"]
+    refused = subprocess.run(words, capture_output=True, text=True, check=False)
     assert refused.returncode == 4
     assert "block" in refused.stderr
 

@@ -18,26 +18,27 @@ from tools.release.trial import try_newcomer
 from tools.release.wheels import clean
 
 STREAM = "spec/vectors/1.0/good-tetrahedron.bsm"
-EXAMPLES = ("obj.c", "frames.cpp", "threads.c")
-README = """# bsmdec: decoder for BSM streams of triangle meshes and mesh sequences
+EXAMPLES = ("dec.c", "enc.c", "frames.cpp", "threads.c")
+README = """# bsmdec: decoder and encoder for BSM streams of triangle meshes, decoder of mesh sequences
 
 From the archive to a mesh:
 
     tar xf bsmdec-*.tar.gz
-    cc -O3 bsmdec-*/obj.c bsmdec-*/bsmdec.c -lm -o obj && ./obj mesh.bsm > mesh.obj
+    cc -O3 bsmdec-*/dec.c bsmdec-*/bsmdec.c -lm -o bsmdec && ./bsmdec mesh.bsm mesh.obj
 
-`bsmdec.h` documents the whole interface. The library needs GCC or Clang and nothing else. To install it:
+`bsmdec.h` documents the whole interface. `bsm.c` also encodes (`bsmenc.h`), and `enc.c` writes a stream of an OBJ:
+`bsmenc mesh.obj mesh.bsm`. The library needs GCC or Clang and nothing else. To install it:
 
     cmake -S . -B build && cmake --build build && cmake --install build --prefix PREFIX
 
-CMake finds it by `find_package(bsmdec 1.0)`; the targets are `bsmdec::bsmdec` and `bsmdec::bsmdec_static`. pkg-config
-finds it as `bsmdec`.
+CMake finds it by `find_package(bsmdec 1.0)`; the targets are `bsmdec::bsmdec` and `bsmdec::bsmdec_static`, and
+with the encoder `bsmdec::bsm` and `bsmdec::bsm_static`. pkg-config finds them as `bsmdec` and `bsm`.
 """
 CONSUMER = """cmake_minimum_required(VERSION 3.20)
 project(consumer C)
 find_package(bsmdec REQUIRED)
-add_executable(consumer obj.c)
-target_link_libraries(consumer bsmdec::bsmdec)
+add_executable(consumer dec.c)
+target_link_libraries(consumer bsmdec::bsm)
 """
 
 
@@ -100,21 +101,25 @@ def _try_archive(inside: Path, stream: Path) -> None:
     made = inside.parent / "made"
     made.mkdir()
     prefix, build = made / "prefix", made / "build"
-    _run(["cc", "-O3", "obj.c", "bsmdec.c", "-lm", "-o", made / "alone"], inside)
+    _run(["cc", "-O3", "dec.c", "bsmdec.c", "-lm", "-o", made / "alone"], inside)
     _run(["cmake", "-S", inside, "-B", build], made)
     _run(["cmake", "--build", build], made)
     _run(["cmake", "--install", build, "--prefix", prefix], made)
     consumer = made / "consumer"
     consumer.mkdir()
     (consumer / "CMakeLists.txt").write_text(CONSUMER)
-    shutil.copy(inside / "obj.c", consumer)
+    shutil.copy(inside / "dec.c", consumer)
     _run(["cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}"], consumer)
     _run(["cmake", "--build", "build"], consumer)
     found = f"$(PKG_CONFIG_PATH={prefix}/lib/pkgconfig pkg-config --cflags --libs bsmdec)"
-    _run(["sh", "-ec", f"cc obj.c {found} -Wl,-rpath,{prefix}/lib -o linked"], consumer)
-    programs = (made / "alone", consumer / "build/consumer", consumer / "linked")
-    objects = [subprocess.run([program, stream], check=True, capture_output=True).stdout for program in programs]
-    if len(set(objects)) != 1 or objects[0].count(b"\nf ") != 4:
+    _run(["sh", "-ec", f"cc dec.c {found} -Wl,-rpath,{prefix}/lib -o linked"], consumer)
+    programs = (made / "alone", consumer / "build/consumer", consumer / "linked", prefix / "bin/bsmdec")
+    objects = [made / f"{number}.obj" for number in range(len(programs))]
+    for program, written in zip(programs, objects, strict=True):
+        _run([program, stream, written], made)
+    _run([prefix / "bin/bsmenc", objects[0], made / "again.bsm", "0"], made)
+    _run([programs[0], made / "again.bsm", objects[1]], made)
+    if len({written.read_bytes() for written in objects}) != 1 or objects[0].read_bytes().count(b"\nf ") != 4:
         raise SystemExit("the library does not decode a tetrahedron alike alone, by CMake and by pkg-config")
 
 
