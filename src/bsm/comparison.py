@@ -196,8 +196,8 @@ class Pair:
     joined: bool
 
 
-def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = None, *, by_place: bool = False) -> Pair:
-    """Find which vertices of meshes, all of whose vertices are in faces, are the same; if need be `by_place`."""
+def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = None) -> Pair:
+    """Find which vertices of meshes, all of whose vertices are in faces, are the same; if need be by their places."""
     attributed = bool(original.attributes)
     kept = [np.arange(len(mesh.faces)) for mesh in (original, decoded)]
     merged = order is None
@@ -218,12 +218,15 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             if len(original.positions) > len(decoded.positions):  # it may have merged others in single precision
                 whole = join(replace(given, positions=given.positions.astype(np.float32)), keep=False)
                 original, kept[0] = replace(whole.mesh, positions=given.positions[whole.first]), whole.kept
-    if by_place and merged and len(original.positions) == len(decoded.positions):
+    try:
+        rows = numbering(original, decoded, order)
+    except MeshError:
         from scipy.spatial import cKDTree
 
         nearest = cKDTree(original.positions).query(decoded.positions)[1]
-        order = nearest if len(np.unique(nearest)) == len(nearest) else None
-    rows = numbering(original, decoded, order)
+        if order is not None or not len(nearest) == len(np.unique(nearest)) == len(original.positions):
+            raise
+        rows = numbering(original, decoded, nearest)
     none = np.empty(0, np.int64)
     pairs = paired_corners(original, decoded, rows) if attributed else (none, none)
     corners, others = (3 * given[found // 3] + found % 3 for given, found in zip(kept, pairs, strict=True))

@@ -147,7 +147,7 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
 
 
 def _compare_one(args: argparse.Namespace, console: Console) -> None:
-    if _compare_scenes(args, console) or _compare_sequences(args, console):
+    if _compare_sequences(args, console):
         return
     with console.progress("reading") as progress:
         whole = [_load(path, args, console) for path in (args.original, args.decoded)]
@@ -254,45 +254,6 @@ def sentence(compared: dict[str, Any], unit: str) -> str:
     if compared["merged"]:
         found.append(f"{counted(vertices=compared['merged'])} merged by rounding")
     return "; ".join(found)
-
-
-def _compare_scenes(args: argparse.Namespace, console: Console) -> bool:
-    """Compare two scenes of glTF primitive by primitive, if they have the same ones."""
-    paths = (args.original, args.decoded)
-    if not all(map(is_scene, paths)):
-        return False
-    from bsm.files.room import as_format_error
-    from bsm.gltf.bundles import as_shares
-    from bsm.gltf.document import read_document
-
-    with as_format_error("glTF"):
-        sides = [read_document(path, limits_of(args.limits)) for path in paths]
-        if any(side.moving for side in sides):
-            return False
-        listed = [[len(mesh["primitives"]) for mesh in side.items("meshes")] for side in sides]
-        whole = args.map or args.picture or args.look or args.permutation
-        if whole or listed[0] != listed[1]:
-            if not whole:
-                console.note("the scenes have different primitives; each is compared as one mesh")
-            return False
-        rows: list[dict[str, Any]] = []
-        names = [(mesh, primitive) for mesh, count in enumerate(listed[0]) for primitive in range(count)]
-        for (mesh, number), *primitives in zip(names, *(side.primitives() for side in sides), strict=True):
-            row: dict[str, Any] = {"mesh": mesh, "primitive": number}
-            try:
-                first, second = (as_shares(side, primitive) for side, primitive in zip(sides, primitives, strict=True))
-                rows.append(row | _compared(first, second, pair(first, second, by_place=True), args, console))
-            except MeshError as error:
-                rows.append(row | {"not_compared": str(error)})
-    if args.json:
-        print_json({"primitives": rows})
-        return True
-    for row in rows:
-        said = f"not compared: {row['not_compared']}" if "not_compared" in row else sentence(row, "meters")
-        print(f"mesh {row['mesh']}, primitive {row['primitive']}: {said}")
-        for line in _of_attributes(row.get("attributes", {})):
-            print(f"  {line}")
-    return True
 
 
 def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:

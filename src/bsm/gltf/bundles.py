@@ -6,7 +6,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from bsm.bitstream.errors import BsmError, MeshError
+from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
@@ -113,18 +113,6 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
         attributes.append(Attribute(PIECE, numbers.astype(np.uint16), "face"))
     mesh = TriangleMesh(positions.astype(np.float64), corners.astype(np.int32), tuple(attributes), {})
     return Carried(mesh, accessors, qualities, opens)
-
-
-def as_shares(document: gltf.Document, primitive: Tree) -> TriangleMesh:
-    """A primitive as one mesh, whose normalized integers are the numbers that they stand for."""
-    found = as_mesh(document, [[primitive]], exact=True)
-    if isinstance(found, str):
-        raise MeshError(found)
-    plain = [
-        replace(a, values=_floats(a.values, True)) if found.accessors[a.name][1] or a.name == "COLOR_0" else a
-        for a in found.mesh.attributes
-    ]
-    return replace(found.mesh, attributes=tuple(plain))
 
 
 def _vertices(document: gltf.Document, primitive: Tree) -> dict[str, Array] | str:
