@@ -8,6 +8,7 @@ Disk.
 from __future__ import annotations
 
 import argparse
+import re
 import subprocess
 import sys
 import tempfile
@@ -58,17 +59,12 @@ def make_zip(output: Path, wheels: Sequence[Path]) -> None:
 
 def manifest(wheels: Sequence[str]) -> str:
     """Return the manifest for Blender: the version of this package, and the names of the wheels."""
+    numbers = re.findall(r"\d+\.\d+\.\d+", __version__)  # as Blender wants it
     text = (EXTENSION / "blender_manifest.toml").read_text()
-    text = text.replace('version = "0.1.0"', f'version = "{_version()}"', 1)
+    text = text.replace('version = "0.1.0"', f'version = "{numbers[0]}"', 1)
     names = "".join(f'    "./wheels/{name}",\n' for name in wheels)
     head, sign, tail = text.partition("\n[permissions]")
     return f"{head}\nwheels = [\n{names}]\n{sign}{tail}"
-
-
-def _version() -> str:
-    """Three numbers, as Blender wants them."""
-    numbers = [part for part in __version__.split(".") if part.isdecimal()]
-    return ".".join([*numbers, "0", "0"][:3])
 
 
 if __name__ == "__main__":

@@ -28,9 +28,9 @@ from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    add("input", "MESH", "binary PLY, binary STL, npz or OBJ of any size, or a URL")
+    add("input", "MESH", "binary PLY, binary STL or OBJ of any size, or a URL")
     add("-o --output", "FOLDER", "folder or URL for the shards and manifest.json", required=True)
-    add("--format", "", "format of the input (default: by its name or content)", choices=("ply", "stl", "npz", "obj"))
+    add("--format", "", "format of the input (default: by its name or content)", choices=("ply", "stl", "obj"))
     add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
     add("--grid-cell", "H", "cell of the grid of all tiles (default: a power of two, by the look distance)", type=float)
     add("--grid-origin", "X,Y,Z", "a point of the grid (default 0,0,0)", type=numbers(3))

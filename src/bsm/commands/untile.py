@@ -2,11 +2,12 @@
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_limits_flag, adder, limits_of, numbers
 from bsm.console import Console
-from bsm.files.mesh import write_mesh
+from bsm.files.mesh import by_name
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
 from bsm.tiles.joining import CONTENT_HELP, CONTENTS, TILESET, write_joined, write_tileset
 from bsm.tiles.shards import open_tiles
@@ -49,11 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         with console.progress("decoding"):
             mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0, level=args.level)
         summary = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
-        if Path(args.output).suffix.lower() == ".bsm":
-            import bsm
-
-            x, y, z = tiles.lattice.origin
-            bsm.save(mesh, args.output, grid_cell=tiles.lattice.cell, grid_origin=(x, y, z))
-        else:
-            write_mesh(args.output, mesh, overwrite=args.force)
+        grid: dict[str, Any] = {"grid_cell": tiles.lattice.cell, "grid_origin": tiles.lattice.origin}
+        stream = Path(args.output).suffix.lower() == ".bsm"
+        by_name("bsm.api", "save")(mesh, args.output, overwrite=args.force, **(grid if stream else {}))
     console.note(f"{args.input} -> {args.output}: {summary['vertices']} vertices, {summary['faces']} faces")

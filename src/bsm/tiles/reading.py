@@ -15,10 +15,9 @@ from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedEr
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.console import Console
 from bsm.files.formats.metadata import parse_remarks
-from bsm.files.formats.npz import NpzArray, opened_archive
 from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import IMAGE, MOST_HEADER, Element, parse_header
-from bsm.files.formats.polygons import CROSSING, Polygons, meaning_of, triangulate
+from bsm.files.formats.polygons import CROSSING, Polygons, triangulate
 from bsm.files.formats.stl import HEAD, RECORD, binary_triangles, is_text
 from bsm.files.mesh import format_of_name
 from bsm.files.output import by_its_own_name
@@ -92,7 +91,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     if not head:
         raise FormatError("the file is empty")
     if kind not in _READERS:
-        raise FormatError(f"tiles are made of binary PLY, binary STL, npz and OBJ files, not of {kind or 'such files'}")
+        raise FormatError(f"tiles are made of binary PLY, binary STL and OBJ files, not of {kind or 'such files'}")
     raw = Raw(folder)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
@@ -238,26 +237,6 @@ def _read_stl(given: Input, left_out: LeftOut) -> Pieces:
         yield "faces", np.arange(3 * first, 3 * (first + rows)).reshape(-1, 3)
 
 
-def _read_npz(given: Input, left_out: LeftOut) -> Pieces:
-    if not given.is_file:
-        raise FormatError("an npz is read from a file of this machine only")
-    with opened_archive(given.name) as archive:
-        names = [name.removesuffix(".npy") for name in archive.namelist()]
-        meant = {name: meaning_of(name.removeprefix("vertex/")) for name in names}
-        _refuse_textures({name for name, meaning in meant.items() if meaning == "texcoord" or "texcoord" in name})
-        taken = {"positions": "positions", "faces": "faces"}
-        for name, meaning in meant.items():
-            if meaning in CARRIED and meaning not in taken.values():
-                taken[name] = meaning
-        left_out |= dict.fromkeys(name for name in names if name not in taken)
-        for name, what in taken.items():
-            array = NpzArray(archive, name)
-            if len(array.shape) != 2 or array.shape[1] not in ((3, 4) if what == "color" else (3,)):
-                raise MeshError(f"{name} must have shape (n, 3), not {array.shape}")
-            for piece in array.pieces(ROWS):
-                yield what, piece
-
-
 def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
     rest, seen = given.read(len(BOM_UTF8)).removeprefix(BOM_UTF8), 0
     with tempfile.TemporaryFile() as file:
@@ -299,4 +278,4 @@ def _of_obj(piece: Polygons, file: BinaryIO, left_out: LeftOut) -> Pieces:
     yield "faces", faces
 
 
-_READERS = {"ply": _read_ply, "stl": _read_stl, "npz": _read_npz, "obj": _read_obj}
+_READERS = {"ply": _read_ply, "stl": _read_stl, "obj": _read_obj}
