@@ -279,7 +279,7 @@ def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
     folder = tmp_path / "tiles"
     options = ["--grid-cell", "1e-5", "--triangles", "4000"]
     assert main(["tile", str(tmp_path / "a.ply"), "-o", str(folder), *options]) == 0
-    for name, content in (("plain", "none"), ("coded", "bsm")):
+    for name, content in (("plain", "plain"), ("coded", "bsm")):
         (folder / name).mkdir()
         tileset = str(folder / name / "tileset.json")
         assert main(["untile", str(folder), "-o", tileset, "--content", content]) == 0

@@ -39,8 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("-j --jobs", "N", "work on N tiles at a time; 0: one per core (default 1)", type=within(0), default=1)
     add("--dask", "ADDRESS", "run on the Dask cluster of this scheduler; its machines must share the folders")
     add("--resume", "", "continue a stopped run from the files in --work")
-    add("--tileset", "", "also write tileset.json (3D Tiles) and a GLB for each tile")
-    add("--content", "", CONTENT_HELP, choices=CONTENTS, default=CONTENTS[0])
+    more = "also write tileset.json (3D Tiles) and a GLB for each tile. "
+    add("--tileset", "", more + CONTENT_HELP, nargs="?", choices=CONTENTS, const=CONTENTS[0])
     add("--json", "", "print the manifest")
 
 
@@ -49,8 +49,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError(f"--grid-cell {args.grid_cell:g}: must be positive and finite")
     if not all(map(math.isfinite, args.grid_origin or ())):
         raise OptionError(f"--grid-origin {args.grid_origin}: must be finite")
-    if args.content != CONTENTS[0] and not args.tileset:
-        raise OptionError("--content needs --tileset")
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
@@ -119,7 +117,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
         )
     remove_made(work)
     if args.tileset:
-        write_tileset(open_tiles(args.output), args.output, console, content=args.content, overwrite=over)
+        write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
     if args.json:
         print_json(manifest)
     return 0

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.errors import OptionError, counted
+from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import add_limits_flag, adder, limits_of, numbers
 from bsm.console import Console
 from bsm.files.mesh import by_name
@@ -28,8 +28,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> None:
     tiles = open_tiles(args.input, limits_of(args.limits))
     refuse_to_overwrite(args.output, args.force)
-    if args.content != CONTENTS[0] and Path(args.output).name != TILESET:
-        raise OptionError(f"--content is for {TILESET}; the output is {args.output}")
     levels = [level["level"] for level in tiles.manifest["levels"]]
     if args.level is not None and not levels[0] <= args.level <= levels[-1]:
         raise OptionError(f"--level {args.level}: these tiles have levels {levels[0]} to {levels[-1]}")
@@ -37,9 +35,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         if args.box or args.level is not None or args.error is not None:
             raise OptionError(f"{TILESET} contains all tiles; leave out --box, --level and --error")
         folder = args.output[: -len(TILESET)].rstrip("/") or "."
-        count = write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
-        console.note(f"{args.input} -> {args.output}: {counted(tiles=count)} as GLB")
-        return
+        return write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
     if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):
         refuse_terminal(args.output)
         chosen = tiles.chosen(args.error or 0.0, level=args.level)

@@ -20,6 +20,8 @@ FLOAT, UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
 TRIANGLES, STRIP, FAN = TRIANGULAR = 4, 5, 6
 EXTENSION, DRACO = "EXT_bsm_compression", "KHR_draco_mesh_compression"
 MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+MATTE: Tree = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
+"""The material that we write where a mesh has none; reading passes over it."""
 PIECE = "material"  # the attribute of faces by which decoders sort them
 _SEMANTICS = {"TEXCOORD_0": ("texcoord", 0), "TEXCOORD_1": ("texcoord", 1), "COLOR_0": ("color", 0)}
 

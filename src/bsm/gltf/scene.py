@@ -19,7 +19,7 @@ from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, as_format_error, require_count
-from bsm.gltf.coding import DRACO, EXTENSION, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
+from bsm.gltf.coding import DRACO, EXTENSION, MATTE, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, TRANSFORM, WEBP, Document, read_document, triangles_of
 
 INSTANCING, PER_INSTANCE = "EXT_mesh_gpu_instancing", 2000  # bytes of the node of an instance, at most
@@ -425,6 +425,7 @@ class Scene:
                 rows, faces = np.unique(faces, return_inverse=True)
                 columns = tuple(replace(column, values=column.values[rows]) for column in columns)
                 faces = faces.reshape(-1, 3)
+        number = int(primitive.get("material", -1))
         return Part(
             node,
             base[rows],
@@ -436,7 +437,7 @@ class Scene:
             weights[rows],
             columns,
             normals[:, rows],
-            int(primitive.get("material", -1)),
+            number if document.items("materials")[number : number + 1] != [MATTE] else -1,
             name,
         )
 

@@ -4,7 +4,7 @@ import io
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -23,7 +23,7 @@ from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
-from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, UINT, Array, Tree, drawn
+from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, MATTE, UINT, Array, Tree, drawn
 from bsm.gltf.document import TRANSFORM, WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
@@ -82,12 +82,13 @@ class _Scene(Growing):
         images = formats.images_in(mesh.metadata)
         known = formats.materials_in(mesh.metadata)
         materials = {n: self._material(n, words, images, written) for n, words in known.items()}
+        if any(materials.get(n) is None for n in kinds[:, 1].tolist()):  # else viewers draw metal, which is black
+            matte = self.add("materials", dict(MATTE))
+            materials |= {n: matte for n in kinds[:, 1].tolist() if materials.get(n) is None}
         opacity = next((a.values[:, 3:] for a in held if a.semantic == "color"), np.zeros((0, 1)))
         if opacity.size and conventions.shares_of(opacity).min() < 1:
-            self._blend(kinds[:, 1].tolist(), materials)
-        if "TEXCOORD_0" in arrays and any(materials.get(n) is None for n in kinds[:, 1].tolist()):
-            bare = self.add("materials", {})  # readers pass over texture coordinates without any
-            materials |= {n: bare for n in kinds[:, 1].tolist() if materials.get(n) is None}
+            for which in {materials[n] for n in kinds[:, 1].tolist()}:  # shows the opacity of vertices
+                self.tree["materials"][which].setdefault("alphaMode", "BLEND")
         self.primitives: list[tuple[Tree, Ints]] = []
         for place, (number, its_material) in enumerate(kinds.tolist()):
             used, corners = np.unique(split.faces[of_face.reshape(-1) == place], return_inverse=True)
@@ -99,8 +100,7 @@ class _Scene(Growing):
                 for name, values in arrays.items()
             }
             primitive: Tree = {"attributes": given, "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32))}
-            if (which := materials.get(its_material)) is not None:
-                primitive["material"] = which
+            primitive["material"] = materials[its_material]
             self.place({"name": called, "primitives": [primitive]}, name=called, **placed)
             self.primitives.append((primitive, own[used]))
         written |= {f"part.{number}.name" for number in names}
@@ -150,14 +150,6 @@ class _Scene(Growing):
         written.add(f"{place}.{options}")
         self.use(TRANSFORM, required=False)
         return {"extensions": {TRANSFORM: {"scale": [across, up], "offset": [right, 1 - up - above]}}}
-
-    def _blend(self, used: Iterable[int], materials: dict[int, int | None]) -> None:
-        """Let materials show the opacity of vertices, unless they have an alphaMode."""
-        for number in set(used):
-            if materials.get(number) is None:
-                materials[number] = self.add("materials", {})
-            material = self.tree["materials"][materials[number]]
-            material.setdefault("alphaMode", "BLEND")
 
     def _texture(self, name: str, data: bytes) -> int | None:
         kind = mime_of(data)

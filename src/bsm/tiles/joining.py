@@ -11,7 +11,7 @@ from typing import BinaryIO
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.files.conventions import placement
@@ -31,8 +31,8 @@ from bsm.tiles.shards import Table, Tiles
 
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
-CONTENTS = ("none", "bsm")
-CONTENT_HELP = "compression of the GLBs of a tileset (default none)"
+CONTENTS = ("bsm", "plain")
+CONTENT_HELP = "GLBs of a tileset: bsm (default, small), or plain, for programs without our decoder"
 
 
 def write_joined(
@@ -98,10 +98,11 @@ def write_joined(
     return {"vertices": vertices, "faces": total}
 
 
-def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> int:
-    """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB; returns how many."""
+def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> None:
+    """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB."""
     known = {tile.name: (shard, tile) for shard, tile in tiles.all()}
     below: dict[str, set[str]] = {}
+    size = 0
     ends: dict[str, npt.NDArray[np.int64]] = {}  # of a node and all below it
     for name, (_, tile) in known.items():
         own = np.array([tile.low, tile.high], np.int64)
@@ -122,6 +123,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             if content == "bsm":
                 data = compress(Document(data), {"grid_cell": tiles.lattice.cell, "effort": "quick"}).data
             write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
+            size += len(data)
             progress(number, len(known))
     placed = placement({name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}, "tileset")
     diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
@@ -142,7 +144,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     root["transform"] = moved.T.ravel().tolist()
     tree = {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}
     write_output(inside(folder, TILESET), json.dumps(tree).encode() + b"\n", overwrite=overwrite, follow=False)
-    return len(known)
+    console.note(f"{inside(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
 
 
 def _read(file: BinaryIO, rows: int, columns: int) -> Table:
