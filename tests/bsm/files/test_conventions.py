@@ -14,6 +14,7 @@ from bsm.files.conventions import placement, unit_named
 from bsm.files.formats.metadata import as_gltf, as_mtl, in_words, scale_and_offset
 from bsm.files.formats.polygons import Column, Part, joined_parts
 from bsm.files.mesh import write_mesh, written_mesh
+from bsm.gltf.coding import MATTE
 from bsm.lengths import metres
 from tests.bsm.files.test_file_attributes import png
 
@@ -161,7 +162,7 @@ def test_files_of_other_kinds_are_named(name, contents, said, tmp_path):
 def test_vertices_that_are_transparent_blend():
     shades = Attribute("color", np.array([[255, 0, 0, 128]] * 3, np.uint8), semantic="color")
     data = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], [shades]), "glb").data
-    assert tree_of(data)["materials"] == [{"alphaMode": "BLEND"}]
+    assert tree_of(data)["materials"] == [{**MATTE, "alphaMode": "BLEND"}]
     again = read_mesh(data, "glb").mesh
     assert again.attributes[0].values[0].tolist() == [255, 0, 0, 128]
     opaque = data.replace(b'"BLEND"', b'"MASK" ')
