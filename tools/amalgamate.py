@@ -20,7 +20,6 @@ SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
 CHOICES = ("bitstream/isa.c", "codec/isa.c")
 INTERFACES, VECTORS = ("library/bsmdec.h", "library/bsmenc.h"), "codec/basis/vectors.h"
 ONORM = "codec/basis/onorm.h"
-OF_LEVELS = ("bitstream/fields/wide.h", VECTORS)  # headers that depend on the level of the processor
 LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
 _HEAD = """#pragma GCC diagnostic ignored "-Wunused-function"
 #if !defined(__clang__)
@@ -164,7 +163,7 @@ def amalgamated(*, encodes: bool = False) -> str:
     shared = {name for text in headers.values() for name in re.findall(r"\w+", _bare(text))}
     count = Counter(name for names in own.values() for name in names)
     head = '#define BSMDEC_WRITES\n#include "bsmenc.h"\n' if encodes else '#include "bsmdec.h"\n'
-    pieces, per_isa = [head, _HEAD, *map(_private, headers.values())], [_private(headers[path]) for path in OF_LEVELS]
+    pieces, per_isa = [head, _HEAD, *map(_private, headers.values())], [_private(headers[VECTORS])]
     for path in files:
         suffix = re.sub(r"\W", "_", path[:-2])
         clashing = [name for name in own[path] if count[name] > 1 or name in shared]

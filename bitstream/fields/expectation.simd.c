@@ -1,7 +1,8 @@
 /* One integer, given predictions of it (specification, V 3 to V 5). */
-#include "bitstream/fields/wide.h"
+#include "bitstream/fields/fields.h"
 
-#ifdef BSM_WIDE
+#if KERNEL_ISA == 4 || (defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__))
+#define BSM_WIDE
 #include <immintrin.h>
 #endif
 

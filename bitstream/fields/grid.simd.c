@@ -1,6 +1,5 @@
 /* Positions on a grid, vertex after vertex, predicted from coded neighbors (specification, V 7 to V 10). */
 #include "bitstream/fields/twins.h"
-#include "bitstream/fields/wide.h"
 
 enum {
     AXES = 3,
@@ -33,8 +32,8 @@ typedef struct { /* what is known of a vertex before its axes */
 INLINE int32_t take_all(Forecast *f, int32_t error, Twins *t) {
     int32_t gap = error - f->shift;
     if (!t) return take(f, error);
-    learn_wide_in_turn(f->guess, TERMS, f->term, error, f->typical, t->values % TERMS);
-    learn_wide_in_turn(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical, t->values % HINTS);
+    learn_in_turn(f->guess, TERMS, f->term, error, f->typical, t->values % TERMS);
+    learn_in_turn(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical, t->values % HINTS);
     t->values++;
     return gap;
 }

@@ -1,5 +1,5 @@
 /* Levels that refine a mesh, vertex after vertex, predicted from coded neighbors (specification, V 11). */
-#include "bitstream/fields/wide.h"
+#include "bitstream/fields/fields.h"
 
 enum {
     AXES = 3,
@@ -163,7 +163,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     l->gaps.data[axes * v + j] = level * FINE - guess;
     l->means.data[axes * v + j] = mean_of((sum + level) * FINE, p->with_own);
     *own = size_of(level) + (*own >> 1);
-    if (!quiet) learn_wide_in_turn(learner, OWN_TERMS, term, level * FINE, error_near + 4, v % OWN_TERMS);
+    if (!quiet) learn_in_turn(learner, OWN_TERMS, term, level * FINE, error_near + 4, v % OWN_TERMS);
     return true;
 }
 
