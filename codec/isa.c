@@ -26,7 +26,6 @@ CHOOSE_VOID(project, (ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coe
        (subspace, values, coefficients))
 CHOOSE(int64_t, show_frames, (ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames),
        (field, first, weights, frames))
-CHOOSE(int64_t, multiply_matrices, (ConstDoubles2 left, ConstDoubles2 right, Doubles2 result), (left, right, result))
 CHOOSE(int64_t, turn_columns, (Doubles2 free, Doubles vector, Doubles shares), (free, vector, shares))
 CHOOSE_VOID(reconstruct, (ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values),
        (subspace, coefficients, values))

@@ -32,7 +32,7 @@ void bind_codec(nb::module_ &m) {
     CHECKED(averaged) CHECKED(contrast) KERNEL(add_copies) KERNEL(collect_edges) KERNEL(patch_guidance)
     KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)
     KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(pull_in) KERNEL(follow_normals)
-    KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(multiply_matrices)
+    KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(basis_of_levels)
     CHECKED(turn_columns) CHECKED(back_into_unit) CHECKED(place_block) KERNEL(apply_powers) KERNEL(combine_powers)
     CHECKED(smooth_all) KERNEL(weigh_by_cotangents)
     // What both sides of a sequence have.

@@ -200,6 +200,32 @@ static void add_row(double *to, double scalar, const double *from, int64_t count
     for (int64_t i = 0; i < count; i++) to[i] += scalar * from[i];
 }
 
+int64_t basis_of_levels(ConstInts2 levels, ConstInts exponents, ConstDoubles2 time, Doubles2 turned, Doubles vector,
+    Doubles shares, Doubles2 basis) {
+    int64_t frames = time.rows, r = levels.columns, size = frames * r, width = frames > 0 ? levels.rows / frames : 0;
+    if (time.columns != frames || levels.rows != width * frames || exponents.size != r || turned.rows != levels.rows
+        || turned.columns != r || basis.rows != levels.rows || basis.columns != r)
+        return MISUSED;
+    for (int64_t c = 0; c < width; c++) {
+        int state = 0;
+        for (int64_t i = 0; i < size; i++) {
+            int32_t level = levels.data[c * size + i], exponent = exponents.data[i % r];
+            double step = QUARTERS[exponent & 3];
+            for (int32_t e = exponent >> 2; e > 0; e--) step *= 0.5;
+            turned.data[(i / r * width + c) * r + i % r] = 0.5 * trellis_point(state, level) * step;
+            state = trellis_following(state, level);
+        }
+    }
+    for (int64_t i = 0; i < width * size; i++) basis.data[i] = 0.0;
+    if (turn_columns(turned, vector, shares) == MISUSED) return MISUSED;
+    for (int64_t c = 0; c < width; c++)
+        for (int64_t t = 0; t < frames; t++)
+            for (int64_t f = 0; f < frames; f++)
+                add_row(basis.data + (c * frames + t) * r, time.data[t * frames + f],
+                    turned.data + (f * width + c) * r, r);
+    return 0;
+}
+
 /* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). */
 static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch,
     Doubles2 *basis) {
@@ -210,7 +236,7 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
     Ints levels;
     Doubles2 turned, time;
     Doubles vector, shares;
-    bool done = zero_doubles2(arena, width * frames, r, basis) && make_bank(scratch, MATRIX_BANK, &bank)
+    bool done = take_doubles2(arena, width * frames, r, basis) && make_bank(scratch, MATRIX_BANK, &bank)
         && TAKE(scratch, width, matrices) && zero_ints(scratch, width * size, &levels)
         && take_doubles2(scratch, width * frames, r, &turned) && time_cosines(frames, scratch, &time)
         && take_doubles(scratch, width * frames, &vector) && take_doubles(scratch, r, &shares);
@@ -218,22 +244,9 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
         matrices[c] = (Matrix){
             frames, c + 1, levels.data + c * size, levels.data + (c > 0 ? c - 1 : 0) * size, c > 0 ? frames : 0};
     done = done && read_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
-    for (int64_t c = 0; done && c < width; c++) {
-        int state = 0;
-        for (int64_t i = 0; i < size; i++) {
-            int32_t level = levels.data[c * size + i], exponent = field->exponents.data[i % r];
-            double step = QUARTERS[exponent % 4];
-            for (int32_t e = exponent / 4; e > 0; e--) step *= 0.5;
-            turned.data[(i / r * width + c) * r + i % r] = 0.5 * trellis_point(state, level) * step;
-            state = trellis_following(state, level);
-        }
-    }
-    if (done) turn_columns(turned, vector, shares);
-    for (int64_t c = 0; done && c < width; c++)
-        for (int64_t t = 0; t < frames; t++)
-            for (int64_t f = 0; f < frames; f++)
-                add_row(basis->data + (c * frames + t) * r, time.data[t * frames + f],
-                    turned.data + (f * width + c) * r, r);
+    if (done)
+        basis_of_levels((ConstInts2){levels.data, width * frames, r}, const_ints(field->exponents),
+            const_doubles2(time), turned, vector, shares, *basis);
     release_to(scratch, mark);
     return done;
 }

@@ -26,5 +26,7 @@ INLINE int64_t frames_kept(int64_t vertices) {
 }
 void bend_columns(ConstDoubles2 part, ConstDoubles2 positions, Doubles2 columns);
 int64_t ISA(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames);
-int64_t ISA(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result);
 int64_t ISA(turn_columns)(Doubles2 free, Doubles vector, Doubles shares);
+/* The basis of levels, d T rows of each, given cosines over time (S 5.2); there is room in all but these. */
+int64_t basis_of_levels(ConstInts2 levels, ConstInts exponents, ConstDoubles2 time, Doubles2 turned, Doubles vector,
+    Doubles shares, Doubles2 basis);

@@ -13,7 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.bitstream.coefficients.adaptive import points_of_levels
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 
@@ -73,13 +72,11 @@ def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> 
 def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
     """The basis, shape (dT, r), of levels, shape (d, T, r); its columns are orthogonal."""
     width, frames, components = levels.shape
-    points = np.array([points_of_levels(np.ascontiguousarray(matrix)) for matrix in levels])
-    free = (0.5 * points * basis_steps(exponents)).transpose(1, 0, 2).reshape(width * frames, components)
-    turned = columns_of(free).reshape(frames, width, components)
-    basis, cosines = np.empty((width, frames, components)), time_cosines(frames)
-    for coordinate in range(width):
-        _kernels.multiply_matrices(cosines, np.ascontiguousarray(turned[:, coordinate]), basis[coordinate])
-    return basis.reshape(width * frames, components)
+    basis = np.empty((width * frames, components))
+    rows = np.ascontiguousarray(levels).reshape(basis.shape)
+    scratch = np.empty_like(basis), np.empty(len(basis)), np.empty(components)
+    _kernels.basis_of_levels(rows, exponents, time_cosines(frames), *scratch, basis)
+    return basis
 
 
 def free_of(columns: Matrix) -> Matrix:
@@ -93,13 +90,6 @@ def free_of(columns: Matrix) -> Matrix:
     free = np.tril(packed.T, -1) * (-lengths * factors) * np.where(negative, -1.0, 1.0)
     np.fill_diagonal(free, np.maximum(np.abs(lengths * (1.0 - factors)), LEAST * np.abs(lengths)))
     return np.asarray(free)
-
-
-def columns_of(free: Matrix) -> Matrix:
-    """Orthogonal columns, shape (n, r), from their free parameters; zeros give zero columns."""
-    columns = np.array(free, order="C")
-    _kernels.turn_columns(columns, np.empty(len(free)), np.empty(free.shape[1]))
-    return columns
 
 
 def frames_of(field: Matrix, first: int, basis: Matrix) -> Iterator[Matrix]:

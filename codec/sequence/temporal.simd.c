@@ -52,19 +52,6 @@ INLINE void add_row(double *to, double scalar, const double *from, int64_t count
     for (; i < count; i++) to[i] += scalar * from[i];
 }
 
-/* The product of two matrices, sums in the order of the columns of the first. */
-int64_t ISA(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result) {
-    int64_t columns = right.columns;
-    if (left.columns != right.rows || result.rows != left.rows || result.columns != columns) return MISUSED;
-    for (int64_t r = 0; r < left.rows; r++) {
-        double *row = result.data + r * columns;
-        for (int64_t j = 0; j < columns; j++) row[j] = 0.0;
-        for (int64_t k = 0; k < left.columns; k++)
-            add_row(row, left.data[r * left.columns + k], right.data + k * columns, columns);
-    }
-    return 0;
-}
-
 /* Columns at right angles, of what is free in them, which they overwrite (S 5.3). `vector` has room for a column,
  * `shares` for a row. */
 int64_t ISA(turn_columns)(Doubles2 free, Doubles vector, Doubles shares) {

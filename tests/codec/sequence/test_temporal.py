@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, columns_of, free_of, learn_basis
+from bsm._core import codec as kernels
+from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, free_of, learn_basis
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
 
@@ -36,6 +37,12 @@ def test_what_costs_more_than_it_brings_is_left_out() -> None:
     least = np.sqrt(WORTH * COLUMNS / ROWS) * STEP  # the deviation whose energy just pays
     assert learn_basis(motion_of([1.0, 1.01 * least, 0.99 * least])[0], STEP, 1000)[0].shape == (COLUMNS, 2)
     assert learn_basis(np.zeros((ROWS, COLUMNS)), STEP, 1000)[0].shape == (COLUMNS, 0)
+
+
+def columns_of(free):
+    columns = np.array(free, order="C")
+    kernels.turn_columns(columns, np.empty(len(free)), np.empty(free.shape[1]))
+    return columns
 
 
 def right_angled(rows, columns):
