@@ -16,9 +16,9 @@ from scipy.spatial import cKDTree
 import bsm
 from bsm import Attribute, TriangleMesh
 from bsm.cli import main as cli
-from plugins.blender.__main__ import main
 from tests.motion import animators_own, bending
 from tests.shapes import torus
+from tools.release.blender import main
 
 ROOT = Path(__file__).parents[2]
 

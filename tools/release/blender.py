@@ -1,4 +1,4 @@
-"""python -m plugins.blender [-o bsm-blender.zip]: an extension for Blender 4.2 and later, with its wheels.
+"""python -m tools.release.blender [-o bsm-blender.zip]: an extension for Blender 4.2 and later, with its wheels.
 
 Without --wheel, this checkout and msgpack are made into wheels for the Python that runs this: it must have the version
 of Blender's own (3.11 for 4.2 to 5.0). Install the zip in Blender: Edit > Preferences > Get Extensions > Install from
@@ -20,12 +20,12 @@ from pathlib import Path
 from bsm import __version__
 
 ROOT = Path(__file__).parents[2]
-EXTENSION = Path(__file__).parent / "extension"
+EXTENSION = ROOT / "plugins/blender/extension"
 
 
 def main(words: Sequence[str] | None = None) -> None:
     """Make the zip and say where it is."""
-    parser = argparse.ArgumentParser(prog="python -m plugins.blender", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m tools.release.blender", description=__doc__)
     parser.add_argument("-o", "--output", type=Path, default=Path("bsm-blender.zip"))
     parser.add_argument("--wheel", type=Path, action="append", default=[], help="put in these wheels, and build none")
     args = parser.parse_args(words)
