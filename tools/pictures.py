@@ -16,6 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -25,6 +26,7 @@ from scipy.spatial import KDTree
 import bsm
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.bounds import Bounds, Trial
 from bsm.codec.static.choice.congruence import motions_between
 from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
@@ -36,9 +38,9 @@ from tools.command import run_command
 ROOT = Path(__file__).parents[1]
 FRONT, MOTION, STREAMING = "tools/front.png", "docs/gallery/motion.webp", "docs/guides/streaming.png"
 SCANS, ASSETS = "docs/gallery/scans.jpg", "docs/guides/assets.jpg"
-TWINS = "docs/gallery/twins.png"
+TWINS, TRIALS = "docs/gallery/twins.png", "docs/gallery/trials.png"
 PAGES = ("docs/guides/page-scan.jpg", "docs/guides/page-errors.jpg", "docs/guides/page-phone.jpg")
-PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, *PAGES)
+PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, TRIALS, *PAGES)
 """All pictures of the documents."""
 SCANNED = {
     "static/armadillo_20002_derived.ply": 20,
@@ -65,6 +67,7 @@ def main(args: argparse.Namespace, console: Console) -> None:
     titles, images = zip(*pictures, *part(folder), strict=True)
     (ROOT / FRONT).write_bytes(with_titles(images, titles, figures=figures))
     (ROOT / TWINS).write_bytes(png(twins(bsm.load(folder / "assets" / "featuretype.STL"))))
+    trials(bsm.load(folder / "static" / "c3d_spot.ply"), ROOT / TRIALS)
     console.note(motion(folder / "dynamic" / "samba.npz", ROOT / MOTION))
     with tempfile.TemporaryDirectory() as work:
         pages(folder, ROOT / "docs" / "guides", Path(work))
@@ -90,6 +93,28 @@ def twins(mesh: TriangleMesh) -> Image:
     colors = 0.45 + 0.55 * ((mesh.positions[first] - low) / (high - low))[of][mesh.faces].mean(axis=1)
     colors[(alike[of] == 1)[mesh.faces].any(axis=1)] = 0.75
     return render(mesh.positions, mesh.faces, PIXELS, view=view_matrix(-60.0, 50.0), colors=colors)
+
+
+def trials(mesh: TriangleMesh, target: Path) -> None:
+    """Draw the trials of the default on a mesh, each by its bytes and its look, numbered as they were made."""
+    from matplotlib.figure import Figure
+
+    made, measured = dict[tuple[float, float], None](), Bounds._shares  # in the order in which they came
+
+    def shares(self: Bounds, candidate: Trial, look: float | None = None) -> tuple[float, float, float, float]:
+        found = measured(self, candidate, look)
+        made[candidate.congruent.size, found[-1]] = None
+        return found
+
+    with patch.object(Bounds, "_shares", shares):
+        bsm.encode(mesh, threads=1)
+    figure = Figure(figsize=(6.0, 3.2), layout="constrained")
+    axes = figure.add_subplot(xlabel="bytes of a trial", ylabel="look (1: looks the same)")
+    axes.axhline(1.0, color="0.6", linestyle="--")
+    for number, (size, look) in enumerate(made, 1):
+        axes.plot(size, look, "o", color="tab:green" if look <= 1.0 else "tab:red")
+        axes.annotate(str(number), (size, look), (6, 4), textcoords="offset points")
+    figure.savefig(target, dpi=120)
 
 
 def pages(folder: Path, target: Path, work: Path) -> list[Path]:
