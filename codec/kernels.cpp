@@ -31,7 +31,7 @@ void bind_codec(nb::module_ &m) {
     KERNEL(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
     CHECKED(averaged) CHECKED(contrast) KERNEL(add_copies) KERNEL(collect_edges) KERNEL(patch_guidance)
     KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)
-    KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(pull_in) KERNEL(follow_normals)
+    KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(follow_normals)
     KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(basis_of_levels)
     CHECKED(turn_columns) CHECKED(back_into_unit) CHECKED(place_block) KERNEL(apply_powers) KERNEL(combine_powers)
     CHECKED(smooth_all) KERNEL(weigh_by_cotangents)

@@ -1,7 +1,7 @@
-"""Surfaces as sampling leaves them, with the true normals: binary volumes, and depths in steps of one view.
+"""Surfaces as sampling leaves them, with the true normals: binary volumes.
 
 A binary volume says of each cell whether its middle is inside, as segmentations of CT and MRI do. Its surface by
-marching cubes lies halfway between cells, in stairs. A camera that resolves few depths leaves terraces.
+marching cubes lies halfway between cells, in stairs.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from scipy import spatial
 
 from bsm.codec.arrays import Faces, Floats, Mask, Positions
 from bsm.codec.geometry.metrics import distances_to_surface, face_geometry
-from tools.scans import CAMERAS, SAMPLES, Camera, Scan, isosurface, turning, view
+from tools.scans import SAMPLES, Scan, isosurface, turning
 
 MARGIN = 3  # cells about a shape
 THICK = 5.0  # slices, in cells across
@@ -104,16 +104,3 @@ def filled(positions: Positions, faces: Faces, counts: np.ndarray) -> Mask:
     at = place[crossed]
     np.add.at(flips, (at[:, 0], at[:, 1], np.clip(np.ceil(height), 0, counts[2]).astype(int)), 1)
     return np.asarray(np.cumsum(flips, axis=2)[..., :-1] % 2 == 1)
-
-
-def in_steps(positions: Positions, faces: Faces, step: float, disparity: bool = False, pixels: int = 150) -> Scan:
-    """One view whose depths, or inverse depths, are rounded to steps of so many pixels' widths at the mesh."""
-
-    def rounded(depth: Floats, slant: Floats, focal: float, random: np.random.Generator) -> Floats:
-        size = step * camera.far / focal
-        if disparity:
-            return np.asarray(1.0 / (np.round(camera.far**2 / depth / size) * size / camera.far**2))
-        return np.asarray(np.round(depth / size) * size)
-
-    camera: Camera = CAMERAS["time of flight"]._replace(pixels=pixels, noise=rounded)
-    return view(positions, faces, camera, 3)

@@ -13,7 +13,6 @@ from bsm.codec.choices import named
 from bsm.codec.denoise.filters import BENDS, FINISHES, RAYS, Filter, Filters, Step
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import put_outliers_back
-from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel, estimate_noise
 from bsm.codec.denoise.noise.volumes import Cells
@@ -65,7 +64,6 @@ THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
 WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
-STEP_STRENGTH, STEP_ITERATIONS = 0.15, 8  # for depths in steps: of the flattening, over the step's square in pixels
 SLIDING = {"heights": "positions"}  # hand-overs that let vertices slide along the surface, for those that do not
 BEGUN, ROUND, CHOSEN = 0.05, 0.2, 0.5  # of all work: before rehearsals, in a round of them, and before the filter
 MOST_TAUGHT = 40_000  # vertices up to which white noise is removed with learnt normals, which leave 3 % less of it
@@ -85,7 +83,6 @@ class AutomaticChoice:
     finish: str = "none"
     detailed: bool = False
     outliers: int = 0
-    ripples: tuple[float, ...] = ()
     forecast: Forecast | None = None
 
     @property
@@ -112,29 +109,20 @@ class AutomaticChoice:
         expected = float((touched * np.hypot(undone, share * self.forecast.expected)).mean())
         return replace(self, untreated=self.forecast.untreated * float(touched.mean()), expected=expected)
 
-    def after(self, outliers: int, ripples: Ripples) -> AutomaticChoice:
-        """The choice for a mesh of which outliers and ripples have been put back."""
-        choice = replace(self, outliers=outliers, ripples=ripples.lengths)
-        if self.steps or not (outliers or ripples.lengths):
-            return choice
-        if ripples.lengths:
-            waves = ", ".join(f"{length:.1f}" for length in ripples.lengths)
-            reason = f"waves of {waves} mean edges across the whole mesh, {ripples.level:.2f} edges high"
-            return replace(choice, kind="ripples", reason=reason)
-        return replace(choice, kind="outliers", reason=f"{counted(vertices=outliers)} that stood out")
+    def after(self, outliers: int) -> AutomaticChoice:
+        """The choice for a mesh of which outliers have been put back."""
+        if self.steps or not outliers:
+            return replace(self, outliers=outliers)
+        reason = f"{counted(vertices=outliers)} that stood out"
+        return replace(self, kind="outliers", reason=reason, outliers=outliers)
 
 
-def calm(positions: Positions, surface: Filters) -> tuple[int, Ripples, Finding]:
-    """The number of outliers that are put back, the positions, shape (n, 3), without these and ripples, and their
-    noise."""
+def calm(positions: Positions, surface: Filters) -> tuple[int, Positions, Finding]:
+    """The number of outliers that are put back, the positions, shape (n, 3), without them, and their noise."""
     finding = find_noise(positions, surface.probe)
-    if finding.exact:
-        return 0, Ripples(positions), finding
-    back = put_outliers_back(positions, surface.probe, finding)
-    outliers, ripples = int((back != positions).any(axis=1).sum()), find_ripples(back, surface.probe)
-    if outliers or ripples.lengths:
-        finding = find_noise(ripples.positions, surface.probe)
-    return outliers, ripples, finding
+    back = positions if finding.exact else put_outliers_back(positions, surface.probe, finding)
+    outliers = int((back != positions).any(axis=1).sum())
+    return outliers, back, find_noise(back, surface.probe) if outliers else finding
 
 
 def choose(
@@ -143,7 +131,7 @@ def choose(
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
-    if finding.kind in ("cells", "steps") or finding.uneven > EVEN:
+    if finding.kind == "cells" or finding.uneven > EVEN:
         return _by_cause(finding)
     filters = {"view": SEEN, "axis": AXIAL, "fused": FUSED}.get(finding.kind, CANDIDATES)
     learnt = len(positions) <= MOST_TAUGHT or finding.kind not in ("white", "unsteady")
@@ -192,8 +180,6 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
     if finding.kind == "fused":
         weight = min(FUSED_UNEVEN * finding.uneven, FUSED_MOST)
         steps = (Step(Filter(BENDS, weight, 0.4), 0),)
-    elif finding.kind == "steps":
-        steps = (Step(Filter(RAYS, STEP_STRENGTH, 0.25), STEP_ITERATIONS),)
     else:
         assert isinstance(finding.bound, Cells)
         flat, stored = finding.bound.flatness, finding.bound.thick > 1

@@ -8,8 +8,6 @@ int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts aroun
 int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t most, int64_t begin,
               Ints seen, Longs reached_starts, Ints reached);
 void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances);
-void pull_in(ConstDoubles2 given, ConstDoubles2 moved, ConstDoubles2 normals, ConstDoubles levels, double aside,
-             double most, Doubles2 held);
 void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, ConstDoubles2 normals,
                     int64_t iterations, ConstBytes free, Doubles2 planes, Doubles2 sums);
 void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,

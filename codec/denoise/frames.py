@@ -85,8 +85,8 @@ class FrameDenoiser:
         def finish(pair: Pair) -> tuple[Pair, AutomaticChoice]:
             given, welded = pair
             assert choice is not None and found is not None
-            if (choice.outliers or choice.ripples) and welded is not begun:
-                welded = calm(welded, self._surface)[1].positions
+            if choice.outliers and welded is not begun:
+                welded = calm(welded, self._surface)[1]
             result, done = treat(choice, welded, found, self._surface, self._strength)
             return (given, result), done
 
@@ -95,8 +95,7 @@ class FrameDenoiser:
                 begun = group[0][1]
                 self._progress("finding noise", 0.0)
                 if remaining is None:
-                    outliers, ripples, found = calm(begun, self._surface)
-                    begun = ripples.positions
+                    outliers, begun, found = calm(begun, self._surface)
                     group[0] = group[0][0], begun
                 else:
                     found = find_noise(begun, self._surface.probe)
@@ -106,7 +105,7 @@ class FrameDenoiser:
                 choice = choose(begun, found, self._surface, goal, self._progress)
                 self._progress("filtering", CHOSEN)
                 if remaining is None:
-                    choice = choice.after(outliers, ripples)
+                    choice = choice.after(outliers)
                 elif not choice.steps:
                     choice = replace(choice, kind="unsteady", reason=CHANGING)
             for pair, done in ordered_map(finish, group, None):

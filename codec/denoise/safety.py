@@ -30,7 +30,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     stand as a whole, or nothing."""
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
-    if finding.kind in ("cells", "steps"):
+    if finding.kind == "cells":
         return everywhere, ""  # within the bound of the cause
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
     if not finding.noisy and not unsure:

@@ -65,23 +65,6 @@ void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances) {
     }
 }
 
-/* Moves to `most` levels at most; where there are normals, of any length, ways along the surface approach `aside`
- * levels. */
-void pull_in(ConstDoubles2 given, ConstDoubles2 moved, ConstDoubles2 normals, ConstDoubles levels, double aside,
-             double most, Doubles2 held) {
-    for (int64_t v = 0; v < levels.size; v++) {
-        double level = levels.data[v] > 1e-300 ? levels.data[v] : 1e-300;
-        Vector3 from = row_of(given.data, v), way = less(row_of(moved.data, v), from);
-        if (v < normals.rows) {
-            Vector3 normal = direction(row_of(normals.data, v), (Vector3){0.0, 0.0, 0.0});
-            Vector3 across = plus_scaled(way, -dot(way, normal), normal);
-            way = plus_scaled(less(way, across), 1.0 / (1.0 + length_of(across) / (aside * level)), across);
-        }
-        double far = length_of(way) / (most * level);
-        put_row(held.data, v, plus_scaled(from, far > 1.0 ? 1.0 / far : 1.0, way));
-    }
-}
-
 /* Every iteration moves each free vertex by the mean of its offsets from the planes through its faces' centroids with
  * the given normals, in place: sum n (o - n . p) = sum n o - (sum n n') p. `planes`, a row of 4 for each face, and
  * `sums`, a row of 16 for each vertex, are scratch: normal and offset; place and the columns of sum n n'. */

@@ -28,14 +28,13 @@ from bsm.codec.geometry.welding import weld
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
 from tools.noise import correlated_along_normals, gaussian_along_axis, gaussian_along_normals
-from tools.sampled import THICK, ball, box, in_steps, torus, voxelized, voxelized_mesh
+from tools.sampled import THICK, ball, box, torus, voxelized, voxelized_mesh
 from tools.scans import CAMERAS, Scan, fused, view
 
 TAUBIN = (10, 30, 100, 300)
 PLATE = (30.0, 20.0, 2.5)  # half sides, in cells
 SCANS = ("c3d_spot", "armadillo_12502", "fr_casting", "gargoyle_10002")
 PARTS = ("block", "fandisk_6475", "twelve_dodecahedron", "trim_star", "sharpsphere")
-STEPS = (0.5, 1.0, 2.0, 3.0)
 SLICES, SLICED, ORGANS = (3.0, 4.0, 6.0, 8.0), 72, (4, 10, 11, 16)
 """Of slices, cells across and a side; and seeds of `made_shape`."""
 UNEVEN = (2.3, 4.94, 6.7)  # cells across slices that are stored as whole cells
@@ -82,9 +81,6 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
         yield f"thick slices, {name}, 110 cells", partial(_made, mesh, name, voxelized_mesh, 110, THICK)
     for name in (*SCANS, "horse_48485"):
         yield f"one axis, {name}", partial(_made, mesh, name, _moved, 0.3, gaussian_along_axis)
-    for name, step, inverse in product(SCANS[:2], STEPS, (False, True)):
-        row = f"{'disparity' if inverse else 'depth'} steps of {step:g}, {name}"
-        yield row, partial(_made, mesh, name, in_steps, step, inverse)
     for (camera, model), name in product(CAMERAS.items(), SCANS):
         yield f"{camera}, {name}", partial(_made, mesh, name, view, model, SEED)
     for (camera, model), seed in product(CAMERAS.items(), ORGANS):

@@ -1,7 +1,7 @@
 """Causes that the coordinates tell, and how far each lets a vertex be from the surface.
 
-Rounding to a grid and marching cubes of a binary volume leave a vertex within half a cell, a depth in steps within half
-a step along its ray, and noise along an axis on a line.
+Rounding to a grid and marching cubes of a binary volume leave a vertex within half a cell, and noise along an axis on a
+line.
 """
 
 from __future__ import annotations
@@ -11,11 +11,9 @@ from typing import Protocol
 
 import numpy as np
 
-from bsm._core import codec as _kernels
 from bsm.codec.arrays import Faces, Floats, Indices, Positions
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.surface import Topology
+from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.welding import weld
 
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
@@ -23,10 +21,7 @@ NEAR = 0.02  # distance from a multiple, in steps, that the precision of files e
 SAME = 1e-6  # values closer together, as a share of the extent, are one value
 SPREADS = 3  # averagings that part vertices that rounding has merged
 
-FEW_VALUES = 4  # of a coordinate that lies on half-cells, or of a depth in steps
-SLANTED_EXACT, PEAKS = 0.5, 0.006
-"""Of pure steps: the largest share of straight places on slopes, which shapes drawn on a grid have, and of peaks, which
-noise has: pure steps read up to 0.002, steps of a noisy camera 0.014 and more."""
+FEW_VALUES = 4  # of a coordinate that lies on half-cells
 
 
 class Confines(Protocol):
@@ -127,56 +122,10 @@ class Reach:
     slides: bool
 
     def within(self, given: Positions, moved: Positions) -> Positions:
-        normals = np.zeros((0, 3)) if self.slides else self.topology.vertex_normals(moved)
-        held = np.empty_like(moved)
-        _kernels.pull_in(given, moved, normals, self.levels, ASIDE, FARTHEST, held)
-        return held
-
-
-@dataclass(frozen=True, eq=False)
-class Steps:
-    """Depths along an axis, or inverse ones, that come in steps: vertices go half a step along their rays."""
-
-    view: View
-    axis: Floats
-    step: float
-    inverse: bool
-
-    def depths(self, positions: Positions) -> Floats:
-        """Depths, or inverse ones, shape (n,)."""
-        depth = (positions - self.view.eye) @ self.axis
-        return np.asarray(1.0 / depth if self.inverse else depth)
-
-    def within(self, given: Positions, moved: Positions) -> Positions:
-        rays = given - self.view.eye
-        share = np.einsum("ij,ij->i", moved - self.view.eye, rays) / np.einsum("ij,ij->i", rays, rays)
-        half = 0.5 * self.step / np.abs(self.depths(given))
-        least, most = 1.0 - half, 1.0 + half
-        if self.inverse:
-            least, most = 1.0 / most, 1.0 / np.maximum(least, 1e-3)
-        return np.asarray(self.view.eye + np.clip(share, least, most)[:, None] * rays)
-
-
-def find_steps(view: View, positions: Positions, probe: Probe) -> Steps | None:
-    """Steps of the depths of a view without noise: on slopes they are uneven, and nowhere a vertex stands out alone."""
-    starts, members = probe.topology.neighbors
-    owners = np.repeat(np.arange(len(positions)), np.diff(starts))
-    for axis in np.eye(3):
-        depth = (positions - view.eye) @ axis
-        if depth.min() * depth.max() <= 0.0:
-            continue
-        for inverse in (False, True):
-            steps = Steps(view, axis, 1.0, inverse)
-            values = steps.depths(positions)
-            step = rounding_step(values, FEW_VALUES)
-            if not step:
-                continue
-            apart = np.round((values[members] - values[owners]) / step)
-            signs, sums, sizes = (
-                np.bincount(owners, each, len(positions)) for each in (np.sign(apart), apart, apart != 0.0)
-            )
-            slopes, peaks = probe.counted & (sizes > 0), np.abs(signs) == np.diff(starts)
-            if not slopes.any() or (sums[slopes] == 0.0).mean() > SLANTED_EXACT:
-                continue
-            return Steps(view, axis, step, inverse) if peaks[probe.counted].mean() < PEAKS else None
-    return None
+        way, level = moved - given, np.maximum(self.levels, 1e-300)[:, None]
+        if not self.slides:
+            normals = surface_normals(moved, self.topology)
+            along = np.einsum("ij,ij->i", way, normals)[:, None] * normals
+            across = way - along
+            way = along + across / (1.0 + np.linalg.norm(across, axis=1, keepdims=True) / (ASIDE * level))
+        return given + way / np.maximum(np.linalg.norm(way, axis=1, keepdims=True) / (FARTHEST * level), 1.0)

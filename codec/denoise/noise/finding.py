@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.codec.arrays import Floats, Mask, Order, Positions
-from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Confines, Reach, Spacing, Steps
+from bsm.codec.denoise.noise.causes import FEWEST_VALUES, NEAR, SAME, Confines, Reach, Spacing
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.noise.volumes import Cells
@@ -63,7 +63,7 @@ class Finding:
     @property
     def exact(self) -> bool:
         """Whether the coordinates tell the cause, so that nothing has to be guessed."""
-        return isinstance(self.bound, (Cells, Spacing, Steps))
+        return isinstance(self.bound, (Cells, Spacing))
 
     @property
     def noisy(self) -> bool:

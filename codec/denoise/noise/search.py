@@ -2,7 +2,7 @@
 
 Noise is as strong in one place as in another (or follows the direction of the surface, where a camera has put it, or
 covers a part of the mesh), on both sides of the surface alike, and prefers no value. Detail and creases are strong in
-some places and weak in others. Coordinates tell rounding, binary volumes and steps of depth. Other kinds are suspected
+some places and weak in others. Coordinates tell rounding and binary volumes. Other kinds are suspected
 by their cause, and accepted by `RULES`, which weigh a few measures. All other meshes are "none", small ones "unknown".
 """
 
@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bsm.codec.arrays import Floats, Mask, Positions
-from bsm.codec.denoise.noise.causes import Box, find_grid, find_steps
+from bsm.codec.denoise.noise.causes import Box, find_grid
 from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
@@ -83,7 +83,7 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
     if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
         return Finding("unknown", 0.0, nothing, edge, "too few vertices to tell noise from shape")
     evidence = surface(positions, probe, edge)
-    for test in (_rounded, _stepped, _fused):
+    for test in (_rounded, _fused):
         finding = test(positions, evidence)
         if finding is not None:
             return finding
@@ -147,25 +147,6 @@ def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
         return None
     reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
     return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, bound=grid)
-
-
-def _stepped(positions: Positions, evidence: Evidence) -> Finding | None:
-    """One view, its depths in steps and without noise."""
-    view = find_view(positions, evidence.probe)
-    steps = None if view is None else find_steps(view, positions, evidence.probe)
-    if view is None or steps is None:
-        return None
-    depth = (positions - view.eye) @ steps.axis
-    width = pixel(view.plane(positions), evidence.probe.topology) * ((positions - view.eye) @ view.axis)
-    heights = steps.step * (np.square(depth) if steps.inverse else 1.0) * np.ones(len(depth))
-    amount = heights / np.sqrt(12.0)
-    if np.median(amount) < FAINTEST * evidence.edge:
-        return None
-    axis = "xyz"[int(np.argmax(np.abs(steps.axis)))]
-    what = "inverse depth" if steps.inverse else "depth"
-    reason = f"steps of {steps.step:.3g} in the {what} of one view, along {axis}; no vertex moves by over half of one"
-    view = replace(view, level=float(np.median(heights / np.abs(width))) ** 2, terraced=True)
-    return Finding("steps", float(np.median(amount)), amount, evidence.edge, reason, view=view, bound=steps)
 
 
 def _fused(positions: Positions, evidence: Evidence) -> Finding | None:

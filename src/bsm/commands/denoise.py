@@ -215,11 +215,8 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         return
     if choice.outliers:
         yield f"outliers   {counted(vertices=choice.outliers)} moved back"
-    if choice.ripples:
-        waves = ", ".join(f"{length * edge:.2g}" for length in choice.ripples)
-        yield f"removed    waves of {waves} {unit}".rstrip() + " across the whole mesh"
     if not choice.steps:
-        if not (choice.outliers or choice.ripples):
+        if not choice.outliers:
             line = "steadied   " if choice.kind == "unsteady" else "unchanged  "
             yield f"{line}{choice.reason}"
             if choice.kind != "unsteady":

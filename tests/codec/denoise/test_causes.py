@@ -10,7 +10,7 @@ from bsm.codec.denoise.surface import Topology
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tests.shapes import theta
 from tools.noise import gaussian_along_axis
-from tools.sampled import THICK, ball, box, in_steps, torus, voxelized
+from tools.sampled import THICK, ball, box, torus, voxelized
 from tools.scans import turning
 
 
@@ -139,30 +139,6 @@ def test_volumes_are_known_whichever_way_they_are_turned(thick: float, most: flo
         moves = np.abs((result - turned) @ turn)
         assert (moves <= 0.5 * 2.0 / 36 * np.array([1.0, 1.0, thick]) * (1.0 + 1e-4)).all()
         assert made.angle((result - turned) @ turn + made.positions) < most
-
-
-@pytest.mark.parametrize("inverse", [False, True])
-@pytest.mark.parametrize(("step", "most"), [(0.5, 3.0), (1.0, 3.5), (2.0, 4.5), (3.0, 6.0)])
-def test_depths_in_steps_are_smoothed_within_half_a_step(step: float, most: float, inverse: bool) -> None:
-    made = in_steps(*sphere(30), step, inverse, pixels=110)
-    result, choice = denoise_automatically(made.positions, made.faces)
-    assert choice.kind == "steps" and f"{'inverse ' if inverse else ''}depth of one view, along z" in choice.reason
-    assert made.angle(result) < most < 0.6 * made.angle(made.positions)
-    depths = [1.0 / positions[:, 2] if inverse else positions[:, 2] for positions in (made.positions, result)]
-    exact = np.diff(np.unique(depths[0])).min()
-    assert np.abs(depths[1] - depths[0]).max() <= 0.5 * exact * (1.0 + 1e-6)
-    assert np.abs(np.cross(made.positions, result)).max() < 1e-12
-
-
-def test_steps_of_a_height_map_are_smoothed_and_stairs_of_planes_stay() -> None:
-    hill, faces = grid(60)
-    across = hill[:, :2] - 30.0
-    hill[:, 2] = np.round(8.0 * np.cos(across[:, 0] / 15.0) * np.cos(across[:, 1] / 11.0) / 0.7) * 0.7
-    result, choice = denoise_automatically(hill, faces)
-    assert choice.kind == "steps" and "steps of 0.7 in the depth" in choice.reason
-    assert np.abs(result - hill).max(axis=0) == pytest.approx([0.0, 0.0, 0.35], abs=1e-2)
-    roof = np.stack([hill[:, 0], hill[:, 1], 30.0 - np.abs(hill[:, 0] - 30.0)], axis=1)
-    assert (denoise_automatically(roof, faces)[0] == roof).all()
 
 
 @pytest.mark.parametrize("shape", [cube, sphere])
