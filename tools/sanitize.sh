@@ -35,7 +35,7 @@ cd "$root"
 unset PYTHONPATH PYTHONMALLOC
 flags=$("$python" -c "from tools.attack.meshes import SANITIZED; print(*SANITIZED)")
 # Without the sanitizer in the compiler itself, and once for all that follows.
-made=$(env -u LD_PRELOAD "$python" -c "from tests.library.encoding import compiled_whole; print(compiled_whole(*'$flags'.split()))")
+made=$(env -u LD_PRELOAD "$python" -c "from tools.bsmenc import compiled_whole; print(compiled_whole(*'$flags'.split()))")
 LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
     "$python" -m tools.attack.library 5000 ci --exact --tolerant --seconds 15 --flags="$flags"
 LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \

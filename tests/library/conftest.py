@@ -4,7 +4,7 @@ import ctypes
 
 import pytest
 
-from tests.library.decoding import build
+from tools.bsmdec import build
 
 
 @pytest.fixture(scope="session")

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 import bsm
-from tests.library.decoding import WARNINGS, build, compiled, decode, of_sequence
 from tools.amalgamate import ROOT
+from tools.bsmdec import WARNINGS, build, compiled, decode, of_sequence
 from tools.processors.__main__ import NotHere, complaint, lines, prepare, program
 from tools.release.windows import build_all, compare, find_wine
 from tools.vectors.store import read_manifest

@@ -11,9 +11,9 @@ import numpy.typing as npt
 import pytest
 
 import bsm
-from tests.library.decoding import BLOCK, CONNECTIVITY, KINDS, SEMANTICS, Entry, Event, Failure, Options
 from tests.streams import frames_in, moving_events_of
 from tools.amalgamate import ROOT
+from tools.bsmdec import BLOCK, CONNECTIVITY, KINDS, SEMANTICS, Entry, Event, Failure, Options
 
 VECTORS = ROOT / "spec/vectors/1.0"
 CARRYING = sorted(path.stem for path in VECTORS.glob("good-*attribute*.bsm") if "sequence" not in path.stem)

@@ -13,19 +13,9 @@ from hypothesis import strategies as st
 
 import bsm
 from bsm import Attribute, TriangleMesh
-from tests.library.encoding import (
-    CELLS,
-    LOSSLESS,
-    PROGRESS,
-    STOPPED,
-    UNREACHABLE,
-    Allocator,
-    compiled_whole,
-    encode,
-    library,
-)
 from tests.shapes import soup, tetrahedron, torus
 from tools.amalgamate import ROOT
+from tools.bsmenc import CELLS, LOSSLESS, PROGRESS, STOPPED, UNREACHABLE, Allocator, compiled_whole, encode, library
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 import bsm
-from tests.library.decoding import (
+from tests.streams import frames_in, moving_events_of
+from tools.amalgamate import ROOT
+from tools.bsmdec import (
     BLOCK,
     CONNECTIVITY,
     END,
@@ -26,8 +28,6 @@ from tests.library.decoding import (
     compiled,
     decode,
 )
-from tests.streams import frames_in, moving_events_of
-from tools.amalgamate import ROOT
 from tools.surgery import frames_of, stream_of
 
 MISUSED = 2

@@ -9,8 +9,8 @@ import pytest
 
 import bsm
 from bsm.evaluation.sample import knot
-from tests.library.decoding import compiled
 from tools.amalgamate import ROOT, sources
+from tools.bsmdec import compiled
 
 FOUND = r"\b(?:find_memory|find_zeros|host_memory)\("
 LIBRARY = [ROOT / path for path in sources(encodes=True)]

@@ -10,8 +10,8 @@ from time import process_time
 import numpy as np
 import pytest
 
-from tests.library.decoding import Decoded, Event, Limits, Options, Parallel, decode
 from tools.amalgamate import ROOT, amalgamated, interface
+from tools.bsmdec import Decoded, Event, Limits, Options, Parallel, decode
 
 VECTORS = ROOT / "spec/vectors"
 NAMES = ("good-refined-steep", "good-keys", "good-layer-chunks", "good-independent-predicted", "bad-refinement-short")

@@ -7,9 +7,9 @@ import pytest
 
 import bsm
 from tests.bitstream.streams import encoded, frame_ends
-from tests.library.decoding import decode, of_sequence, released
 from tests.streams import events_of
 from tools.attack.library import compare
+from tools.bsmdec import decode, of_sequence, released
 from tools.vectors.store import Vector, read_manifest
 
 STATUS = {"format": 3, "corrupt": 4, "unsupported": 5, "limit": 6, "numeric": 7, "truncated": 12}

@@ -13,7 +13,7 @@ import pytest
 import bsm
 from bsm._core.bitstream import priors, start
 from bsm.cli import main
-from tests.library.decoding import build, decode, of_sequence, released
+from tools.bsmdec import build, decode, of_sequence, released
 from tools.surgery import frames_of
 from tools.vectors.example import NAME, example
 from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes

@@ -17,11 +17,11 @@ from random import Random
 import numpy as np
 
 from bsm import BsmError
-from tests.library.decoding import Decoded, decode, of_sequence, released
-from tests.library.encoding import library
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.inputs import mutant, vector_seeds
 from tools.attack.tally import Outcome
+from tools.bsmdec import Decoded, decode, of_sequence, released
+from tools.bsmenc import library
 from tools.vectors.store import Arrays
 
 STATUS = {

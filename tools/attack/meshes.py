@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from bsm import Attribute, TriangleMesh
-from tests.library.encoding import CELLS, LOSSLESS, QUALITIES, UNREACHABLE, encode, library
+from tools.bsmenc import CELLS, LOSSLESS, QUALITIES, UNREACHABLE, encode, library
 
 SANITIZED = ("-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 MISUSED = 2

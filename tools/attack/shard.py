@@ -24,7 +24,6 @@ import numpy as np
 
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError
-from tests.library.decoding import decode, of_sequence, released
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import random_streams, stored
 from tools.attack.inputs import mutant, random_stream, unencoded_stream, vector_seeds
@@ -32,6 +31,7 @@ from tools.attack.library import STATUS
 from tools.attack.places import Place, environments, processors
 from tools.attack.tally import Outcome, Tally
 from tools.attack.targets import LIMITS
+from tools.bsmdec import decode, of_sequence, released
 from tools.web_constants import limits_there
 
 WEB = Path(__file__).parents[2] / "web"

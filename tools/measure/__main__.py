@@ -1,7 +1,6 @@
 """What `tools.replicate` does not measure: `python -m tools.measure WHAT ...`, and `WHAT --help` for what it asks.
 
 attributes  what attributes take, against Draco's
-encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
 bench       speed of dictionaries against exact solvers
 speed       what encoding and decoding take, over Draco's and a file of figures; of MESHes, decoding by bsmdec
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
@@ -17,7 +16,6 @@ from tools.command import dispatch
 COMMANDS = {
     "attributes": "attributes:main",
     "fields": "fields:main",
-    "encoding": "encoding:main",
     "bench": "bench:main",
     "speed": "speed:main",
     "same": "same:main",

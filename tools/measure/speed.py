@@ -131,8 +131,8 @@ def guard(args: argparse.Namespace) -> None:
 
 def decoders(mesh: TriangleMesh, repeats: int) -> str:
     """Times of the decoder in C, by turns with Draco's."""
-    from tests.library.decoding import Parallel, build
-    from tests.library.decoding import decode as decode_in_c
+    from tools.bsmdec import Parallel, build
+    from tools.bsmdec import decode as decode_in_c
 
     library = build("-O3", "-fno-math-errno")
     ours, theirs = Encoder(mesh, EncodeOptions()).encode(), encode_draco(mesh, 11, 10)

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from bsm import TriangleMesh
-from tests.library.decoding import DOMAINS, KINDS, SEMANTICS, Entry, compiled, loaded
 from tools.amalgamate import amalgamated, interface
+from tools.bsmdec import DOMAINS, KINDS, SEMANTICS, Entry, compiled, loaded
 
 GRID, CELLS, LOSSLESS = range(3)
 QUALITIES = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")
-UNREACHABLE, FAULT, STOPPED = 10, 11, 13
+UNREACHABLE, STOPPED = 10, 13
 
 
 class Given(Structure):
@@ -65,7 +65,7 @@ class Allocator(Structure):
         self.calls += 1
         if self.calls == self.refused:
             return None
-        memory = self._libc.malloc(max(size, 1))
+        memory: int = self._libc.malloc(max(size, 1))
         self.held[memory] = size
         return memory
 
@@ -134,8 +134,8 @@ def encode(library: ctypes.CDLL, mesh: TriangleMesh, qualities: Any = (), **opti
         kept.append(ctypes.create_string_buffer(plain) if isinstance(plain, bytes) else None)
         at = ctypes.addressof(kept[-1]) if isinstance(plain, bytes) else None
         size = len(plain) if isinstance(plain, bytes) else 0
-        numbers = (value if kind == 1 else 0, value if kind == 2 else 0.0)
-        entries[i] = Entry(name.encode(), kind, *numbers, at, size)
+        both = value if kind == 1 else 0, value if kind == 2 else 0.0
+        entries[i] = Entry(name.encode(), kind, *both, at, size)
     arrays = kept[0].ctypes.data, None, kept[1].ctypes.data, ctypes.addressof(given)
     whole = Mesh(ctypes.sizeof(Mesh), len(kept[0]), len(kept[1]), *arrays, len(given), ctypes.addressof(entries))
     whole.metadata_count = len(entries)

@@ -115,7 +115,7 @@ class Options(Structure):
 
 
 class ReleasedOptions(Structure):
-    """Those of release 1.0."""
+    """Options of release 1.0."""
 
     _fields_ = [("limits", c_void_p), ("allocator", c_void_p), ("tolerant", c_int), ("start", c_int64)]
 
