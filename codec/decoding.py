@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm._core import Decoder as Engine
 from bsm._core import DecoderState
-from bsm.bitstream.container.header import HEADER_FIELDS, Header
+from bsm.bitstream.container.header import Header, values_of
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
@@ -191,7 +191,7 @@ class StreamDecoder:
                 self.metadata, self._entries = {**self.metadata, **dict(entries)}, event[1]
                 continue
             if event[0] == HEADER:
-                self._header = header_of(self._open.header())
+                self._header = Header(**values_of(Header, self._open.header()))
                 if bool(self._header.gop_frames) != self._of_sequences:
                     kind, text = self._misfit
                     self._error = kind(text, offset=PREAMBLE_BYTES, frame=0)
@@ -370,11 +370,6 @@ class SequenceDecoder(StreamDecoder):
         for index, (attribute, moves) in self._known.items():
             found = self._attribute(index) if moves else None
             yield attribute if found is None else found[0]
-
-
-def header_of(numbers: Mapping[int, list[float]]) -> Header:
-    """The header whose fields have these numbers, by their keys."""
-    return Header(**{name: item.of_numbers(numbers.get(item.key, [])) for name, item in HEADER_FIELDS.items()})
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias
 
@@ -32,10 +33,6 @@ class Field:
         if self.type is tuple:
             return tuple(_plain(self.item, item) for item in value)
         return _plain(self.type, value)
-
-    def of_numbers(self, numbers: list[float]) -> Any:
-        """The value that these numbers of a decoder are."""
-        return tuple(map(self.item, numbers)) if self.type is tuple else self.type(numbers[0])
 
     def problem(self, value: Any) -> str | None:
         """Return the fault of a normalized value, or None."""
@@ -197,6 +194,15 @@ class Header:
 
 def fields_of(kind: Kind) -> dict[str, Field]:
     return {item.name: item.metadata["wire"] for item in fields(kind)}
+
+
+def values_of(kind: Kind, numbers: Mapping[int, list[float]]) -> dict[str, Any]:
+    """The values of fields, but for texts, of their numbers by keys."""
+    return {
+        name: tuple(map(item.item, numbers.get(item.key, []))) if item.type is tuple else item.type(*numbers[item.key])
+        for name, item in fields_of(kind).items()
+        if item.type is not str
+    }
 
 
 def defaults_of(kind: Kind) -> dict[str, Any]:

@@ -143,6 +143,15 @@ template <typename Work> auto unlocked(Work work) {
     return work();
 }
 
+// The numbers of the fields of a record by their keys.
+template <typename Of> auto numbers_by_key(const Of *of, int (*find)(const Of *, int, const double **)) {
+    std::map<int, std::vector<double>> all;
+    const double *numbers;
+    for (int key = 0; key < MOST_FIELD_KEY; key++)
+        if (int count = find(of, key, &numbers); count > 0) all[key] = {numbers, numbers + count};
+    return all;
+}
+
 class Decoder : public Shared {
   public:
     Decoder(nb::object limits, int64_t threads, bool tolerant, int64_t start, int64_t layers)
@@ -260,13 +269,7 @@ class Decoder : public Shared {
     }
 
     // The numbers of the header's fields by their keys.
-    auto header() {
-        std::map<int, std::vector<double>> all;
-        const double *numbers;
-        for (int key = 0; key < MOST_HEADER_KEY; key++)
-            if (int count = decoder_field(decoder, key, &numbers); count > 0) all[key] = {numbers, numbers + count};
-        return all;
-    }
+    auto header() { return numbers_by_key(decoder, decoder_field); }
 
     DecoderState state() {
         return unlocked([&] { return decoder_state(decoder); });
@@ -375,9 +378,9 @@ class Place : public Shared, Output {
         : faces(faces.rows) {
         run([&] { return encode_place(encoding, given, index, kept, face_order, turns, faces, vertices, keeps); });
     }
-    // Coding, domain, origin, whose seams it has, own seams, largest levels, offsets, step; coded numbers, decoded
-    // values, the value of each corner, if that is not its vertex, the vertex of each value, whether it leans; and the
-    // outcome: error, step of integers, bits, normals without length, whether others had another length than 1.
+    // The numbers of the declaration, own seams, coded numbers, decoded values, the value of each corner, if that is
+    // not its vertex, the vertex of each value, whether it leans; and the outcome: error, step of integers, bits,
+    // normals without length, whether others had another length than 1.
     auto carry(bool first, const std::string &name, nb::object array, int kind, int domain, int semantic,
         std::optional<Rows<int32_t, 3>> indices, int quality, double amount) {
         auto values = nb::cast<nb::ndarray<nb::ndim<2>, nb::c_contig, nb::ro, nb::device::cpu>>(array);
@@ -400,14 +403,12 @@ class Place : public Shared, Output {
         const Writing &seams = *encoding_payloads(encoding);
         Made<void> decoded = made_of<void>(whole.rows, (int64_t)values.shape(1), KINDS[kind]);
         carried_values(encoding, decoded.data);
-        return std::make_tuple(whole.coding, whole.domain, whole.origin, whole.seams_of,
-            nb::bytes(seams.data, (size_t)seams.size),
-            std::vector<int64_t>(whole.largest, whole.largest + whole.words),
-            std::vector<double>(whole.offset, whole.offset + whole.words), whole.step,
-            copy_of(whole.pieces, whole.rows, whole.columns), decoded,
+        const bsmenc_outcome &outcome = whole.outcome;
+        return std::make_tuple(numbers_by_key((const Encoding *)encoding, carried_field),
+            nb::bytes(seams.data, (size_t)seams.size), copy_of(whole.pieces, whole.rows, whole.columns), decoded,
             whole.faces == nullptr ? std::nullopt : std::optional(copy_of(whole.faces, faces, 3)),
             copy_of(whole.vertices, whole.vertices_count), whole.leans,
-            std::make_tuple(whole.error, whole.whole_step, whole.bits, whole.zeros, whole.scaled));
+            std::make_tuple(outcome.error, outcome.step, outcome.bits, outcome.zeros, outcome.scaled != 0));
     }
 
   private:

@@ -15,12 +15,15 @@ DecoderState decoder_state(const bsmdec *decoder) {
         spent->vertices - spent->gone, spent->spent, spent->received, spent->reserved};
 }
 
-_Static_assert((int)MOST_HEADER_KEY == MOST_KEY, "headers have other keys");
+_Static_assert((int)MOST_FIELD_KEY == MOST_KEY, "fields have other keys");
 
-int decoder_field(const bsmdec *decoder, int key, const double **numbers) {
-    const Record *record = &decoder->reader.headers[decoder->reader.header].record;
+static int numbers_of(const Record *record, int key, const double **numbers) {
     *numbers = record->number[key];
     return record->count[key];
+}
+
+int decoder_field(const bsmdec *decoder, int key, const double **numbers) {
+    return numbers_of(&decoder->reader.headers[decoder->reader.header].record, key, numbers);
 }
 
 _Static_assert(sizeof((SkimmedPacket *)0)->name > MOST_NAME, "names do not fit");
@@ -54,6 +57,7 @@ struct Encoding {
     CodedMesh coded;
     Carried *carried;
     int carried_count;
+    Record declared; /* the last of them */
     Mark mark; /* before what carried attributes have */
     Writing payloads;
     CodedChain *chain;
@@ -154,18 +158,17 @@ bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool firs
         return false;
     encoding->carried_count++;
     const Declaration *d = &carried->quantized.declaration;
-    const bsmenc_outcome *outcome = &carried->quantized.outcome;
     Ints2 pieces = {NULL, 0, 0};
     if (d->words > 0 && !take_pieces(&writer->arena, carried, &pieces)) return false;
-    *whole = (Whole){d->coding, d->domain, d->origin, d->words, outcome->bits, d->rows, (int64_t)d->seams_of,
-        outcome->zeros, d->step[0], outcome->error, outcome->step, outcome->scaled != 0, {0}, {0}, pieces.data,
-        d->domain == BSMDEC_CORNER ? carried->faces.data : NULL, carried->vertices.data, pieces.columns,
+    encoding->declared = declaration_record(d);
+    *whole = (Whole){carried->quantized.outcome, pieces.data,
+        d->domain == BSMDEC_CORNER ? carried->faces.data : NULL, carried->vertices.data, d->rows, pieces.columns,
         carried->vertices.size, d->words > 0 && can_lean(d)};
-    for (int i = 0; i < d->words; i++) {
-        whole->largest[i] = d->largest[i];
-        whole->offset[i] = d->offset[i];
-    }
     return true;
+}
+
+int carried_field(const Encoding *encoding, int key, const double **numbers) {
+    return numbers_of(&encoding->declared, key, numbers);
 }
 
 bool encode_positions(Encoding *encoding, const Encoding *like, Written given, const int32_t *largest, int light,

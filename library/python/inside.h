@@ -15,7 +15,7 @@ typedef struct {
 } DecoderState;
 DecoderState decoder_state(const bsmdec *decoder);
 /* The numbers of a field of the header of the present run, and how many there are. */
-enum { MOST_HEADER_KEY = 25 };
+enum { MOST_FIELD_KEY = 25 };
 int decoder_field(const bsmdec *decoder, int key, const double **numbers);
 /* What a packet says before it is decoded; `positions` is their checksum or -1. What follows is of an attribute. */
 typedef struct {
@@ -51,22 +51,19 @@ bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, co
  * joined one, the joined one of each coded one, and its corner that is the first. Arrays must outlive this. */
 bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstInts kept, ConstInts face_order,
     ConstBytes turns, ConstInts2 faces, int64_t vertices, bool keeps);
-/* The numbers of the declaration and of the outcome of an attribute in such a place (library/encode/carrying.h), and
- * arrays of the encoding: coded numbers, the coded value of each corner (NULL: its vertex), the vertex of each. */
+/* The outcome of an attribute in such a place (library/encode/carrying.h), and arrays of the encoding: coded numbers,
+ * the coded value of each corner (NULL: its vertex), the vertex of each. */
 typedef struct {
-    int coding, domain, origin, words, bits;
-    int64_t rows, seams_of, zeros;
-    double step, error, whole_step;
-    bool scaled;
-    int64_t largest[8];
-    double offset[8];
+    bsmenc_outcome outcome;
     const int32_t *pieces, *faces, *vertices;
-    int64_t columns, vertices_count;
+    int64_t rows, columns, vertices_count;
     bool leans; /* it may be predicted from positions */
 } Whole;
 /* Carry an attribute, the first or the next one; its seams are the payload. Then write the decoded values. */
 bool encode_carried(Encoding *encoding, const bsmenc_attribute *given, bool first, Whole *whole);
 void carried_values(const Encoding *encoding, void *values);
+/* The numbers of a field of its declaration, and how many there are. */
+int carried_field(const Encoding *encoding, int key, const double **numbers);
 /* With `congruence` of the header, its rows of `transforms` (V 17.2), and corners of an encoding like it, or NULL. */
 bool encode_positions(Encoding *encoding, const Encoding *like, Written given, const int32_t *largest, int light,
     const double *origin, double step, const double *exact, const int32_t *transforms, int congruence);

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from bsm._core import Field, Place
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration, entries_of
+from bsm.bitstream.container.header import FACE, MOST_ATTRIBUTES, RECOMPUTED, Declaration, entries_of, values_of
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.wire import with_lengths, write_map
 from bsm.bitstream.errors import OptionError
@@ -112,24 +112,11 @@ def _carry(place: Place, faces: Faces, first: bool, attribute: Attribute, qualit
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
     found = place.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
-    coding, domain, origin, seams_of, seams, largest, offset, step, pieces, decoded, own, at, leans, outcome = found
-    declaration = Declaration(
-        name=attribute.name,
-        domain=domain,
-        origin=origin,
-        semantic=semantic,
-        kind=kind,
-        components=attribute.components,
-        coding=coding,
-        rows=len(pieces),
-        largest=tuple(largest),
-        offset=tuple(offset) if any(offset) else (),
-        step=(step,) if largest and step != 1.0 else (),
-        seams_of=seams_of,
-    )
+    numbers, seams, pieces, decoded, own, at, leans, outcome = found
+    declaration = Declaration(name=attribute.name, **values_of(Declaration, numbers))
     surface = Surface(faces if own is None else own, at)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
-    became = "recomputed from the decoded mesh" if coding == RECOMPUTED else noted(*outcome)
+    became = "recomputed from the decoded mesh" if declaration.coding == RECOMPUTED else noted(*outcome)
     return PreparedAttribute(
         declaration, seams, surface, pieces, leans, decoded, f"{attribute.name}: {what}per {attribute.domain}, {became}"
     )

@@ -8,11 +8,10 @@ from itertools import chain
 import numpy as np
 
 from bsm._core import Decoder, SkimmedPacket
-from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.header import Header, values_of
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.decoding import header_of
 
 
 @dataclass(frozen=True)
@@ -120,7 +119,7 @@ class Skimmer:
     @property
     def header(self) -> Header:
         """Header of the latest run."""
-        return header_of(self.engine.header())
+        return Header(**values_of(Header, self.engine.header()))
 
 
 def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> StreamInfo:
