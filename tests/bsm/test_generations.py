@@ -105,7 +105,7 @@ def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_gener
     assert bsm.decode(bsm.encode(bsm.load(source), metadata=own)).metadata == own
 
 
-@pytest.mark.parametrize("kind", ["ply", "obj", "off", "glb"])
+@pytest.mark.parametrize("kind", ["ply", "obj", "off", "stl", "glb"])
 def test_a_decoded_file_says_so_and_the_next_stream_which_generation_it_is(kind, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     bsm.save(torus(20, 12), "a.ply")

@@ -37,6 +37,7 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="*.bsm", options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
     files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"})
+    own_start: BoolProperty(name="Own First Frame", default=True, description="The number that the stream gives, or 1")
     frame_start: IntProperty(name="First Frame", default=1, description="Frame of the scene that shows the first one")
     up: EnumProperty(
         name="Up",
@@ -55,7 +56,11 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
         from .objects import import_file
 
         names = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [self.filepath]
-        given = {"frame_start": self.frame_start, "set_scene": self.set_scene, "up": self.up}
+        given = {
+            "frame_start": None if self.own_start else self.frame_start,
+            "set_scene": self.set_scene,
+            "up": self.up,
+        }
         with progress_of(context) as progress:
             for name in names:
                 try:

@@ -27,6 +27,7 @@ from bsm.files.motion.caches import write_cache
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.lengths import metres, unit_of
 from bsm.libraries import warn
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
@@ -210,7 +211,7 @@ Progress = Callable[[int, int], None]
 
 
 def import_file(
-    path: str, *, frame_start: int = 1, set_scene: bool = True, up: str = "", progress: Progress | None = None
+    path: str, *, frame_start: int | None = None, set_scene: bool = True, up: str = "", progress: Progress | None = None
 ) -> list[Any]:
     """Import a stream; the objects that were made, selected, the first of them active; `up` ("y", "z") is the axis that
     points up in it, where it does not say so itself."""
@@ -230,10 +231,12 @@ def import_file(
 
 
 def _placed(name: str, mesh: TriangleMesh, up: str) -> Any:
-    """Return an object with its metadata, turned upright if its y axis points up."""
+    """Return an object with its metadata, turned upright if its y axis points up, and as large as its unit says."""
     made = bpy.data.objects.new(name, data_of(mesh, name))
     if str(mesh.metadata.get("up", up)).lower() == "y":
         made.rotation_euler = (math.pi / 2, 0.0, 0.0)
+    size = metres(unit_of(mesh.metadata)) or bpy.context.scene.unit_settings.scale_length
+    made.scale = 3 * (size / bpy.context.scene.unit_settings.scale_length,)
     for key, value in mesh.metadata.items():
         if not isinstance(value, bytes) and not key.startswith(("material.", "image.", "part.")):
             made[key] = value
@@ -241,10 +244,13 @@ def _placed(name: str, mesh: TriangleMesh, up: str) -> Any:
 
 
 def _sequence(
-    name: str, data: bytes, source: str, frame_start: int, set_scene: bool, up: str, progress: Progress | None
+    name: str, data: bytes, source: str, frame_start: int | None, set_scene: bool, up: str, progress: Progress | None
 ) -> list[Any]:
     """An object for each run of frames that share their faces, seen while it plays."""
     found: list[tuple[Any, int, int]] = []
+    known = inspect_stream(iter([data])).metadata.get("frame_start")
+    if frame_start is None:
+        frame_start = round(known) if isinstance(known, int | float) and abs(known) < 1e6 else 1
     for begun, mesh, frames, count in _runs(data):
         made = _placed(name if not found else f"{name}_{begun:05d}", mesh, up)
         path = _cache_path(made.name, source)

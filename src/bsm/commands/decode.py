@@ -39,7 +39,7 @@ from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
 from bsm.lengths import metres, unit_of
 from bsm.libraries import PROVENANCE
 
-SAYING = ("ply", "obj", "off", "glb")  # formats of files that say that they were decoded
+SAYING = ("ply", "obj", "off", "stl", "glb")  # formats of files that say that they were decoded
 WITH_FLOATS = 2  # of `Header.light`
 NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"
 

@@ -193,3 +193,21 @@ def test_a_broken_stage_is_told_with_its_line(tmp_path):
     (tmp_path / "a.usda").write_text('#usda 1.0\ndef Mesh "a" {\n this is broken\n}\n')
     with pytest.raises(bsm.FormatError, match=r"a\.usda:3"):
         read_mesh(tmp_path / "a.usda")
+
+
+@pytest.mark.parametrize("place", ["/World/crane", "/crane"])
+def test_a_mesh_comes_back_under_its_own_path(tmp_path, place):
+    from pxr import Usd, UsdGeom
+
+    stage = Usd.Stage.CreateNew(str(tmp_path / "a.usda"))
+    mesh = UsdGeom.Mesh.Define(stage, place)
+    for time in (1, 2):
+        mesh.CreatePointsAttr().Set([(0, 0, 0), (1, 0, 0), (0, time, 0)], time)
+    mesh.CreateFaceVertexCountsAttr().Set([3])
+    mesh.CreateFaceVertexIndicesAttr().Set([0, 1, 2])
+    stage.Save()
+    assert main(["encode", str(tmp_path / "a.usda")]) == 0
+    assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "b.usda")]) == 0
+    back = Usd.Stage.Open(str(tmp_path / "b.usda"))
+    assert back.GetPrimAtPath(place).IsA(UsdGeom.Mesh)
+    assert back.GetDefaultPrim().GetPath() == "/" + place.split("/")[1]

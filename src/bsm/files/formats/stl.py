@@ -63,7 +63,8 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         with np.errstate(invalid="ignore"):  # a later check refuses NaN
             soup = records["corners"].reshape(-1, 3).astype(np.float64)
         header = data[: HEAD - 4].rstrip(b"\0 ")
-        metadata = {_HEADER: header.decode("latin-1")} if header.strip(b"\0 ") else {}
+        said = "provenance" if header.startswith(b"bsm ") else _HEADER
+        metadata = {said: header.decode("latin-1")} if header.strip(b"\0 ") else {}
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
     corners = group_rows(soup)
@@ -109,7 +110,8 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
         triangles["attribute"] = attribute.values[:, 0]
     else:
         attribute = None
-    header = str(mesh.metadata.get(_HEADER, "")).encode("latin-1", "replace")
+    said = _HEADER if _HEADER in mesh.metadata else "provenance"
+    header = str(mesh.metadata.get(said, "")).encode("latin-1", "replace")
     fits = len(header) < HEAD - 3 and not header.startswith(b"solid")  # which would be a text
     data = (header if fits else b"").ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
-    return Written(data, left_out(mesh, [attribute], [n for n in mesh.metadata if n != _HEADER or not fits]))
+    return Written(data, left_out(mesh, [attribute], [n for n in mesh.metadata if n != said or not fits]))

@@ -659,6 +659,8 @@ class _Stage:
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         of_materials, absent = materials.metadata(self._limits)
         metadata = {"up": up, "unit": conventions.unit_named(unit), **named, **found.metadata, **of_materials}
+        own = self.parts[0].prim.GetPath()
+        metadata |= {"prim": str(own)} if len(self.parts) == 1 and own.pathElementCount > 1 else {}
         left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out) | materials.left
         notes = [*found.notes, *absent, *self.notes]
         if frozen := dict.fromkeys(name for part in self.parts for name in part.shape.frozen):
@@ -791,8 +793,12 @@ def _begun(
     stage.SetStartTimeCode(shared.code(0))
     stage.SetInterpolationType(pxr.Usd.InterpolationTypeLinear)
     name = pxr.Tf.MakeValidIdentifier(str(metadata.get("name") or "mesh"))
-    mesh = geom.Mesh.Define(stage, f"/{name}")
-    stage.SetDefaultPrim(mesh.GetPrim())
+    own = re.fullmatch(r"(/[A-Za-z_]\w{0,99}){1,30}", str(metadata.get("prim")), re.ASCII)
+    place = pxr.Sdf.Path(own[0] if own else f"/{name}")
+    mesh = geom.Mesh.Define(stage, place)
+    for above in list(place.GetPrefixes())[:-1]:
+        geom.Xform.Define(stage, above)
+    stage.SetDefaultPrim(stage.GetPrimAtPath(place.GetPrefixes()[0]))
     mesh.CreateSubdivisionSchemeAttr(geom.Tokens.none)
     mesh.CreateFaceVertexCountsAttr().Set(np.full(len(first.faces), 3))
     mesh.CreateFaceVertexIndicesAttr().Set(first.faces.reshape(-1))
@@ -803,7 +809,7 @@ def _begun(
     materials, written = write_materials(pxr, mesh, first, images)
     others = _others(first, materials, parts := name_parts(pxr, mesh, first))
     shared.loses(attribute.name for attribute in others if not _written(pxr, mesh, attribute))
-    written |= {"up", "name"} | ({"unit"} if size else set())
+    written |= {"up", "name", "prim"} | ({"unit"} if size else set())
     written |= {"part.names", *(f"part.{n}.name" for n in formats.names_in(metadata, "part"))} if parts else set()
     shared.loses(formats.in_words((name for name in first.metadata if name not in written), first.metadata))
     return mesh, materials
