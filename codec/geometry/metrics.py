@@ -18,7 +18,7 @@ from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
 from bsm.codec.geometry.graph import Lists, mesh_edges, vertex_neighbors
-from bsm.codec.geometry.mesh import extent_of, require_sizes
+from bsm.codec.geometry.mesh import extent_of, require_sizes, squares_of
 
 
 @public
@@ -103,14 +103,14 @@ class Reference:
     def mnd(self, decoded: Positions) -> float:
         """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2."""
         normals, counted = face_normals(self._checked(decoded), self.faces), self._normals.any(axis=1)
-        lengths = np.sqrt(np.square(self._normals - normals).sum(axis=1))
+        lengths = np.sqrt(squares_of(self._normals - normals))
         lengths[~normals.any(axis=1)] = math.sqrt(2.0)
         return float(lengths[counted].mean()) if counted.any() else 0.0
 
     def compare(self, decoded: Positions) -> Comparison:
         require_sizes(decoded, 0.0, SIZES[1], "compared")
         visual = self.nmsve(decoded)
-        squared = np.square(self.positions - decoded).sum(axis=1)
+        squared = squares_of(self.positions - decoded)
         rms, largest = math.sqrt(squared.mean()), math.sqrt(squared.max())
         return Comparison(
             nmsve=visual,
@@ -168,9 +168,10 @@ def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
 
 def have_normals(positions: Positions, faces: Faces, areas: Floats) -> Mask:
     """Which faces, shape (m,), have a normal that is not rounding alone, as `weighted_angle` tells."""
-    a, b, c = (positions[corner] for corner in faces.T)
-    squares = np.sort([np.square(side).sum(axis=1) for side in (b - a, c - b, a - c)], axis=0)
-    return np.asarray(2.0 * areas > 1e-9 * np.sqrt(squares[1] * squares[2]))
+    a, b, c = (positions[corner] for corner in np.ascontiguousarray(faces.T))
+    x, y, z = map(squares_of, (b - a, c - b, a - c))
+    largest = np.maximum(np.maximum(x * y, y * z), z * x)  # of the two longest sides
+    return np.asarray(2.0 * areas > 1e-9 * np.sqrt(largest))
 
 
 def face_normals(positions: Positions, faces: Faces) -> Floats:
@@ -180,8 +181,8 @@ def face_normals(positions: Positions, faces: Faces) -> Floats:
 def flat_faces(positions: Positions, faces: Faces) -> Mask:
     """Which faces, shape (m,), have no area, but for the rounding of coordinates."""
     a, b, c = (np.asarray(positions, np.float64)[corner] for corner in np.ascontiguousarray(faces.T))
-    longest = np.sqrt(np.max([np.square(side).sum(axis=1) for side in (b - a, c - b, a - c)], axis=0))
-    area = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1))
+    longest = np.sqrt(np.max([squares_of(side) for side in (b - a, c - b, a - c)], axis=0))
+    area = np.sqrt(squares_of(np.cross(b - a, c - a)))
     return np.asarray(area <= 8.0 * np.finfo(np.float64).eps * np.abs(positions).max(initial=0.0) * longest)
 
 

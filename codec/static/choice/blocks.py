@@ -263,7 +263,7 @@ class Plain:
     def at(self, step: float) -> Trial:
         base = self._spectral.base(step, self._bounds.measures.near.within())
         reaches = self._bounds.reaches
-        out = np.square(base.positions - base.prepared.positions).sum(axis=1) > reaches**2
+        out = squares_of(base.positions - base.prepared.positions) > reaches**2
         if not out.any():
             return Trial(step, base.positions, lambda: base.draft)
         layer = Layer(single(max(float(reaches[out].min()), FINEST_LAYER)), 1.0)

@@ -251,9 +251,11 @@ def gaps(prepared: Prepared, contract: Contract) -> Gaps:
     """Where parts are near each other, but do not touch."""
     part, positions, faces = prepared.components, prepared.positions, prepared.mesh.faces
     reach, count = 2.0 * contract.by_part * prepared.mesh.diagonal / prepared.units.scale, int(part.max(initial=0)) + 1
+    if not 1 < count <= MOST_PARTS or not reach < math.inf:
+        return Gaps(np.empty((0, 4), np.int64), np.empty((0, 4, 3)))
     low, high = positions[faces].min(axis=1), positions[faces].max(axis=1)
     rows, nearest = [np.empty((0, 7))], np.full(count, np.inf)
-    for number in range(count if 1 < count <= MOST_PARTS and reach < math.inf else 0):
+    for number in range(count):
         own = part[faces[:, 0]] == number
         first, last = low[own].min(axis=0) - reach, high[own].max(axis=0) + reach
         near = ~own & (low <= last).all(axis=1) & (high >= first).all(axis=1)

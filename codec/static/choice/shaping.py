@@ -13,6 +13,7 @@ from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
+from bsm.codec.geometry.mesh import squares_of
 from bsm.codec.geometry.metrics import Original
 from bsm.codec.static.choice.settling import PULL
 
@@ -46,7 +47,7 @@ class Shaper:
     def mean_edge(self) -> float:
         """Mean length of an edge: of the first one of each face."""
         a, b = (self._original.positions[corner] for corner in self._original.faces[:, :2].T)
-        return float(np.sqrt(np.square(a - b).sum(axis=1)).mean())
+        return float(np.sqrt(squares_of(a - b)).mean())
 
     def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
         """Levels along fixed directions."""
