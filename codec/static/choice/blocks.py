@@ -205,8 +205,10 @@ class InBlocks:
     @cached_property
     def _eps(self) -> tuple[float, float] | None:
         """eps_l and eps_h in BSM units."""
-        edge, doi = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces), self._options.paper.doi
-        return doi and (edge * doi[0], edge * doi[1])
+        if (doi := self._options.paper.doi) is None:
+            return None
+        edge = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces)
+        return edge * doi[0], edge * doi[1]
 
     @property
     def first_step(self) -> float:
