@@ -89,7 +89,7 @@ def random_grid(random: Random, mesh: TriangleMesh) -> bytes:
         counts.append(random.randrange(1, left + 1) if random.random() < 0.5 else left)
         left -= counts[-1]
     fields = {"grid": largest} | _fields(random, max(largest))
-    if not fields["light"] and random.random() < 0.75:
+    if random.random() < 0.75:
         fields["transforms"] = any_transforms(random, random.randrange(17), largest)
         fields["whole"] = random.random() < 0.5
     return stream_of(gridded(coded, values, counts, **fields))

@@ -17,7 +17,7 @@ from bsm.bitstream.limits import Limits
 TARGET = Path(__file__).parents[1] / "web/src/constants.ts"
 
 _PLAIN: dict[Any, str] = {int: "int", float: "float"}
-_OF_A_BUILD = ("vertices", "attributes", "light", "sequence", "paper")
+_OF_A_BUILD = ("vertices", "attributes", "light", "sequence", "paper", "congruence")
 """Fields that tell which decoder a stream needs."""
 _IN_A_GRID = ("HEADER", "METADATA", "CONNECTIVITY", "GRID", "END")
 """Frames of a stream on a light grid."""

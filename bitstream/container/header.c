@@ -128,7 +128,6 @@ static bool check_grid(Context *context, const Header *header) {
         && agrees(context, count[CORNER] % 3 == 0, "a corner of other than three axes")
         && agrees(context, !(header->counted && centered), "a corner and a center") && agrees(context,
             header->light != EXACT_FLOATS || count[LATTICE] + count[CORNER] == 0, "floats in cells that are counted")
-        && agrees(context, header->light != LIGHT || header->congruence == 0, "congruent parts of a light grid")
         && agrees(context, header->light == 0 || (stored & BIT(TURN)) == 0, "a turn of a light or exact grid")
         && agrees(context, (stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
 }

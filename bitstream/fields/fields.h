@@ -295,13 +295,19 @@ enum {
     LIGHT_ROW = 12,   /* slots of a size and a kind */
     LIGHT_SPAN = LIGHT_KINDS * LIGHT_ROW + 7, /* slots of a size */
     LIGHT_SLOTS = LIGHT_SIZES * LIGHT_SPAN,
+    LEAN_INPUTS = 3, /* where twins foretell values */
+    LEAN_CONTEXTS = 392,
+    LEAN_NODES = LIGHT_ROW + 7,
+    LEAN_SLOTS = LEAN_INPUTS * LEAN_CONTEXTS * LEAN_NODES,
 };
 
 typedef struct {
     ConstInts largest; /* 3: values of each axis are 0 .. largest, below 2^20 */
     Ints2 values;      /* n x 3 */
     Ints2 gaps;        /* n x 3: how far values were from guesses, in 1/16 */
-    Words slots;       /* LIGHT_SLOTS */
+    Words slots;       /* LIGHT_SLOTS, or LEAN_SLOTS with twins */
+    struct Twins *twins; /* or NULL */
+    int32_t *weights;    /* with twins: LEAN_NODES x LEAN_INPUTS */
 } Light;
 
 int64_t code_light(Coder coder, Corners corners, Light light, int64_t first, int64_t count);

@@ -6,7 +6,6 @@ enum {
     STEPS = 3, /* axes of a vertex in the order in which they are coded */
     GUESSES = 4 * 2 * VALENCES,
     LEARNERS = GUESSES + 4 * STEPS,
-    CERTAINTIES = 4 * 2 * 4 * STEPS,
     ECHO_CLASSES = 15,
 };
 
@@ -168,15 +167,6 @@ OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, Place
     for (int j = 0; j < AXES; j++) /* V 8.4 */
         p->closing[j] = balance(corners, &g->values, &g->sums, &p->around, j, p->base[j]);
     span_planes(g, p);
-}
-
-/* How well a twin is known: its row of scales and hits, less what it is of (V 17.6). */
-INLINE int32_t certainty(const Twins *t, const Candidate *c) {
-    bool other = false;
-    for (int a = 0; a < t->known_axes; a++) other = other || whole(c->place[t->axis[a]]) != t->value[a];
-    int32_t trust = t->image[c->image].trust, state = t->known_axes == 0 ? 0 : other ? 2 : 1;
-    int32_t level = (trust >= ONE / 5) + (trust >= ONE / 2) + (trust >= ONE / 5 * 4);
-    return (((int32_t)least(c->support, 3) * 2 + c->same_degree) * 4 + level) * STEPS + state;
 }
 
 /* Predictions by twins in the place of others, and their contexts (V 17.6). */

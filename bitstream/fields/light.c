@@ -1,20 +1,23 @@
-/* Positions on a grid by a small model: many times quicker to decode than by grid.simd.c (specification, V 15). */
-#include "bitstream/fields/fields.h"
+/* Positions on a grid by a small model: many times quicker to decode than by grid.simd.c (specification, V 15; where
+ * parts repeat, V 17.12). */
+#include "bitstream/fields/twins.h"
 
 enum {
     AXES = 3,
     MOST_ENDS = 16,
     LATEST = 43, /* uses after which a slot learns no slower */
-    /* Slots of a row, and behind the rows of a size. */
+    /* Nodes of decisions: slots of a row, and behind the rows of a size. */
     ZERO = 0,
     UNARY = 3,
     UNARY_SLOTS = LIGHT_ROW - UNARY,
-    SIGN = LIGHT_KINDS * LIGHT_ROW,
+    SIGN = LIGHT_ROW,
     LOW = SIGN + 3,
-    LOW_SLOTS = LIGHT_SPAN - LOW,
+    LOW_SLOTS = LEAN_NODES - LOW,
     EVEN_CLASSES = 4, /* of one width; each that follows is twice as wide */
     MOST_REST = 1 << 21,
     NORMAL_BITS = 14,
+    LATEST_MIXED = 255,
+    MIXING_RATE = 14,
 };
 
 typedef struct { /* what is known of a vertex before its axes */
@@ -88,23 +91,46 @@ OFTEN static void survey(const Corners *c, const Light *g, int32_t v, Place *p) 
     }
 }
 
+typedef struct { /* what the decisions of a value depend on: slots of a size and a kind, or contexts that are mixed */
+    RangeCoder *coder;
+    const Light *light;
+    int32_t class, kind;
+    int64_t context[LEAN_INPUTS];
+} Model;
+
+INLINE bool is_lean(const Light *light) {
+#ifdef BSMDEC_LIGHT
+    return (void)light, false;
+#else
+    return light->twins;
+#endif
+}
+
+INLINE int decide(const Model *m, int node, int bit) {
+    uint32_t *slots = m->light->slots.data;
+    if (is_lean(m->light)) {
+        Mixer mixer = {slots, m->light->weights, LATEST_MIXED, MIXING_RATE};
+        return code_decision(m->coder, &mixer, LEAN_INPUTS, m->context, node, 0, bit);
+    }
+    int row = node < LIGHT_ROW ? m->kind : LIGHT_KINDS - 1;
+    return code_plain_bit(m->coder, slots + m->class * LIGHT_SPAN + row * LIGHT_ROW + node, bit);
+}
+
 /* Code how far a value is from its guess, `off` being the guess less that level in 1/16 (V 15.6). */
-OFTEN static int32_t code_distance(
-    RangeCoder *coder, uint32_t *slots, int kind, int32_t size, int32_t off, int32_t distance) {
-    uint32_t *all = slots + least(size_class(size >> 3), LIGHT_SIZES - 1) * LIGHT_SPAN, *row = all + kind * LIGHT_ROW;
+OFTEN static int32_t code_distance(const Model *m, int32_t size, int32_t off, int32_t distance) {
     int part = (size_of(off) > 1) + (size_of(off) > 4), width = (int)largest(bit_length((uint32_t)size) - 6, 0);
-    if (code_plain_bit(coder, row + ZERO + part, distance == 0)) return 0;
-    bool below = off < 0, negative = code_plain_bit(coder, all + SIGN + part, (distance < 0) != below) != below;
+    if (decide(m, ZERO + part, distance == 0)) return 0;
+    bool below = off < 0, negative = decide(m, SIGN + part, (distance < 0) != below) != below;
     int32_t rest = size_of(distance) - 1, start = 0, i = 0;
     while (start + (1 << width) < MOST_REST
-        && code_plain_bit(coder, row + UNARY + least(i, UNARY_SLOTS - 1), rest - start >= 1 << width)) {
+        && decide(m, UNARY + (int)least(i, UNARY_SLOTS - 1), rest - start >= 1 << width)) {
         start += 1 << width;
         width += ++i >= EVEN_CLASSES;
     }
     if (width > 0) {
         int32_t half = 1 << (width - 1);
-        if (code_plain_bit(coder, all + LOW + least(i, LOW_SLOTS - 1), rest - start >= half)) start += half;
-        start += (int32_t)code_uniform(coder, rest - start, half);
+        if (decide(m, LOW + (int)least(i, LOW_SLOTS - 1), rest - start >= half)) start += half;
+        start += (int32_t)code_uniform(m->coder, rest - start, half);
     }
     return negative ? -1 - start : 1 + start;
 }
@@ -115,29 +141,79 @@ typedef struct {
     Light light;
 } Work;
 
+/* Look for images of a vertex, and code whether it is where one is (V 17.12). */
+static bool code_by_images(Work *w, int32_t v, const Place *p, Around *around) {
+    const Light *g = &w->light;
+    int32_t *x = g->values.data + AXES * (int64_t)v;
+    gather_around(&w->corners, v, around);
+    seek_images(g->twins, &w->corners, &g->values, around, v, p->guess);
+    bool done = g->twins->asks_whole
+        && code_whole(&w->coder, g->twins, around, v, p->guess, p->size, g->largest.data, x);
+    for (int j = 0; done && j < AXES; j++)
+        g->gaps.data[AXES * (int64_t)v + j] = size_of(FINE * x[j] - p->guess[j]);
+    return done;
+}
+
+/* Guess the image of a trusted twin, if there is one, and say what decisions about axis j depend on (V 17.12). */
+INLINE void expect_image(Model *m, const Around *r, int j, int32_t *guess, int32_t *size) {
+    enum { UNSURE = CERTAINTIES, NO_NEIGHBOR = 7 };
+    const Light *g = m->light;
+    const int32_t *x = g->values.data;
+    const Twins *t = g->twins;
+    int32_t sure = UNSURE, off[2] = {0, 0};
+    int chosen[2];
+    choose_twins(t, chosen);
+    if (chosen[0] >= 0) {
+        const Candidate *c = t->candidate + chosen[0];
+        sure = certainty(t, c);
+        if (c->support > 1 && t->image[c->image].trust >= ONE / 5)
+            *guess = within(c->place[j], 0, FINE * g->largest.data[j]), *size = 0;
+    }
+    for (int i = 0; i < 2 && i < r->flaps; i++) {
+        const Flap *f = r->flap + i;
+        int64_t a = AXES * (int64_t)f->a + j, b = AXES * (int64_t)f->b + j, c = AXES * (int64_t)f->c + j;
+        off[i] = FINE * (x[a] + x[b] - x[c]) - *guess;
+    }
+    int32_t beside = r->neighbors == 0 ? NO_NEIGHBOR
+        : within(x[AXES * (int64_t)r->neighbor[0] + j] - whole(*guess), -3, 3) + 3;
+    int32_t class = (int32_t)least(size_class(*size >> 3), LIGHT_SIZES - 1);
+    int32_t context[LEAN_INPUTS] = {class * LIGHT_KINDS + m->kind,
+        (beside * 7 + signed_class(off[0], FINE)) * 7 + signed_class(off[1], FINE), sure};
+    for (int i = 0; i < LEAN_INPUTS; i++) m->context[i] = (int64_t)(i * LEAN_CONTEXTS + context[i]) * LEAN_NODES;
+}
+
 OFTEN static bool code_vertex(void *work, int64_t v) {
     Work *w = work;
     RangeCoder *coder = &w->coder;
     const Light *g = &w->light;
+    Twins *t = g->twins;
+    Model m = {.coder = coder, .light = g};
+    Around around;
     Place p;
     survey(&w->corners, g, (int32_t)v, &p);
+    bool done = is_lean(g) && code_by_images(w, (int32_t)v, &p, &around);
     int32_t *x = g->values.data + AXES * v, *gap = g->gaps.data + AXES * v, before = 0;
     int64_t square = 0, used = 0, dot = 0;
     for (int j = 0; j < AXES; j++) square += (int64_t)p.normal[j] * p.normal[j];
-    for (int step = 0; step < AXES; step++) {
-        int j = p.axis[step], kind = (int)least(p.flaps, 3) * AXES + step;
+    for (int step = 0; step < AXES && !done; step++) {
+        int j = p.axis[step];
         int64_t normal = p.normal[j], tilt = step == 0 ? 0 : -normal * dot / (square - used + (square >> 1) + 1);
-        int32_t most = g->largest.data[j], guess = within(p.guess[j] + tilt, 0, FINE * most), level = whole(guess);
+        int32_t most = g->largest.data[j], plain = within(p.guess[j] + tilt, 0, FINE * most), guess = plain;
         int32_t size = ((8 - step) * p.size[j] + before) >> 3;
-        int32_t distance = is_reading(coder) ? 0 : x[j] - level;
-        int32_t value = level + code_distance(coder, g->slots.data, kind, size, guess - FINE * level, distance);
+        m.kind = (int32_t)least(p.flaps, 3) * AXES + step;
+        m.class = (int32_t)least(size_class(size >> 3), LIGHT_SIZES - 1);
+        if (is_lean(g)) expect_image(&m, &around, j, &guess, &size);
+        int32_t level = whole(guess), distance = is_reading(coder) ? 0 : x[j] - level;
+        int32_t value = level + code_distance(&m, size, guess - FINE * level, distance);
         if (value < 0 || value > most) return false;
         x[j] = value;
-        gap[j] = size_of(FINE * value - guess);
+        if (is_lean(g)) t->axis[step] = j, t->value[step] = value, t->known_axes = step + 1;
+        gap[j] = size_of(FINE * value - plain);
         before += gap[j];
         dot += normal * (FINE * value - p.guess[j]);
         used += normal * normal;
     }
+    if (is_lean(g)) remember_twins(t, &g->values, &around, (int32_t)v);
     return true;
 }
 

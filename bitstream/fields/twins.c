@@ -544,7 +544,7 @@ void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t
     }
 }
 
-void start_learnt(const ValueModel *model, Longs2 learners, Twins *twins) {
+void start_learnt(const ValueModel *model, Longs2 learners) {
     const unsigned char *start = START;
     for (int row = 0; row < START_ROWS; row++)
         for (int i = 0; i < TWIN_INPUTS; i++)
@@ -555,5 +555,9 @@ void start_learnt(const ValueModel *model, Longs2 learners, Twins *twins) {
         int32_t *row = model->twins.data + TWIN_ROW * i;
         row[0] = 6 << 8, row[1] = 3, row[2] = (int32_t)((2 * (uint32_t)*start++ + 1) << 27 | START_COUNT);
     }
-    for (int i = 0; i < WHOLE_ROWS * WHOLE_CONTEXTS; i++) twins->whole_weight[i] = (int8_t)*start++ * (ONE / 16);
+}
+
+void start_whole(Twins *twins) {
+    enum { WEIGHTS = WHOLE_ROWS * WHOLE_CONTEXTS };
+    for (int i = 0; i < WEIGHTS; i++) twins->whole_weight[i] = (int8_t)START[START_BYTES - WEIGHTS + i] * (ONE / 16);
 }

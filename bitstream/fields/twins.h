@@ -18,6 +18,7 @@ enum {
     WHOLE_CONTEXTS = 5,
     WHOLE_ROWS = 8,
     MOST_MISSES = 2,
+    CERTAINTIES = 4 * 2 * 4 * 3,
 };
 
 typedef struct { /* a transform, or the inverse of one */
@@ -80,7 +81,8 @@ enum {
     START_BYTES = START_ROWS * TWIN_INPUTS + START_LEARNERS * MOST_TERMS + TWIN_ROWS + WHOLE_ROWS * WHOLE_CONTEXTS,
 };
 extern const unsigned char START[START_BYTES];
-void start_learnt(const ValueModel *model, Longs2 learners, Twins *twins);
+void start_learnt(const ValueModel *model, Longs2 learners);
+void start_whole(Twins *twins);
 
 /* Code the transforms of a grid, a row each of `numbers`. */
 int64_t code_transforms(Coder coder, ConstInts largest, Ints2 numbers);
@@ -96,5 +98,13 @@ bool code_whole(RangeCoder *coder, Twins *twins, const Around *around, int32_t v
     const int32_t *near, const int32_t *largest, int32_t *x);
 /* The two best candidates that agree with the axes known so far; -1: there is none. */
 void choose_twins(const Twins *twins, int *chosen);
+/* How well a twin is known: its row of scales and hits, less what it is of (V 17.6). */
+INLINE int32_t certainty(const Twins *t, const Candidate *c) {
+    bool other = false;
+    for (int a = 0; a < t->known_axes; a++) other = other || whole(c->place[t->axis[a]]) != t->value[a];
+    int32_t trust = t->image[c->image].trust, state = t->known_axes == 0 ? 0 : other ? 2 : 1;
+    int32_t level = (trust >= ONE / 5) + (trust >= ONE / 2) + (trust >= ONE / 5 * 4);
+    return (((int32_t)least(c->support, 3) * 2 + c->same_degree) * 4 + level) * 3 + state;
+}
 /* Learn from a vertex, which is known now. */
 void remember_twins(Twins *twins, const Ints2 *values, const Around *around, int32_t v);

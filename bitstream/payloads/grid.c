@@ -36,9 +36,9 @@ static bool begin_twins(GridField *field, Arena *arena) {
         || !TAKE_ZEROS(arena, ECHO_HEADS, twins->echo_head)
         || !zero_ints2(arena, transforms, TRANSFORM_ROW, &field->transforms))
         return false;
-    field->twins = field->grid.twins = twins;
+    field->twins = field->grid.twins = field->light.twins = twins;
     twins->asks_whole = asks_whole(field->header);
-    start_learnt(&field->model, field->grid.learners, twins);
+    start_whole(twins);
     for (int i = 0; i < 2 * WHOLE_CONTEXTS * CONTEXT_SIZE; i++) twins->whole_slot[i] = 1u << 31;
     twins->echo[0] = (Echo){.chain = {0}}; /* the end of chains */
     if (images == 0) return true;
@@ -64,7 +64,10 @@ static bool begin_full(GridField *field, const GridField *like, Arena *arena, Ar
         || !zero_longs2(arena, AXES, words, &grid->seen)
         || !make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS, &grid->learners))
         return false;
-    if (is_congruent(field->header)) return begin_twins(field, arena);
+    if (is_congruent(field->header)) {
+        start_learnt(&field->model, field->grid.learners);
+        return begin_twins(field, arena);
+    }
     for (int k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 0, 49152);
     for (int k = SUM_LEARNERS; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 1, 8192);
     return true;
@@ -72,13 +75,17 @@ static bool begin_full(GridField *field, const GridField *like, Arena *arena, Ar
 
 static bool begin_light(GridField *field, Arena *arena) {
     Light *light = &field->light;
+    bool lean = is_congruent(field->header);
     field->order = field->corners.rank;
     *light = (Light){.largest = const_ints(field->largest), .values = field->values};
     if (!zero_ints2(arena, field->header->vertices, AXES, &light->gaps)
-        || !take_words(arena, LIGHT_SLOTS, &light->slots))
+        || !take_words(arena, lean ? LEAN_SLOTS : LIGHT_SLOTS, &light->slots))
         return false;
-    for (int64_t i = 0; i < LIGHT_SLOTS; i++) light->slots.data[i] = 1u << 31;
-    return true;
+    for (int64_t i = 0; i < light->slots.size; i++) light->slots.data[i] = 1u << 31;
+    if (!lean) return true;
+    if (!TAKE(arena, LEAN_NODES * LEAN_INPUTS, light->weights)) return false;
+    for (int i = 0; i < LEAN_NODES * LEAN_INPUTS; i++) light->weights[i] = ONE * 3 / 8;
+    return begin_twins(field, arena);
 }
 
 static bool begin_floats(GridField *field, Arena *arena) {

@@ -129,8 +129,30 @@ CONGRUENCE |= {
         ("turn", "turned axes", lambda: placed(torus(15, 12), 700, mirrors(), whole=True, turn=[0.25, -0.5, 0.125])),
     )
 }
+CONGRUENCE |= {
+    f"good-congruence-light-{name}": Good(f"congruent parts, light: {probes}", make)
+    for name, probes, make in (
+        ("none", "no transforms", lambda: placed(torus(16, 12), 500, [], light=1)),
+        ("mirrors", "mirrors along the axes", lambda: placed(torus(16, 12), 500, mirrors(), light=1)),
+        ("turned", "turns, whole vertices", lambda: placed(torus(15, 12), 700, [about(2, 5)], light=1, whole=True)),
+        ("chunks", "frames", lambda: placed(torus(16, 12), 500, mirrors(), 1, 90, 101, light=1, whole=True)),
+        ("noise", "16 transforms without sense", lambda: drawn(torus(12, 10), (1000, 3, MOST_GRID), 16, light=1)),
+        ("ends", "ends of the range", lambda: drawn(tangled(), (MOST_GRID,) * 3, 9, True, light=1, whole=True)),
+        ("hub", "a vertex with very many neighbors", lambda: drawn(hub(), (99, 999, 9), 5, light=1, whole=True)),
+        ("tent", "more neighbors and flaps than count", lambda: drawn(tent(), (255, 255, 255), 7, light=1)),
+        ("point", "a grid of one place", lambda: drawn(tetrahedron(), (0, 0, 0), 4, light=1, whole=True)),
+        ("coarse", "many vertices in a cell", lambda: placed(torus(40, 30), 12, [about(2, 4), *mirrors()], light=1)),
+    )
+}
 CONGRUENCE_BAD: dict[str, Bad] = {
-    "bad-congruence-light": Bad("congruent parts of a light grid", "corrupt", lambda: _changed(light=1, congruence=35)),
+    "bad-congruence-light-short": Bad(
+        "a light grid, 16 transforms, in a payload without", "truncated", lambda: _changed(light=1, congruence=51)
+    ),
+    "bad-congruence-light-not": Bad(
+        "congruent parts of a light grid that the header does not have",
+        "corrupt",
+        lambda: with_header(drawn(torus(12, 10), (1000, 3, MOST_GRID), 16, light=1), congruence=None),
+    ),
     "bad-congruence-blocks": Bad(
         "congruent parts without a grid", "corrupt", lambda: _changed(grid=None, congruence=35)
     ),
@@ -139,9 +161,6 @@ CONGRUENCE_BAD: dict[str, Bad] = {
     "unsupported-congruence-draft": Bad("1 transform of a draft", "unsupported", lambda: _changed(congruence=2)),
     "unsupported-congruence-draft-learnt": Bad(
         "16 transforms of a draft", "unsupported", lambda: _changed(congruence=34)
-    ),
-    "bad-congruence-whole-light": Bad(
-        "whole vertices of a light grid", "corrupt", lambda: _changed(light=1, congruence=52)
     ),
     "bad-congruence-whole-short": Bad(
         "whole vertices, 16 transforms, in a payload without", "truncated", lambda: _changed(congruence=68)

@@ -22,6 +22,7 @@ export const HEADER_KEYS = {
     light: 16,
     sequence: 17,
     paper: 19,
+    congruence: 22,
 } as const;
 
 /** The header of a light grid (F 4.4, F 4.6). */

@@ -22,9 +22,9 @@ export function needOf(data: Uint8Array): Need | undefined {
         if (end > data.length) return data[0] === PREAMBLE[0] && tag.value % 16 === 1 ? undefined : { build: "whole", vertices: 0 };
         const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, value]) => [Number(key.value), value.type === "array" ? value.value[0] : value]));
         const first = (key: number): number => Number(header.get(key)?.value ?? 0);
-        const { vertices, paper, sequence, attributes, light } = HEADER_KEYS;
+        const { vertices, paper, sequence, attributes, light, congruence } = HEADER_KEYS;
         const isPacked = first(paper) > 0;
-        const build = isPacked || header.has(attributes) ? "whole" : header.has(sequence) ? "moving" : first(light) === 1 ? "quick" : "small";
+        const build = isPacked || header.has(attributes) ? "whole" : header.has(sequence) ? "moving" : first(light) === 1 && !header.has(congruence) ? "quick" : "small";
         return { build, vertices: first(vertices) };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;

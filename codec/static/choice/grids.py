@@ -40,7 +40,7 @@ def grid_draft(prepared: Prepared, grid: Raster, places: Levels, brief: bool = F
 
 def may_repeat(prepared: Prepared) -> bool:
     """Whether congruent parts are sought."""
-    return prepared.congruence and not prepared.light and 0 < prepared.graph.size <= MOST_CONGRUENT
+    return prepared.congruence and 0 < prepared.graph.size <= MOST_CONGRUENT
 
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
@@ -195,12 +195,13 @@ class Gridded:
 
     def in_frame(self) -> "Gridded":
         """The grid in the axes of the part, if that takes much fewer bytes at the first step."""
-        if not may_repeat(self._prepared) or self._bounds.measures.normals is not None:
+        prepared = self._prepared
+        if not may_repeat(prepared) or prepared.light or self._bounds.measures.normals is not None:
             return self  # sent normals stay in the axes of the mesh, and may be predicted from the grid
-        positions, faces = self._prepared.positions, self._prepared.mesh.faces
+        positions, faces = prepared.positions, prepared.mesh.faces
         if not any(turn := turn_of(positions, faces[:: 1 + len(faces) // (4 * SAMPLE)])):
             return self
-        other = Gridded(self._prepared, self._bounds, turn=turn)
+        other = Gridded(prepared, self._bounds, turn=turn)
         own, others = (grid.at(self.first).congruent.size for grid in (self, other))
         return other if others < (1.0 - LEAST_SAVED) * own else self
 
@@ -221,7 +222,8 @@ class Gridded:
         return self._candidate(*_rounded(self._prepared, bits=bits))
 
     def _candidate(self, grid: Raster, places: Levels) -> Trial:
-        brief, step = may_repeat(self._prepared), grid.step / self._prepared.units.scale
+        repeats, quick = may_repeat(self._prepared), self._prepared.light
+        brief, step = repeats and not quick, grid.step / self._prepared.units.scale
         linked = self._prepared.linked if brief else self._prepared.mesh.faces
         light = partial(grid_draft, self._prepared, replace(grid, light=True), places, brief)
         sampled, few = lru_cache(partial(sampled_size, linked, grid, places)), len(places) <= SAMPLE
@@ -238,9 +240,10 @@ class Gridded:
             if self.transforms >= 0:
                 return coded(self.transforms)
             draft = least = make()
-            transforms = transforms_of(self._prepared, grid) if brief else None
+            transforms = transforms_of(self._prepared, grid) if repeats else None
             for some in () if transforms is None else (transforms, transforms[:0])[: 1 + len(transforms)]:
-                if len(some) or few or sampled_size(linked, replace(grid, transforms=some), places) < sampled():
+                kind = replace(grid, transforms=some)
+                if len(some) or (not quick and (few or sampled_size(linked, kind, places) < sampled())):
                     least = min(least, coded(len(some)), key=lambda d: d.size)
                 if least.size < (1.0 - LEAST_SAVED) * draft.size:
                     break

@@ -75,7 +75,8 @@ class Search:
                 ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
-        if share < 1.0 - LEAST_SAVED or 8 * first.size < self._prepared.graph.size:
+        repeats = share < 1.0 - LEAST_SAVED and not self._prepared.light
+        if repeats or 8 * first.size < self._prepared.graph.size:
             kept += self._at_rungs(grid, bounds, kept)
         most = near * min(self._size(candidate.congruent) for candidate in kept)
         alike = [candidate for candidate in kept if self._size(candidate.congruent) <= most]

@@ -86,9 +86,19 @@ def test_transforms_that_do_not_pay_are_left_out():
     assert (decode(b"".join(some.frames)).positions == both.decoded).all()
 
 
-def test_grids_that_are_asked_for_and_light_ones_are_coded_as_by_1_0():
+def test_quick_streams_are_also_predicted_from_congruent_parts():
     mesh = copies(bumpy(5), mirrors()[:1])
-    for options in (EncodeOptions(grid=12), EncodeOptions(exact=True), EncodeOptions(effort="quick")):
+    less, more = (encode(mesh, EncodeOptions(effort="quick", congruence=both)) for both in (True, False))
+    assert header_of(less).light == header_of(more).light == 1 and header_of(less).transforms > 0
+    assert len(less) < 0.7 * len(more)
+    assert look(mesh, decode(less)).distance <= 1.0
+    alone = EncodeOptions(effort="quick")
+    assert version_of(encode(bumpy(5), alone)) == 16
+
+
+def test_grids_that_are_asked_for_are_coded_as_by_1_0():
+    mesh = copies(bumpy(5), mirrors()[:1])
+    for options in (EncodeOptions(grid=12), EncodeOptions(exact=True)):
         assert encode(mesh, replace(options, congruence=True)) == encode(mesh, replace(options, congruence=False))
     assert [version_of(encode(mesh, EncodeOptions(congruence=both))) for both in (True, False)] == [17, 16]
 
