@@ -36,22 +36,10 @@ typedef struct {
 INLINE bool is_brief(const Header *header) { return !BSMDEC_LONG && header->brief; }
 
 /* How positions on a grid are coded. */
-INLINE int method_of(const Header *header) {
-#ifdef BSMDEC_LIGHT /* a build of light grids alone */
-    return (void)header, LIGHT;
-#else
-    return header->light;
-#endif
-}
+INLINE int method_of(const Header *header) { return BSMDEC_LIGHT ? LIGHT : header->light; }
 
 /* Whether values of a grid are also foretold from congruent parts. */
-INLINE bool is_congruent(const Header *header) {
-#ifdef BSMDEC_LIGHT
-    return (void)header, false;
-#else
-    return header->congruence > 0;
-#endif
-}
+INLINE bool is_congruent(const Header *header) { return !BSMDEC_LIGHT && header->congruence > 0; }
 
 /* How many transforms a congruent grid has, and whether it asks for whole vertices (V 17.1, V 17.11). */
 enum { LEAST_CONGRUENCE = 35 }; /* drafts had those below */

@@ -23,6 +23,7 @@ enum {
 typedef struct { /* what is known of a vertex before its axes */
     int32_t flaps;
     int32_t guess[AXES], size[AXES]; /* of values, and of what is expected of the error, in 1/16 */
+    int32_t across[2][AXES];         /* what the first two flaps say */
     int32_t normal[AXES];
     int axis[AXES]; /* in the order in which they are coded */
 } Place;
@@ -76,6 +77,7 @@ OFTEN static void survey(const Corners *c, const Light *g, int32_t v, Place *p) 
         for (int j = 0; j < AXES; j++) {
             int32_t across = a[j] + b[j] - o[j];
             places[j] += across;
+            if (flaps < 2) p->across[flaps][j] = across;
             lowest[j] = flaps == 0 ? across : (int32_t)least(lowest[j], across);
             highest[j] = flaps == 0 ? across : (int32_t)largest(highest[j], across);
         }
@@ -94,17 +96,12 @@ OFTEN static void survey(const Corners *c, const Light *g, int32_t v, Place *p) 
 typedef struct { /* what the decisions of a value depend on: slots of a size and a kind, or contexts that are mixed */
     RangeCoder *coder;
     const Light *light;
-    int32_t class, kind;
+    int32_t kind, size;
     int64_t context[LEAN_INPUTS];
 } Model;
 
-INLINE bool is_lean(const Light *light) {
-#ifdef BSMDEC_LIGHT
-    return (void)light, false;
-#else
-    return light->twins;
-#endif
-}
+INLINE bool is_lean(const Light *light) { return !BSMDEC_LIGHT && light->twins; }
+INLINE int32_t class_of(int32_t size) { return (int32_t)least(size_class(size >> 3), LIGHT_SIZES - 1); }
 
 INLINE int decide(const Model *m, int node, int bit) {
     uint32_t *slots = m->light->slots.data;
@@ -113,12 +110,12 @@ INLINE int decide(const Model *m, int node, int bit) {
         return code_decision(m->coder, &mixer, LEAN_INPUTS, m->context, node, 0, bit);
     }
     int row = node < LIGHT_ROW ? m->kind : LIGHT_KINDS - 1;
-    return code_plain_bit(m->coder, slots + m->class * LIGHT_SPAN + row * LIGHT_ROW + node, bit);
+    return code_plain_bit(m->coder, slots + class_of(m->size) * LIGHT_SPAN + row * LIGHT_ROW + node, bit);
 }
 
 /* Code how far a value is from its guess, `off` being the guess less that level in 1/16 (V 15.6). */
-OFTEN static int32_t code_distance(const Model *m, int32_t size, int32_t off, int32_t distance) {
-    int part = (size_of(off) > 1) + (size_of(off) > 4), width = (int)largest(bit_length((uint32_t)size) - 6, 0);
+OFTEN static int32_t code_distance(const Model *m, int32_t off, int32_t distance) {
+    int part = (size_of(off) > 1) + (size_of(off) > 4), width = (int)largest(bit_length((uint32_t)m->size) - 6, 0);
     if (decide(m, ZERO + part, distance == 0)) return 0;
     bool below = off < 0, negative = decide(m, SIGN + part, (distance < 0) != below) != below;
     int32_t rest = size_of(distance) - 1, start = 0, i = 0;
@@ -155,10 +152,9 @@ static bool code_by_images(Work *w, int32_t v, const Place *p, Around *around) {
 }
 
 /* Guess the image of a trusted twin, if there is one, and say what decisions about axis j depend on (V 17.12). */
-INLINE void expect_image(Model *m, const Around *r, int j, int32_t *guess, int32_t *size) {
+INLINE void expect_image(Model *m, const Place *p, const Around *r, int j, int32_t *guess) {
     enum { UNSURE = CERTAINTIES, NO_NEIGHBOR = 7 };
     const Light *g = m->light;
-    const int32_t *x = g->values.data;
     const Twins *t = g->twins;
     int32_t sure = UNSURE, off[2] = {0, 0};
     int chosen[2];
@@ -167,17 +163,12 @@ INLINE void expect_image(Model *m, const Around *r, int j, int32_t *guess, int32
         const Candidate *c = t->candidate + chosen[0];
         sure = certainty(t, c);
         if (c->support > 1 && t->image[c->image].trust >= ONE / 5)
-            *guess = within(c->place[j], 0, FINE * g->largest.data[j]), *size = 0;
+            *guess = within(c->place[j], 0, FINE * g->largest.data[j]), m->size = 0;
     }
-    for (int i = 0; i < 2 && i < r->flaps; i++) {
-        const Flap *f = r->flap + i;
-        int64_t a = AXES * (int64_t)f->a + j, b = AXES * (int64_t)f->b + j, c = AXES * (int64_t)f->c + j;
-        off[i] = FINE * (x[a] + x[b] - x[c]) - *guess;
-    }
+    for (int i = 0; i < 2 && i < p->flaps; i++) off[i] = FINE * p->across[i][j] - *guess;
     int32_t beside = r->neighbors == 0 ? NO_NEIGHBOR
-        : within(x[AXES * (int64_t)r->neighbor[0] + j] - whole(*guess), -3, 3) + 3;
-    int32_t class = (int32_t)least(size_class(*size >> 3), LIGHT_SIZES - 1);
-    int32_t context[LEAN_INPUTS] = {class * LIGHT_KINDS + m->kind,
+        : within(g->values.data[AXES * (int64_t)r->neighbor[0] + j] - whole(*guess), -3, 3) + 3;
+    int32_t context[LEAN_INPUTS] = {class_of(m->size) * LIGHT_KINDS + m->kind,
         (beside * 7 + signed_class(off[0], FINE)) * 7 + signed_class(off[1], FINE), sure};
     for (int i = 0; i < LEAN_INPUTS; i++) m->context[i] = (int64_t)(i * LEAN_CONTEXTS + context[i]) * LEAN_NODES;
 }
@@ -199,12 +190,11 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
         int j = p.axis[step];
         int64_t normal = p.normal[j], tilt = step == 0 ? 0 : -normal * dot / (square - used + (square >> 1) + 1);
         int32_t most = g->largest.data[j], plain = within(p.guess[j] + tilt, 0, FINE * most), guess = plain;
-        int32_t size = ((8 - step) * p.size[j] + before) >> 3;
+        m.size = ((8 - step) * p.size[j] + before) >> 3;
         m.kind = (int32_t)least(p.flaps, 3) * AXES + step;
-        m.class = (int32_t)least(size_class(size >> 3), LIGHT_SIZES - 1);
-        if (is_lean(g)) expect_image(&m, &around, j, &guess, &size);
+        if (is_lean(g)) expect_image(&m, &p, &around, j, &guess);
         int32_t level = whole(guess), distance = is_reading(coder) ? 0 : x[j] - level;
-        int32_t value = level + code_distance(&m, size, guess - FINE * level, distance);
+        int32_t value = level + code_distance(&m, guess - FINE * level, distance);
         if (value < 0 || value > most) return false;
         x[j] = value;
         if (is_lean(g)) t->axis[step] = j, t->value[step] = value, t->known_axes = step + 1;

@@ -38,6 +38,7 @@ static bool begin_twins(GridField *field, Arena *arena) {
         return false;
     field->twins = field->grid.twins = field->light.twins = twins;
     twins->asks_whole = asks_whole(field->header);
+    if (method_of(field->header) != LIGHT) start_learnt(&field->model, field->grid.learners);
     start_whole(twins);
     for (int i = 0; i < 2 * WHOLE_CONTEXTS * CONTEXT_SIZE; i++) twins->whole_slot[i] = 1u << 31;
     twins->echo[0] = (Echo){.chain = {0}}; /* the end of chains */
@@ -64,10 +65,7 @@ static bool begin_full(GridField *field, const GridField *like, Arena *arena, Ar
         || !zero_longs2(arena, AXES, words, &grid->seen)
         || !make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS, &grid->learners))
         return false;
-    if (is_congruent(field->header)) {
-        start_learnt(&field->model, field->grid.learners);
-        return begin_twins(field, arena);
-    }
+    if (is_congruent(field->header)) return begin_twins(field, arena);
     for (int k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 0, 49152);
     for (int k = SUM_LEARNERS; k < SUM_LEARNERS + SIZE_LEARNERS; k++) start_learner(grid->learners, k, 1, 8192);
     return true;
