@@ -30,6 +30,10 @@
 #pragma fp_contract(off)
 #endif
 
+#ifndef BSMDEC_LIGHT /* whether a build knows light grids alone, without congruent parts */
+#define BSMDEC_LIGHT 0
+#endif
+
 /* One and two dimensions, row-major, contiguous. */
 #define BSM_ARRAY(Name, type)                                                                                          \
     typedef struct {                                                                                                   \

@@ -288,10 +288,6 @@ typedef struct {
 
 int64_t ISA(code_grid)(Coder coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count);
 
-#ifndef BSMDEC_LIGHT /* whether a build knows light grids alone, without congruent parts */
-#define BSMDEC_LIGHT 0
-#endif
-
 /* Positions on a grid by a small model, vertices as they are numbered. See light.c. */
 enum {
     LIGHT_SIZES = 24, /* classes of what is expected of an error */

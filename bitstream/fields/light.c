@@ -146,8 +146,7 @@ static bool code_by_images(Work *w, int32_t v, const Place *p, Around *around) {
     seek_images(g->twins, &w->corners, &g->values, around, v, p->guess);
     bool done = g->twins->asks_whole
         && code_whole(&w->coder, g->twins, around, v, p->guess, p->size, g->largest.data, x);
-    for (int j = 0; done && j < AXES; j++)
-        g->gaps.data[AXES * (int64_t)v + j] = size_of(FINE * x[j] - p->guess[j]);
+    for (int j = 0; done && j < AXES; j++) g->gaps.data[AXES * (int64_t)v + j] = size_of(FINE * x[j] - p->guess[j]);
     return done;
 }
 
