@@ -147,7 +147,7 @@ class EncodeOptions:
         Keep every position exactly in single precision.
     congruence : bool
         Let the decoder also predict positions on a grid from congruent parts of the mesh, and turn the grid to its
-        axes, where that makes the stream smaller; without effect with `exact`, `grid`, `grid_cell` and "quick". Such
+        axes, where that makes the stream smaller; without effect with `exact`, `grid` and `grid_cell`. Such
         streams are of version 1.1; False writes what decoders of 1.0 read.
     grid : int, optional
         Round every position to a grid with this many bits along the longest side.
