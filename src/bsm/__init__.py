@@ -26,6 +26,9 @@ stable; `bsm.codec` and `bsm.bitstream` are internal.
 from __future__ import annotations
 
 import importlib
+import importlib.util
+import sys
+from typing import Any
 
 # The finder of an editable install would add the root of the checkout, and with it tools, tests and spec.
 __path__ = [__file__.removesuffix("__init__.py")]
@@ -48,6 +51,32 @@ with open(__path__[0] + "__init__.pyi", encoding="utf-8") as _stub:
 _HOMES = {name: module for _, module, _, name, *_ in _imports}
 
 __all__ = ["__version__", *_HOMES]
+
+
+class _Trimesh:
+    """Let trimesh read and write .bsm from its import on."""
+
+    @classmethod
+    def find_spec(cls, name: str, path: Any = None, target: Any = None) -> Any:
+        if name != "trimesh":
+            return None
+        sys.meta_path.remove(cls)
+        spec: Any = importlib.util.find_spec(name)
+        run = spec and spec.loader.exec_module
+
+        def exec_module(module: Any) -> None:
+            run(module)
+            importlib.import_module("bsm.trimesh")
+
+        if spec:
+            spec.loader.exec_module = exec_module
+        return spec
+
+
+if "trimesh" in sys.modules:
+    importlib.import_module("bsm.trimesh")
+else:
+    sys.meta_path.insert(0, _Trimesh)
 
 
 def __getattr__(name: str) -> object:

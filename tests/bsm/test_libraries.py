@@ -2,6 +2,7 @@
 
 import importlib
 import os
+import subprocess
 import sys
 from types import SimpleNamespace
 
@@ -54,6 +55,12 @@ def trimesh():
     library = pytest.importorskip("trimesh")
     importlib.import_module("bsm.trimesh")
     return library
+
+
+@pytest.mark.parametrize("names", ["bsm, trimesh", "trimesh, bsm"])
+def test_trimesh_knows_streams_once_both_are_imported(names):
+    code = f"import {names}; assert 'bsm' in trimesh.available_formats()"
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_trimesh_loads_a_stream(trimesh, tmp_path):
