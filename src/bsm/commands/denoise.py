@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 FINE = ("guided", "bilateral-normal")
 HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
+FINISHES = {"learnt": "learnt normals", "flat": "few, sharp bends"}
 STREAM = "bsm"
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
@@ -238,8 +239,8 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     yield line
     for step, times in Counter(choice.steps).items():
         chosen = step.filter
-        begun = f"hand-over: {chosen.hand_over}" + (f", c/n {chosen.keep:g}" if chosen.needs_coarse else "")
-        way = f"{step.iterations} iterations of the normal filter (guide: {chosen.guide})"
-        yield f"chosen     {100.0 * times / len(choice.steps):.0f} % {begun}; {way}, sigma_r {chosen.sigma_r:g}"
+        begun = f"hand-over {chosen.hand_over}" + (f" (c/n {chosen.keep:g})" if chosen.needs_coarse else "")
+        share = "" if times == len(choice.steps) else f"{100.0 * times / len(choice.steps):.0f} %: "
+        yield f"chosen     {share}{begun}, {step.iterations} iterations, sigma_r {chosen.sigma_r:g}"
     if choice.finish != "none":
-        yield f"finish     {choice.finish}"
+        yield f"finish     {FINISHES[choice.finish]}"
