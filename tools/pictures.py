@@ -25,6 +25,7 @@ from scipy.spatial import KDTree
 
 import bsm
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.bounds import Bounds, Trial
 from bsm.codec.static.choice.congruence import motions_between
@@ -34,13 +35,14 @@ from bsm.pictures import Image, bounds_of, png, render, view_matrix, with_titles
 from bsm.viewer.contents import Content, made
 from bsm.viewer.page import page_with
 from tools.command import run_command
+from tools.noise import gaussian_along_normals
 
 ROOT = Path(__file__).parents[1]
 FRONT, MOTION, STREAMING = "tools/front.png", "docs/gallery/motion.webp", "docs/guides/streaming.png"
 SCANS, ASSETS = "docs/gallery/scans.jpg", "docs/guides/assets.jpg"
-TWINS, TRIALS = "docs/gallery/twins.png", "docs/gallery/trials.png"
+TWINS, TRIALS, STEADY = "docs/gallery/twins.png", "docs/gallery/trials.png", "docs/guides/steady.png"
 PAGES = ("docs/guides/page-scan.jpg", "docs/guides/page-errors.jpg", "docs/guides/page-phone.jpg")
-PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, TRIALS, *PAGES)
+PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, TRIALS, STEADY, *PAGES)
 """All pictures of the documents."""
 SCANNED = {
     "static/armadillo_20002_derived.ply": 20,
@@ -67,6 +69,7 @@ def main(args: argparse.Namespace, console: Console) -> None:
     titles, images = zip(*pictures, *part(folder), strict=True)
     (ROOT / FRONT).write_bytes(with_titles(images, titles, figures=figures))
     (ROOT / TWINS).write_bytes(png(twins(bsm.load(folder / "assets" / "featuretype.STL"))))
+    (ROOT / STEADY).write_bytes(png(steady(folder / "dynamic" / "horse_gallop.npz")))
     trials(bsm.load(folder / "static" / "c3d_spot.ply"), ROOT / TRIALS)
     console.note(motion(folder / "dynamic" / "samba.npz", ROOT / MOTION))
     with tempfile.TemporaryDirectory() as work:
@@ -204,6 +207,17 @@ def part(folder: Path) -> list[tuple[str, Image]]:
     bounds = bounds_of(noisy.positions)
     pairs: tuple[tuple[str, TriangleMesh], ...] = (("noisy", noisy), ("denoised", clean))
     return [(name, render(mesh.positions, mesh.faces, PIXELS, bounds=bounds)) for name, mesh in pairs]
+
+
+def steady(path: Path) -> Image:
+    """Three frames of a noisy sequence, and under them what denoising makes of them."""
+    with np.load(path) as arrays:
+        frames, faces = arrays["positions"][:16, :, [2, 1, 0]] * [1.0, 1.0, -1.0], arrays["faces"]  # from the side
+    noisy = np.stack([gaussian_along_normals(frame, faces, 0.2, seed) for seed, frame in enumerate(frames)])
+    rows = (noisy[::7], list(FrameDenoiser(noisy[0], faces)(noisy))[::7])
+    bounds = bounds_of(noisy[::7].reshape(-1, 3))
+    drawn = [[render(frame, faces, SIDE, bounds=bounds) for frame in row] for row in rows]
+    return np.concatenate([np.concatenate(row, axis=1) for row in drawn])
 
 
 def _drawn(positions: Positions, faces: Faces, bounds: tuple[Image, float], pixels: int = PIXELS) -> Image:
