@@ -58,33 +58,17 @@ def is_unfinished(folder: str) -> bool | None:
 
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:
     """Write tiles in their order, and the manifest when all else is there."""
-    shards: list[Facts] = []
-    levels: dict[int, Facts] = {}
-    waiting = list(reversed(done))
+    shards, tiles, waiting = list[Facts](), list[Tile](), list(reversed(done))
     while waiting:
-        name = f"{len(shards):05}.tiles"
-        tiles: list[Tile] = []
-        with open_output(inside(folder, name), overwrite=overwrite, follow=False) as file:
-            offset = 0
-            while waiting and offset < SHARD and len(tiles) < MOST_TILES:
-                facts = waiting.pop()
-                data, node = Path(facts["output"]).read_bytes(), Path(facts["output"]).stem
-                counts = facts["vertices"], facts["faces"], facts["apart"]
-                ends = tuple(facts["low"]), tuple(facts["high"])
-                tiles.append(tile := Tile(node, offset, len(data), facts["output_sha256"], *counts, *ends))
-                offset += file.write(data)
-                level = levels.setdefault(
-                    tile.level, {"level": tile.level, "tiles": 0, "faces": 0, "bytes": 0, "error": 0.0}
-                )
-                for sum_of, more in (("tiles", 1), ("faces", tile.faces), ("bytes", tile.size)):
-                    level[sum_of] += more
-                level["error"] = max(level["error"], tile.error)
-            index = json.dumps([asdict(tile) for tile in tiles], separators=(",", ":")).encode()
-            file.write(index + len(index).to_bytes(8, "little") + _END)
-        shards.append({"file": name, "size": offset + len(index) + FOOT, "index": len(index), "tiles": len(tiles)})
-        lows, highs = zip(*((tile.low, tile.high) for tile in tiles))
-        ends_of = {"low": np.min(lows, axis=0).tolist(), "high": np.max(highs, axis=0).tolist()}
-        shards[-1] |= {"sha256": sha256(index).hexdigest(), **ends_of}
+        shard, held = _write_shard(folder, f"{len(shards):05}.tiles", waiting, overwrite)
+        shards.append(shard)
+        tiles += held
+    levels: list[Facts] = []
+    for number in sorted({tile.level for tile in tiles}):
+        of_level = [tile for tile in tiles if tile.level == number]
+        sums = {"faces": sum(tile.faces for tile in of_level), "bytes": sum(tile.size for tile in of_level)}
+        error = max(tile.error for tile in of_level)
+        levels.append({"level": number, "tiles": len(of_level), **sums, "error": error})
     manifest = {
         "format": "bsm tiles",
         "version": 1,
@@ -97,13 +81,32 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         **plan.about,
         "vertices": plan.vertices,
         "faces": plan.faces,
-        "levels": [levels[number] for number in sorted(levels)],
+        "levels": levels,
         "shards": shards,
     }
-    write_output(
-        inside(folder, MANIFEST), json.dumps(manifest, indent=1).encode() + b"\n", overwrite=True, follow=False
-    )
+    text = json.dumps(manifest, indent=1).encode() + b"\n"
+    write_output(inside(folder, MANIFEST), text, overwrite=True, follow=False)
     return manifest
+
+
+def _write_shard(folder: str, name: str, waiting: list[Facts], overwrite: bool) -> tuple[Facts, list[Tile]]:
+    """Write as many of the last tiles as a shard holds; return its entry in the manifest, and these tiles."""
+    tiles: list[Tile] = []
+    with open_output(inside(folder, name), overwrite=overwrite, follow=False) as file:
+        offset = 0
+        while waiting and offset < SHARD and len(tiles) < MOST_TILES:
+            facts = waiting.pop()
+            data, node = Path(facts["output"]).read_bytes(), Path(facts["output"]).stem
+            counts = facts["vertices"], facts["faces"], facts["apart"]
+            ends = tuple(facts["low"]), tuple(facts["high"])
+            tiles.append(Tile(node, offset, len(data), facts["output_sha256"], *counts, *ends))
+            offset += file.write(data)
+        index = json.dumps([asdict(tile) for tile in tiles], separators=(",", ":")).encode()
+        file.write(index + len(index).to_bytes(8, "little") + _END)
+    shard = {"file": name, "size": offset + len(index) + FOOT, "index": len(index), "tiles": len(tiles)}
+    lows, highs = zip(*((tile.low, tile.high) for tile in tiles))
+    ends_of = {"low": np.min(lows, axis=0).tolist(), "high": np.max(highs, axis=0).tolist()}
+    return shard | {"sha256": sha256(index).hexdigest(), **ends_of}, tiles
 
 
 def is_tiles(path: str) -> bool:
