@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError
+from bsm.codec.arrays import Positions
 from bsm.codec.decoding import decode
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.commands.flags import add_preset_flags, adder, options_of, within
 from bsm.console import Console, print_json
@@ -56,21 +58,25 @@ def run(args: argparse.Namespace, console: Console) -> None:
     )
     write_output(stream_path, stream, overwrite=args.force, follow=False)
     with console.progress("drawing"):
-        bounds, far = bounds_of(sample.positions), np.linalg.norm(positions - sample.positions, axis=1)
-        top = float(np.percentile(far, 99)) or 1.0
-        heat = colors_of(far / top)[sample.faces].mean(axis=1) / 255.0
-        drawn = ((sample.positions, None), (positions, None), (sample.positions, heat))
-        pictures = [render(placed, sample.faces, bounds=bounds, colors=colors) for placed, colors in drawn]
         titles = (f"original, {plain / 1000:,.0f} kB", f"decoded, {len(stream) / 1000:,.1f} kB", "error")
-        try:
-            picture = with_titles(pictures, titles, 100.0 * top / sample.diagonal)
-        except DependencyError as problem:
-            console.note(f"no titles: {problem}")
-            picture = png(np.hstack(pictures))
-        write_output(picture_path, picture, overwrite=args.force, follow=False)
+        write_output(picture_path, _drawn(sample, positions, titles, console), overwrite=args.force, follow=False)
     written = [str(stream_path), str(picture_path)]
     console.note(f"written    {', '.join(written)}")
     if args.json:
         sizes = {"vertices": vertices, "faces": faces, "bytes": len(stream), "bpv_total": 8 * len(stream) / vertices}
         errors = {name: getattr(error, name) for name in ("nmsve_db", "theta_deg", "max_error_relative")}
         print_json(sizes | {"encode_seconds": encoding, "decode_seconds": decoding} | errors | {"written": written})
+
+
+def _drawn(sample: TriangleMesh, positions: Positions, titles: tuple[str, ...], console: Console) -> bytes:
+    """A picture of the sample, of what was decoded, and of the error."""
+    bounds, far = bounds_of(sample.positions), np.linalg.norm(positions - sample.positions, axis=1)
+    top = float(np.percentile(far, 99)) or 1.0
+    heat = colors_of(far / top)[sample.faces].mean(axis=1) / 255.0
+    drawn = ((sample.positions, None), (positions, None), (sample.positions, heat))
+    pictures = [render(placed, sample.faces, bounds=bounds, colors=colors) for placed, colors in drawn]
+    try:
+        return with_titles(pictures, titles, 100.0 * top / sample.diagonal)
+    except DependencyError as problem:
+        console.note(f"no titles: {problem}")
+        return png(np.hstack(pictures))

@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+from collections.abc import Iterator
 from pathlib import Path
 
 from bsm.bitstream.errors import HarmError, OptionError
@@ -14,7 +15,7 @@ from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import decode_whole, is_stream, peek_header
 from bsm.files.table import GLTF
-from bsm.gltf.compress import compress, count_primitives
+from bsm.gltf.compress import Compressed, compress, count_primitives
 from bsm.gltf.document import Document, read_document
 from bsm.gltf.write import moving_scene
 
@@ -81,19 +82,22 @@ def run(args: argparse.Namespace, console: Console) -> None:
         f"{taken or document.received} -> {len(found.data)} bytes; largest vertex error {found.error[0]:.3g}, at most "
         f"{100 * found.error[1]:.3g} % of the diagonal of its component"
     )
-    if len(found.data) > (taken or document.received):
+    for note in _notes_on(found, document, taken or document.received, shrinks=rule is not None):
+        console.note(f"{args.input}: {note}")
+
+
+def _notes_on(found: Compressed, document: Document, before: int, *, shrinks: bool) -> Iterator[str]:
+    """Say what else is to be known of a result; `before`: the bytes of the input, `shrinks`: images become smaller."""
+    if len(found.data) > before:
         because = "".join(f", as {name} had made that small: keep it" for name in document.compressed[:1])
-        console.note(f"{args.input}: the result is larger than the input{because}")
+        yield f"the result is larger than the input{because}"
     if found.error[1] > VISIBLE:
-        console.note(f"{args.input}: small components are coarse; use --preset fine or near-lossless")
-    for note, count in found.notes.items():
-        console.note(f"{args.input}: {note}{f' ({count} times)' if count > 1 else ''}")
-    numbers = range(len(document.items("images")))
-    images = sum(len(document.image(number)[1] or b"") for number in numbers)
-    if not rule and 2 * images > len(found.data):
-        console.note(f"{args.input}: {images} bytes are unchanged images; --images webp:85 makes them smaller")
-    for reason, count in found.left.items():
-        console.note(f"{args.input}: {count} unchanged: {reason}")
+        yield "small components are coarse; use --preset fine or near-lossless"
+    yield from (f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in found.notes.items())
+    images = sum(len(document.image(number)[1] or b"") for number in range(len(document.items("images"))))
+    if not shrinks and 2 * images > len(found.data):
+        yield f"{images} bytes are unchanged images; --images webp:85 makes them smaller"
+    yield from (f"{count} unchanged: {reason}" for reason, count in found.left.items())
 
 
 def _moves(path: str) -> bool:

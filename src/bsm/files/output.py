@@ -65,29 +65,36 @@ def open_output(
         termination_as_exception(),
         by_its_own_name(path),
         _in_its_folder(Path(os.path.realpath(path) if follow is True else path), follow) as target,
+        _replacing(target, overwrite) as file,
     ):
-        name = lock = None
-        try:
-            with _signals_wait():
-                handle, name, lock = _temporary(target)
-            with os.fdopen(handle, "wb") as file:
-                yield file
-                file.flush()
-                os.fsync(file.fileno())
-                # Another program may have put a link in its place, which only a name would follow.
-                os.chmod(file.fileno() if os.chmod in os.supports_fd else name, _permissions(target))
-            if overwrite:
-                os.replace(name, target)
-            else:
-                _rename_unless_present(name, target)
-        except BaseException:
-            if name is not None:
-                with suppress(FileNotFoundError):
-                    os.unlink(name)
-            raise
-        finally:
-            if lock is not None:
-                os.close(lock)
+        yield file
+
+
+@contextmanager
+def _replacing(target: Path, overwrite: bool) -> Iterator[BinaryIO]:
+    """A temporary file that takes the place of another one at the end."""
+    name = lock = None
+    try:
+        with _signals_wait():
+            handle, name, lock = _temporary(target)
+        with os.fdopen(handle, "wb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+            # Another program may have put a link in its place, which only a name would follow.
+            os.chmod(file.fileno() if os.chmod in os.supports_fd else name, _permissions(target))
+        if overwrite:
+            os.replace(name, target)
+        else:
+            _rename_unless_present(name, target)
+    except BaseException:
+        if name is not None:
+            with suppress(FileNotFoundError):
+                os.unlink(name)
+        raise
+    finally:
+        if lock is not None:
+            os.close(lock)
 
 
 @contextmanager
