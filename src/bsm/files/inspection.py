@@ -124,14 +124,10 @@ class Skimmer:
 
 def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> StreamInfo:
     """Read a stream to its end, check every checksum, and count."""
-    skimmer = Skimmer(limits)
-    headers: list[Header] = []
-    runs: list[RunInfo] = []
-    coefficients: list[int] = []
-    gops: list[GopInfo] = []
+    skimmer, headers = Skimmer(limits), list[Header]()
+    runs, gops, coefficients = list[RunInfo](), list[GopInfo](), list[int]()
     sizes = dict.fromkeys((*dict.fromkeys(_CARRIED.values()), "attributes", "metadata"), 0)
-    declared: list[SkimmedPacket] = []
-    lengths: Counter[int] = Counter()
+    declared, lengths = list[SkimmedPacket](), Counter[int]()
     checksum: int | None = None
     total = entries = version = 0
     brief = False
