@@ -20,9 +20,10 @@ MUST_CHECK bool begin_payloads(Context *context, int64_t room, Writing *writing)
 void end_payloads(Context *context, Writing *writing);
 
 /* Write CONNECTIVITY of faces whose numbers are below `rows`, and say in which order vertices and faces are coded, and
- * which faces a decoder makes. `values` has the vertex of each number; NULL: the number itself. */
+ * which faces a decoder makes, and which corner of its own each of them begins with. `values` has the vertex of each
+ * number; NULL: the number itself. */
 bool write_faces(Writer *writer, Written given, int64_t vertices, Writing *writing, int32_t *order,
-    int32_t *face_order, int32_t *faces);
+    int32_t *face_order, int32_t *faces, uint8_t *turns);
 
 /* A field whose chunks are written, or read, one after the other. It must not be moved. */
 typedef struct {

@@ -140,6 +140,7 @@ class Prepared:
     vertex_order: Order
     face_order: Order
     coding_faces: Order
+    turns: Order
     joined_faces: Faces
     light: bool
     congruence: bool
@@ -152,15 +153,6 @@ class Prepared:
         if shift not in self._spectra:
             self._spectra[shift] = MeasuredSpectrum(self.blocks, self.positions, shift=shift)
         return self._spectra[shift]
-
-    @cached_property
-    def turns(self) -> Order:
-        """The corner of its joined face that is the first of each coded one, shape (m,)."""
-        numbers = np.empty(int(self.joined_faces.max(initial=-1)) + 1, np.int64)
-        numbers[self.coding_order] = np.arange(len(self.coding_order))
-        given = numbers[self.joined_faces[self.coding_faces]]
-        turned = [(np.roll(given, -k, axis=1) == self.mesh.faces).all(axis=1) for k in range(3)]
-        return np.asarray(np.argmax(turned, axis=0))
 
     def of_coded(self, corners: Indices) -> Indices:
         """Return the values of corners of joined faces, shape (m, 3), in coding order."""
@@ -264,6 +256,7 @@ def prepare(
         vertex_order=np.arange(len(coding_order)) if keep_order else coding_order,
         face_order=np.arange(len(mesh.faces)) if keep_order else connectivity.face_order.astype(np.int64),
         coding_faces=connectivity.face_order.astype(np.int64),
+        turns=connectivity.turns.astype(np.int64),
         joined_faces=mesh.faces,
         light=light,
         congruence=congruence,

@@ -119,26 +119,6 @@ static bool write_positions(Encoder *encoder) {
 
 /* ---- Faces and their order ---- */
 
-/* The corner of its joined face that is the first of each coded one. */
-static bool find_turns(Encoder *encoder) {
-    CodedMesh *coded = &encoder->coded;
-    const JoinedMesh *joined = &encoder->joined;
-    int64_t m = coded->faces.rows;
-    if (!take_bytes(&encoder->writer.arena, m, &coded->turns)) return false;
-    for (int64_t f = 0; f < m; f++) {
-        const int32_t *face = joined->faces.data + 3 * (int64_t)coded->face_order.data[f];
-        int turn = 0;
-        for (int k = 2; k >= 0; k--) {
-            bool same = true;
-            for (int j = 0; j < 3; j++)
-                same = same && face[(j + k) % 3] == coded->vertex_order.data[coded->faces.data[3 * f + j]];
-            if (same) turn = k;
-        }
-        coded->turns.data[f] = (uint8_t)turn;
-    }
-    return true;
-}
-
 static bool write_order_section(Encoder *encoder) {
     Arena *scratch = &encoder->writer.scratch;
     const CodedMesh *coded = &encoder->coded;
@@ -172,9 +152,9 @@ static bool code_faces_first(Encoder *encoder, Writing *writing) {
     *coded = (CodedMesh){.given = &encoder->given, .joined = joined, .keeps = encoder->options.keep_order};
     Written given = {joined->faces.data, NULL, m, n, 1};
     return take_ints(arena, n, &coded->vertex_order) && take_ints(arena, m, &coded->face_order)
-        && take_ints2(arena, m, 3, &coded->faces)
-        && write_faces(writer, given, n, writing, coded->vertex_order.data, coded->face_order.data, coded->faces.data)
-        && find_turns(encoder)
+        && take_ints2(arena, m, 3, &coded->faces) && take_bytes(arena, m, &coded->turns)
+        && write_faces(writer, given, n, writing, coded->vertex_order.data, coded->face_order.data, coded->faces.data,
+            coded->turns.data)
         && (encoder->carried_count == 0
             || link_mesh(&writer->context, const_ints2(coded->faces), n, arena, &writer->scratch, &coded->corners));
 }

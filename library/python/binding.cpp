@@ -37,6 +37,7 @@ template <typename T> struct Kind;
         static constexpr auto signature = nb::detail::const_name(word);                                                \
     };
 KIND(void, "", "typing.Any")
+KIND(uint8_t, "uint8", "numpy.typing.NDArray[numpy.uint8]")
 KIND(bool, "bool", "numpy.typing.NDArray[numpy.bool_]")
 KIND(int32_t, "int32", "numpy.typing.NDArray[numpy.int32]")
 KIND(int64_t, "int64", "numpy.typing.NDArray[numpy.int64]")
@@ -339,7 +340,7 @@ class Output {
     Encoding *encoding;
 };
 
-// The payload of faces, the order of vertices and of faces in it, and the decoded faces (see writing.h).
+// The payload of faces, the order of vertices and of faces in it, the decoded faces and their turns (see writing.h).
 auto faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional<Row<int32_t>> merged) {
     Output output;
     int64_t count = (int64_t)faces.shape(0);
@@ -347,8 +348,11 @@ auto faces_to_bytes(Rows<int32_t, 3> faces, int64_t vertices, std::optional<Row<
         merged ? (int64_t)merged->size() : vertices, 1};
     Made<int32_t> order = made_of<int32_t>(vertices), face_order = made_of<int32_t>(count);
     Made<int32_t> coded = made_of<int32_t>(count, 3);
-    output.run([&] { return encode_faces(output.encoding, given, vertices, order.data, face_order.data, coded.data); });
-    return std::make_tuple(nb::bytes(output.payloads()[0]), order, face_order, coded);
+    Made<uint8_t> turns = made_of<uint8_t>(count);
+    output.run([&] {
+        return encode_faces(output.encoding, given, vertices, order.data, face_order.data, coded.data, turns.data);
+    });
+    return std::make_tuple(nb::bytes(output.payloads()[0]), order, face_order, coded, turns);
 }
 
 // The payload of ORDER (see inside.h); a mesh whose vertices are several given ones, or none, has `source`.

@@ -92,9 +92,9 @@ static bool begin_again(Encoding *encoding, int64_t room) {
 }
 
 bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
-    int32_t *faces) {
+    int32_t *faces, uint8_t *turns) {
     return begin_again(encoding, 1 << 16)
-        && write_faces(&encoding->writer, given, vertices, &encoding->payloads, order, face_order, faces);
+        && write_faces(&encoding->writer, given, vertices, &encoding->payloads, order, face_order, faces, turns);
 }
 
 bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,

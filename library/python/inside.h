@@ -43,7 +43,7 @@ const bsmdec_error *encoding_error(const Encoding *encoding);
 /* The payloads of the last call that wrote some. */
 const Writing *encoding_payloads(const Encoding *encoding);
 bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
-    int32_t *faces);
+    int32_t *faces, uint8_t *turns);
 /* ORDER of joined faces, which `values` has as they are coded, and of given vertices and faces, or NULL. */
 bool encode_order(Encoding *encoding, Written given, const int32_t *vertices, const int32_t *face_places,
     const int32_t *source, int64_t sources, const int32_t *corners, const double *loose, int64_t loose_count);

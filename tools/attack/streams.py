@@ -193,9 +193,8 @@ def _copies(rows: int, columns: int) -> bytes:
     """As many copies of one vertex as there may be, in as many blocks."""
     coded = _coded("torus", rows, columns)
     size, faces = len(coded.vertex_order), coded.faces
-    as_coded = EncodedConnectivity(
-        coded.payload, np.arange(size, dtype=np.int32), np.arange(len(faces), dtype=np.int32), faces
-    )
+    in_order = np.arange(max(size, len(faces)), dtype=np.int32)
+    as_coded = replace(coded, vertex_order=in_order[:size], face_order=in_order[: len(faces)])
     copies = 3 * len(faces) - size
     source = np.concatenate([np.arange(size), np.zeros(copies, np.int64)]).astype(np.int32)
     order = (FrameType.ORDER, encode_order(faces, as_coded, Splits(source, faces, np.zeros((0, 3)))))
@@ -309,7 +308,7 @@ def _attributed_run(count: int) -> bytes:
 def _in_order() -> tuple[int, bytes]:
     """The order of nine vertices as they were coded."""
     coded, own = _coded("torus", 3, 3), np.arange(9, dtype=np.int32)
-    as_coded = EncodedConnectivity(coded.payload, own, np.arange(18, dtype=np.int32), coded.faces)
+    as_coded = replace(coded, vertex_order=own, face_order=np.arange(18, dtype=np.int32))
     return FrameType.ORDER, encode_order(coded.faces, as_coded, Splits(own, coded.faces, np.zeros((0, 3))))
 
 

@@ -222,7 +222,9 @@ def order_of(vertices) -> bytes:
     named = np.take_along_axis(named, (named.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
     suggested = np.lexsort(np.sort(named, axis=1).T)
     places = np.argsort(suggested).astype(np.int32)
-    return encode_order(named[suggested], EncodedConnectivity(b"", vertices, places, coded))
+    return encode_order(
+        named[suggested], EncodedConnectivity(b"", vertices, places, coded, np.zeros(len(coded), np.uint8))
+    )
 
 
 def test_random_order_costs_about_its_entropy_and_runs_cost_little() -> None:
