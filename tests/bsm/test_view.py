@@ -272,6 +272,17 @@ def test_what_is_still_being_written_is_watched(way, tmp_path):
         os.close(source)
 
 
+def test_tiles_are_files_of_a_page_for_any_server(tmp_path):
+    bsm.save(torus(30, 20), tmp_path / "a.ply")
+    folder, site = tmp_path / "tiles", tmp_path / "site"
+    assert main(["tile", str(tmp_path / "a.ply"), "-o", str(folder), "--grid-cell", "0.01", "--triangles", "400"]) == 0
+    assert main(["view", str(folder), "--static", str(site)]) == 0
+    assert '"tiles": "0"' in (site / "index.html").read_text()
+    shards = [path.name for path in folder.glob("*.tiles")]
+    assert shards and all((site / "0" / name).read_bytes() == (folder / name).read_bytes() for name in shards)
+    assert json.loads((site / "0/manifest.json").read_text()) == json.loads((folder / "manifest.json").read_text())
+
+
 @pytest.mark.slow
 @needs_packages
 def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):

@@ -21,7 +21,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-import atheris
+try:
+    import atheris
+except ImportError:
+    raise SystemExit("fuzzing needs atheris, of the extra fuzz: pip install '.[fuzz]'") from None
 
 from tools.attack.mutate import mutate_stream
 from tools.attack.targets import MESH_FILE, SLOW, TARGETS, VECTORS, Finding, Target, run, seeds

@@ -37,8 +37,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     whole = [name for name in ("save", "static", "original") if getattr(args, name)]
     if args.follow and whole:
         raise OptionError(f"--{whole[0]} needs complete streams; leave out --follow")
-    if (args.follow or whole) and any(map(is_tiles, args.inputs)):
-        raise OptionError("tiles are loaded on demand; leave out --save, --static, --original and --follow")
+    if (args.follow or args.save or args.original) and any(map(is_tiles, args.inputs)):
+        raise OptionError("tiles are loaded on demand; leave out --save, --original and --follow")
     if args.original and len(args.inputs) != 1:
         raise OptionError("--original is for one input")
     with console.progress("reading and comparing") as progress:
@@ -48,10 +48,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
         write_output(args.save, page_with(contents).encode(), overwrite=args.force)
         console.note(f"{args.save}: open it in a browser")
     if args.static:
-        Path(args.static).mkdir(parents=True, exist_ok=True)
-        for name, data in site_with(contents).items():
-            write_output(Path(args.static, name), data, overwrite=args.force)
-        console.note(f"{args.static}: a page for any web server, for example: python -m http.server -d {args.static}")
+        for name, data in site_with([content for content in served if not isinstance(content, Arrival)]).items():
+            Path(args.static, name).parent.mkdir(parents=True, exist_ok=True)
+            write_output(
+                Path(args.static, name), data if isinstance(data, bytes) else data.whole(), overwrite=args.force
+            )
+        ranges = ", which must send ranges of files for tiles, as nginx does" if any(map(is_tiles, args.inputs)) else ""
+        example = "" if ranges else f", for example: python -m http.server -d {args.static}"
+        console.note(f"{args.static}: a page for any web server{ranges}{example}")
     if args.save or args.static:
         return 0
     with PageServer(served, args.port) as server:

@@ -144,6 +144,9 @@ class Ranged:
     name: str
     size: int
 
+    def whole(self) -> bytes:
+        return read_range(place_of(self.folder, self.name), 0, self.size)
+
 
 @dataclass(frozen=True, eq=False)
 class Tiled:
@@ -151,6 +154,10 @@ class Tiled:
 
     name: str
     files: Mapping[str, bytes | Ranged]
+
+    def listed(self, number: int) -> dict[str, Any]:
+        """Return the description for a page that fetches the files from a folder named by a number."""
+        return {"name": self.name, "main": 0, "facts": {}, "tiles": str(number), "layers": []}
 
 
 LOOPBACK = "127.0.0.1"
@@ -198,9 +205,9 @@ def page_with(contents: Sequence[Content]) -> str:
     return _page([listed(content, "", embedded) for content in contents], script(embedded))
 
 
-def site_with(contents: Sequence[Content]) -> dict[str, bytes]:
+def site_with(contents: Sequence[Content | Tiled]) -> dict[str, bytes | Ranged]:
     """Return the files of a page that encodes by itself, by their names; any web server can send them."""
-    built: dict[str, bytes] = {"encode.wasm": _built("encode.wasm")}
+    built: dict[str, bytes | Ranged] = {"encode.wasm": _built("encode.wasm")}
 
     def place(path: str, data: bytes) -> dict[str, str]:
         name = path.removeprefix("/").replace("/", "-")
@@ -208,7 +215,13 @@ def site_with(contents: Sequence[Content]) -> dict[str, bytes]:
         built[name] = data
         return {"url": name}
 
-    entries = [listed(content, f"/{number}", place) for number, content in enumerate(contents)]
+    entries = []
+    for number, content in enumerate(contents):
+        if isinstance(content, Tiled):
+            built |= {f"{number}/{name}": data for name, data in content.files.items()}
+            entries.append(content.listed(number))
+        else:
+            entries.append(listed(content, f"/{number}", place))
     built["index.html"] = _page(entries, script(place, "small.wasm", "encoder.js")).encode()
     return built
 
@@ -249,7 +262,7 @@ class PageServer(ThreadingHTTPServer):
                 entries.append({"name": content.name, "main": 0, "facts": {}, "live": True, "layers": [layer]})
             elif isinstance(content, Tiled):
                 self.content |= {f"{path}/{name}": (_BYTES, data) for name, data in content.files.items()}
-                entries.append({"name": content.name, "main": 0, "facts": {}, "tiles": path[1:], "layers": []})
+                entries.append(content.listed(number))
             else:
                 entries.append(listed(content, path, self.place))
         module = script(self.place, "small.wasm")
