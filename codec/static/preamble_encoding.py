@@ -79,8 +79,8 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
         splits = Splits(index[given], (np.cumsum(given) - 1)[mesh.faces].astype(np.int32), np.zeros((0, 3)))
     if merged and not keep:
         notes.append(f"{MERGED} {counted(vertices=merged)} with others at the same position")
-        if (crowded := _crowded(index[mesh.faces[kept]])) > _crowded(mesh.faces[kept]):
-            notes.append(f"{MERGED} bodies that touch: not a manifold, {crowded} edges have over two faces")
+        if (apart := _bodies(mesh.faces[kept])) > _bodies(index[mesh.faces[kept]]):
+            notes.append(f"{MERGED} some of {apart} closed bodies, which touch: the surface is not a manifold")
     if collapsed.any():
         notes.append(f"left out {counted(faces=int(collapsed.sum()))} without area")
     if loose and not (keep and keep_loose):
@@ -89,10 +89,12 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
     return JoinedMesh(mesh, index, first, kept, splits, tuple(notes))
 
 
-def _crowded(faces: Faces) -> int:
-    """The number of edges of more than two faces."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1).astype(np.int64)
-    return int((np.unique(edges @ [1 << 32, 1], return_counts=True)[1] > 2).sum())
+def _bodies(faces: Faces) -> int:
+    """The number of closed bodies: connected faces, each of whose edges two of them share."""
+    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)).astype(np.int64)
+    _, which, counts = np.unique(edges @ [1 << 32, 1], return_inverse=True, return_counts=True)
+    part = components(graph_of_faces(faces, int(faces.max(initial=0)) + 1))
+    return len(np.setdiff1d(part[faces], part[edges[counts[which] != 2]]))
 
 
 MOST_CELLS = 1 << 20  # along an axis of a grid

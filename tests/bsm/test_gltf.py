@@ -359,10 +359,3 @@ def test_no_gltf():
     for content in (b"", b"glTF", b"{}", b"[1]", glb({"asset": 3}, b"")):
         with pytest.raises((bsm.FormatError, bsm.TruncatedError)):
             Document(content)
-
-
-def test_what_a_stream_cannot_hold_is_named(source, tmp_path, capsys):
-    pytest.importorskip("trimesh")
-    assert main(["encode", str(source), "-o", str(tmp_path / "scene.bsm")]) == 0
-    errors = capsys.readouterr().err
-    assert "KHR_materials_sheen" in errors and "KHR_texture_transform" not in errors

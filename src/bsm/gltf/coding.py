@@ -19,6 +19,7 @@ COMPONENTS = {np.dtype(kind).name: number for number, kind in KINDS.items()}
 FLOAT, UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
 TRIANGLES, STRIP, FAN = TRIANGULAR = 4, 5, 6
 EXTENSION, DRACO = "EXT_bsm_compression", "KHR_draco_mesh_compression"
+INSTANCING, STRENGTH = "EXT_mesh_gpu_instancing", "KHR_materials_emissive_strength"
 MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 MATTE: Tree = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
 """The material that we write where a mesh has none; reading passes over it."""

@@ -3,9 +3,10 @@
 import base64
 import io
 import json
+import re
 import shutil
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +25,7 @@ from bsm.files.formats.metadata import kind_of_image
 from bsm.files.images import side_of_image
 from bsm.files.pipes import Input, file_beside, is_url
 from bsm.files.room import in_words, require_count
+from bsm.files.unread import Said, Taken, rows_of
 from bsm.gltf import coding
 from bsm.gltf.coding import DRACO, EXTENSION, KINDS, MESHOPT, STRIP, TRIANGLES, Array, Tree
 
@@ -37,58 +39,14 @@ WEBP, TRANSFORM = "EXT_texture_webp", "KHR_texture_transform"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
-_TEXTURE: Tree = {"index": float, "extensions": {TRANSFORM: {"scale": [float] * 2, "offset": [float] * 2}}}
-_SHAPE: Tree = {
-    "accessors": [{"type": str, "componentType": float, "sparse": {"indices": {"componentType": float}, "values": {}}}],
-    "animations": [
-        {
-            "channels": [{"sampler": float, "target": {"path": str}}],
-            "samplers": [{"input": float, "output": float, "interpolation": str}],
-        }
-    ],
-    **{kind: [{}] for kind in ("buffers", "cameras", "samplers")},
-    "bufferViews": [{"extensions": {EXTENSION: {"stream": float}} | {name: {"mode": str} for name in MESHOPT}}],
-    "extensionsUsed": [str],
-    "extensionsRequired": [str],
-    "images": [{"uri": str}],
-    "materials": [
-        {"pbrMetallicRoughness": dict.fromkeys(("baseColorTexture", "metallicRoughnessTexture"), _TEXTURE)}
-        | dict.fromkeys(("normalTexture", "emissiveTexture", "occlusionTexture"), _TEXTURE)
-    ],
-    "meshes": [
-        {
-            "primitives": [
-                {
-                    "attributes": {...: float},
-                    "indices": float,
-                    "material": float,
-                    "targets": [{...: float}],
-                    "extensions": {DRACO: {"bufferView": float, "attributes": {...: float}}},
-                }
-            ],
-            "weights": [float],
-            "extensions": {EXTENSION: {"stream": float}},
-        }
-    ],
-    "nodes": [
-        {
-            "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {...: float}}},
-            "matrix": [float] * 16,
-            "rotation": [float] * 4,
-            "scale": [float] * 3,
-            "translation": [float] * 3,
-            "children": [float],
-            "weights": [float],
-            "mesh": float,
-            "skin": float,
-        }
-    ],
-    "scenes": [{"nodes": [float]}],
-    "skins": [{"joints": [float]}],
-    "textures": [{"source": float, "extensions": {...: {"source": float}}}],
+_ROWS = rows_of("gltf")
+"""In these a name may also have a kind: # a number, $ a text, [] a list, {} an object, with the kind or the number of
+its items."""
+_KINDS: Mapping[str, tuple[Any, str]] = {
+    **{"{": (dict, "an object"), "[": (list, "a list"), "$": (str, "a text"), "#": (int | float, "a number")}
 }
-"""What readers take for granted of a tree: the kinds of its values, and how many a list of several has."""
-_KINDS = {dict: "an object", list: "a list", str: "a text", float: "a number"}
+_SHAPE = {owner: dict(re.findall(r"(\w+)([#$\[{]\S*)", f"{words} {_ROWS['']}")) for owner, words in _ROWS.items()}
+_TAKEN = Taken({owner: re.sub(r"[#$\[{]\S*", "", words) for owner, words in _ROWS.items()})
 
 
 class Document:
@@ -105,8 +63,7 @@ class Document:
             raise FormatError("not a glTF: it has no asset")
         if not str(version := tree["asset"].get("version", "2.0")).startswith("2"):
             raise FormatError(f"this is glTF {str(version)[:20]}, and only glTF 2.0 is read; convert it first")
-        if wrong := _misfit(tree, _SHAPE):
-            raise FormatError(f"in this glTF, {wrong.removeprefix('.')}")
+        self.unread = _TAKEN.left(_said(tree, "{}", "", "glTF"))
         self.tree: Tree = tree
         self._resources: dict[str, bytes] = {}
         self._sides: dict[object, int] = {}
@@ -363,19 +320,21 @@ class Document:
         return file_beside(self._folder, unquote(uri))
 
 
-def _misfit(value: Any, shape: Any) -> str:
-    """The place of the first value that is not as in `_SHAPE`, and its kind there; empty if there is none."""
-    kind = type(shape) if isinstance(shape, dict | list) else shape
-    fits: bool = isinstance(value, int | float if kind is float else kind) and not isinstance(value, bool)
-    if not fits:
-        return f" must be {_KINDS[kind]}, not {json.dumps(value)[:40]}"
-    if kind is list and 1 < len(shape) != len(value):
-        return f" must have {len(shape)} values, not {len(value)}"
-    parts: Any = ((f"[{place}]", item, shape[0]) for place, item in enumerate(value)) if kind is list else ()
-    if kind is dict:
-        every, within = shape.get(...), {"extensions": {...: {}}} | shape
-        parts = ((f".{name}", item, within.get(name, every)) for name, item in value.items())
-    return next((f"{at}{wrong}" for at, item, how in parts if how is not None and (wrong := _misfit(item, how))), "")
+def _said(value: Any, kind: str, at: str, owner: str) -> Iterator[Said]:
+    """The names in a value that must be of a kind, and in those of its objects that readers take."""
+    (python, called), inside = _KINDS[kind[0]], kind[1:-1]
+    if not isinstance(value, python) or isinstance(value, bool):
+        raise FormatError(f"in this glTF, {at[1:]} must be {called}, not {json.dumps(value)[:40]}")
+    if inside.isdecimal() and len(value) != int(inside):
+        raise FormatError(f"in this glTF, {at[1:]} must have {inside} values, not {len(value)}")
+    if kind[0] == "[":
+        for place, item in enumerate(value):
+            yield from _said(item, "#" if inside.isdecimal() else inside or "{}", f"{at}[{place}]", owner)
+    elif kind[0] == "{":
+        for name, item in value.items():
+            yield owner, name, "" if isinstance(item, dict | list) else item
+            if how := _SHAPE.get(owner, {}).get(name, inside or "{}" * (owner == "extensions")):
+                yield from _said(item, how, f"{at}.{name}", name)
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:

@@ -19,10 +19,10 @@ from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, as_format_error, require_count
-from bsm.gltf.coding import DRACO, EXTENSION, MATTE, MESHOPT, TRIANGLES, TRIANGULAR, Array, Tree
-from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, TRANSFORM, WEBP, Document, read_document, triangles_of
+from bsm.gltf.coding import INSTANCING, MATTE, STRENGTH, TRIANGLES, TRIANGULAR, Array, Tree
+from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, TRANSFORM, Document, read_document, triangles_of
 
-INSTANCING, PER_INSTANCE = "EXT_mesh_gpu_instancing", 2000  # bytes of the node of an instance, at most
+PER_INSTANCE = 2000  # bytes of the node of an instance, at most
 _REST = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
 _OF_INSTANCES = tuple(map(str.upper, _REST))
 
@@ -523,40 +523,17 @@ def read_gltf_mesh(document: Document) -> shapes.MeshFile:
         return found.checked(document.limits, document.received)
 
 
-_MOVED = ("POSITION", "NORMAL", "TANGENT", "COLOR_0")  # by morph targets
-_OF_TEXTURES = ("texCoord", "scale", "strength")
-_SAMPLING = {"wrapS": 10497, "wrapT": 10497, "magFilter": 9729}  # repeated, and smooth
-_READ = (WEBP, TRANSFORM, INSTANCING, "KHR_mesh_quantization", "KHR_texture_basisu", EXTENSION, DRACO, *MESHOPT)
-
-
 def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
     """Return notes on data of a document that a mesh cannot hold."""
-    tree = document.tree
-    names = {"animations": "animations (--animation encodes one)", "skins": "skins"} if still else {}
-    found = [what for name, what in {**names, "cameras": "cameras"}.items() if tree.get(name)]
-    placed, nodes = parents_of(document), document.items("nodes")
+    tree, nodes, placed = document.tree, document.items("nodes"), parents_of(document)
+    held = {"animations (--animation encodes one)": "animations", "skins": "skins"} if still else {}
+    found = [what for what, name in held.items() if tree.get(name)]
+    found += ["morph targets"] if still and any(one.get("targets") for one in document.primitives()) else []
+    of_skins = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
+    found += [name for name in document.unread if not (of_skins and name.startswith(of_skins))]
     if any("mesh" in node for number, node in enumerate(nodes) if number not in placed):
         found.append("other scenes" if len(document.items("scenes")) > 1 else "nodes outside of the scene")
-    found += [str(name) for name in tree.get("extensionsUsed", []) if name not in _READ]
-    for primitive in document.primitives():
-        skinned = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
-        found += [name for name in primitive["attributes"] if not is_read(name) and not name.startswith(skinned or "?")]
-        moved = dict.fromkeys(chain.from_iterable(primitive.get("targets", ())))
-        changes = [f"how {name} changes" for name in moved if name not in _MOVED]
-        found += changes if not still else ["morph targets"] if moved else []
-        found += ["extras of primitives"] if primitive.get("extras") else []
-    for material in document.items("materials"):
-        given = {**material, **material.get("pbrMetallicRoughness", {})}
-        infos = {name: info for name, info in given.items() if name.endswith("Texture")}
-        found += [f"{key} of {name}" for name, info in infos.items() for key in _OF_TEXTURES if info.get(key)]
-        for name, info in infos.items():
-            placed_so = info.get("extensions", {}).get(TRANSFORM, {})
-            found += [f"{key} of {name}" for key in ("rotation", "texCoord") if placed_so.get(key)]
-    kinds = ("nodes", "materials", "textures", "images", "skins", "animations", "cameras")
-    found += [f"extras of {kind}" for kind in kinds if any(entry.get("extras") for entry in document.items(kind))]
     found += [f"extras ({name})" for name, value in _all_extras(document) if not isinstance(value, str | int | float)]
-    if any(given.get(key, usual) != usual for given in document.items("samplers") for key, usual in _SAMPLING.items()):
-        found.append("samplers of textures")
     for node in nodes:
         given = node.get("extensions", {}).get(INSTANCING, {}).get("attributes", {})
         found += [f"{name} of instances" for name in given if "skin" in node or name not in _OF_INSTANCES]
@@ -691,6 +668,7 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
         factor = tree.get("pbrMetallicRoughness", {}).get("baseColorFactor", [1.0] * 4)
         if "alphaMode" not in tree and (transparent or factor[3] < 1):
             found["alphaMode"] = "OPAQUE"
+        shine = tree.get("extensions", {}).get(STRENGTH, {}).get("emissiveStrength", 1.0)
         for name, value in {**tree, **tree.get("pbrMetallicRoughness", {})}.items():
             if name.endswith("Texture"):
                 if (source := document.source_of(value["index"])) is None:
@@ -716,5 +694,5 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
             elif isinstance(value, str | int | float):
                 found[name] = value
             elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
-                found[name] = " ".join(f"{item:.6g}" for item in value)
+                found[name] = " ".join(f"{item * (shine if name == 'emissiveFactor' else 1):.6g}" for item in value)
     return words, images

@@ -23,14 +23,13 @@ from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
-from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, MATTE, UINT, Array, Tree, drawn
+from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, MATTE, STRENGTH, UINT, Array, Tree, drawn
 from bsm.gltf.document import TRANSFORM, WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
 _LATEST = 1 << 14  # number of a frame whose time is exact enough in single precision
 _SORTING = ("part", "material")  # attributes of faces that only sort these
-STRENGTH = "KHR_materials_emissive_strength"
 _HALF = 0.5**0.5
 _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
 """The rotations from the axis that a mesh calls up to that of glTF."""

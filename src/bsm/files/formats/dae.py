@@ -18,6 +18,7 @@ from bsm.files.conventions import unit_named
 from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
 from bsm.files.room import Doubles, Ints, as_library_error, in_words
+from bsm.files.unread import Taken, rows_of
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
 _MOST_ERRORS = 8  # of pycollada that notes name
@@ -26,12 +27,9 @@ _NUMBERS = {"shininess": "Ns", "index_of_refraction": "Ni"}
 _IMAGES = {"diffuse": "map_Kd", "ambient": "map_Ka", "specular": "map_Ks", "emission": "map_Ke", "bumpmap": "map_Bump"}
 _IMAGES["transparent"] = "map_d"
 """Properties of effects, and what libraries of OBJ call them."""
-_LEFT_OUT = {
-    "instance_controller": "skins and morphs with their meshes", "animation": "animations", "lines": "lines",
-    "linestrips": "lines", "instance_camera": "cameras", "instance_light": "lights",
-}  # fmt: skip
-"""Contents that are left out, by the tags."""
+_TAKEN = Taken(rows_of("dae"))
 _DRAWN = ("triangles", "tristrips", "trifans", "polylist", "polygons")
+_WAYS = ("MIRROR", "CLAMP", "BORDER", "NONE", "NEAREST")  # of textures, in place of repeated and smooth ones
 _LUMINANCE = (0.212671, 0.715160, 0.072169)  # as COLLADA has it
 
 
@@ -39,7 +37,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     collada = imported("collada", "DAE is read with pycollada", "formats")
     beside = Beside(Path(path).resolve().parent if path else None, limits)
     with as_library_error("pycollada"), np.errstate(all="ignore"):  # a later check refuses infinite values
-        prepared, tags = _prepared(data)
+        prepared, left = _prepared(data)
         document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
         scene = _Nodes(collada, beside)
         nodes = document.scene.nodes if document.scene is not None else ()
@@ -52,15 +50,16 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
         metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
         metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
         errors = [f"unreadable elements ({in_words(error)[:80]})" for error in document.errors[:_MOST_ERRORS]]
-        dropped = (*dict.fromkeys(_LEFT_OUT[tag] for tag in tags if tag in _LEFT_OUT), *errors, *scene.absent)
+        dropped = (*left, *errors, *scene.absent)
         return replace(found, metadata={**metadata, **found.metadata}, dropped=dropped)
 
 
 def _prepared(data: bytes) -> tuple[bytes, list[str]]:
-    """Return a document as pycollada can read it, and its tags. Elements without corners, and lines, would make it
-    leave out a whole geometry. A polygon with holes gets all corners in one element, which says where its rings end."""
+    """Return a document as pycollada can read it, and the names that are not taken. Elements without corners, and
+    lines, would make it leave out a whole geometry. A polygon with holes gets all corners in one element, which says
+    where its rings end."""
     root, changed = ElementTree.fromstring(data), False
-    tags = [_tag(element) for element in root.iter()]
+    left = _TAKEN.left(_TAKEN.in_xml(data))
     for mesh in [element for element in root.iter() if _tag(element) == "mesh"]:
         for drawn in list(mesh):
             for place, holed in enumerate(drawn):
@@ -74,7 +73,7 @@ def _prepared(data: bytes) -> tuple[bytes, list[str]]:
             if _tag(drawn) in ("lines", "linestrips") or (_tag(drawn) in _DRAWN and not filled):
                 mesh.remove(drawn)
                 changed = True
-    return (ElementTree.tostring(root) if changed else data), tags
+    return (ElementTree.tostring(root) if changed else data), left
 
 
 def _tag(element: Any) -> str:
@@ -146,8 +145,8 @@ class _Nodes:
             if isinstance(value := getattr(effect, given), self._collada.material.Map):
                 name = str(value.sampler.surface.image.path)
                 image = self._beside.read(unquote(name))
-                ways = {str(one.text) for one in value.sampler.xmlnode.iter() if _tag(one).startswith("wrap_")}
-                self.absent |= dict.fromkeys(f"wrap {way} of textures" for way in sorted(ways - {"WRAP"}))
+                ways = ((_tag(one), str(one.text).strip()) for one in value.sampler.xmlnode.iter())
+                self.absent |= {f"{name} {way} of textures": None for name, way in ways if way in _WAYS}
                 self.absent |= {"the texcoord set of textures": None} if value.texcoord in others else {}
                 if isinstance(image, bytes) and kind_of_image(image):
                     found[word] = number = self._numbers.setdefault(name, len(self._numbers))

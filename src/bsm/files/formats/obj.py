@@ -21,8 +21,7 @@ STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """The value of a keyword for the faces after it, and the keyword."""
 _OF_CORNERS: dict[bytes, Literal["texcoord", "normal"]] = {b"vt": "texcoord", b"vn": "normal"}
 _NUMBERS = (b"v", b"vt", b"vn", b"f")
-_DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
-_KNOWN = {b"", b"mtllib", *_NUMBERS, *_DROPPED, *(keyword.encode() for keyword in STATES.values())}
+_KNOWN = {b"", b"mtllib", *_NUMBERS, *(keyword.encode() for keyword in STATES.values())}
 _COLORS = 3  # numbers of a color that every reader takes; some count a fourth as a coordinate
 _COUNTED = {"vertices": b"\nv ", "faces": b"\nf "}
 _FEW = 8
@@ -55,9 +54,8 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
     numbers, most = int(points.counts.min(initial=100)), int(points.counts.max(initial=0))
     colored = 6 <= numbers == most <= 7
     columns = [color_column(points.columns(3, numbers - 3), "vertex")] if colored else []
-    dropped = [name for key, name in _DROPPED.items() if lines.are(key).any()]
-    if unknown := sorted(lines.keywords - _KNOWN):
-        dropped.append(f"lines that begin with {b', '.join(unknown[:_FEW]).decode(errors='replace')}")
+    unread = b", ".join(sorted(lines.keywords - _KNOWN)[:_FEW]).decode(errors="replace")
+    dropped = [f"lines that begin with {unread}"] if unread else []
     if most > 3 and not colored and (most > 4 or (points.values[(points.starts + 3)[points.counts > 3]] != 1).any()):
         dropped.append(f"numbers after the coordinates ({int((points.counts > 3).sum())} vertices have some)")
     dropped += ["colors in comments (#MRGB)"] if re.search(rb"^#MRGB ", data, re.M) else []

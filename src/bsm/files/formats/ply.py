@@ -81,7 +81,8 @@ class Header:
                 found.setdefault(keyword, "\n".join(own))
         entries = [item for material in formats.materials_in(found).values() for item in material.items()]
         shown = {value for name, value in entries if formats.refers_to_image(name)}
-        for number, name in enumerate(images):
+        numbers = {name: number for number, (name, _) in formats.images_in(found).items()}
+        for number, name in ((numbers.get(name, place), name) for place, name in enumerate(images)):
             found[f"image.{number}.name"] = name
             if number not in shown:
                 found |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
@@ -367,7 +368,12 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double. Values of
     corners are values of vertices where the corners of each have the same, and else lists of the faces."""
     library = formats.Library(mesh, stem)
-    images = [f"{IMAGE} {name}" for name in library.images.values()]
+    words = [word for material in library.materials.values() for word in material.items()]
+    first = {number for name, number in words if name in ("map_Kd", "baseColorTexture")}  # which most readers show
+    order = dict(sorted(library.images.items(), key=lambda image: image[0] not in first))
+    images = [f"{IMAGE} {name}" for name in order.values()]
+    if [*order] != [*range(len(order))]:
+        images += formats.remarks({f"image.{number}.name": name for number, name in order.items()})[0]
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
     texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
     free = [f"{word} {formats.one_line(line)}" for word, text in texts.items() for line in text.split("\n")]

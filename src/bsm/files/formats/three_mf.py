@@ -8,6 +8,7 @@ import re
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import chain
 from typing import Any, Literal
 
 import numpy as np
@@ -20,14 +21,14 @@ from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
+from bsm.files.unread import Taken, rows_of
 from bsm.lengths import metres
 
 _UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
 _SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of these in meters
 _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")
-_OTHERS = {"Composite": "composite materials", "Multi": "layers of materials"}
-_UUID, _MOST_WARNINGS = 32944, 4  # a warning of each file by most slicers; warnings that notes name
-_OWN = re.compile(rb"<(?:\w+:)?triangle\b[^<>]*?\s((?!v[123]\b|p[123]\b|pid\b)[\w:]+)\s*=")  # attributes of slicers
+_TAKEN = Taken(rows_of("3mf"))
+_FILES = re.compile(r"\[Content_Types\]\.xml|(.*/)?_rels/.*|.*\.model|.*/", re.IGNORECASE)  # those of each package
 _ELSE = "write PLY, OBJ or OFF"
 _Painted = Literal["color", "texcoord"]
 
@@ -39,11 +40,13 @@ def read_3mf(data: bytes, limits: Limits) -> Polygons:
     given = ctypes.cast(ctypes.c_char_p(data), ctypes.POINTER(ctypes.c_uint8))
     with as_library_error("lib3mf", "this 3MF file"):
         _call(reader, "reader_readfrombuffer", ctypes.c_uint64(len(data)), given)
-        found = _Model(library, model, limits).joined(reader, len(data))
+        found = (read := _Model(library, model, limits)).joined(len(data))
     with as_format_error("3MF"), zipfile.ZipFile(io.BytesIO(data)) as package:
-        models = (package.read(name) for name in package.namelist() if name.lower().endswith(".model"))
-        own = dict.fromkeys(name.decode(errors="replace") for model in models for name in _OWN.findall(model))
-    return replace(found, dropped=(*found.dropped, *(f"{name} of triangles" for name in own)))
+        names = package.namelist()
+        models = (package.read(name) for name in names if name.lower().endswith(".model"))
+        others = [name for name in names if f"/{name}" not in read.files and not _FILES.fullmatch(name)]
+        left = _TAKEN.left(chain(*map(_TAKEN.in_xml, models), (("", f"the file {name}", "") for name in others)))
+    return replace(found, dropped=(*found.dropped, *left))
 
 
 def _call(owner: Any, name: str, *arguments: Any) -> None:
@@ -82,8 +85,9 @@ class _Model:
         self._words: dict[int, formats.Material] = {}
         self._images: dict[str, formats.Value] = {}
         self._left: dict[str, None] = {}
+        self.files = set[str]()
 
-    def joined(self, reader: Any, size: int) -> Polygons:
+    def joined(self, size: int) -> Polygons:
         placed = [
             (item.GetObjectResource().GetUniqueResourceID(), item) for item in _items(self._model.GetBuildItems())
         ]
@@ -100,9 +104,7 @@ class _Model:
         metadata: dict[str, formats.Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())], **self._about()}
         known = any(self._words.values())
         metadata |= {**(formats.described(self._words) if known else {}), **self._images, **found.metadata}
-        warned = dict(reader.GetWarning(i) for i in range(reader.GetWarningCount()))
-        notes = [f"lib3mf warns: {text}" for code, text in warned.items() if code != _UUID][:_MOST_WARNINGS]
-        return replace(found, notes=(*found.notes, *notes), dropped=tuple(self._left), metadata=metadata)
+        return replace(found, dropped=tuple(self._left), metadata=metadata)
 
     def _below(self, root: int, matrix: Doubles) -> Iterator[tuple[int, Doubles, str]]:
         """The meshes of an object, each with its place and its name."""
@@ -124,9 +126,6 @@ class _Model:
             item, kinds = self._objects[number], self._library
             points = _table(item, "meshobject_getvertices", kinds.Position)["Coordinates"].astype(np.float64)
             corners = _table(item, "meshobject_gettriangleindices", kinds.Triangle)["Indices"].astype(np.int64)
-            held = {"beams": item.BeamLattice().GetBeamCount(), "slices": item.HasSlices(False)}
-            held |= {"part numbers": item.GetPartNumber(), "sets of triangles": item.GetTriangleSetCount()}
-            self._left |= {name: None for name, there in held.items() if there}
             if (use := item.GetType().name) not in ("Model", "Other"):
                 self._left[f"the object type {use}"] = None
             columns, materials = self._painted(item, len(corners))
@@ -155,8 +154,7 @@ class _Model:
                 numbers = [self._number((owner, p), _material(group, p)) for p in used.tolist()]
                 materials[rows] = np.array(numbers)[where.reshape(-1, 3)[:, 0]]
                 continue
-            if kind in _OTHERS or kind == "NoPropertyType":
-                self._left[_OTHERS.get(kind, "properties of triangles")] = None
+            if kind in ("Composite", "Multi", "NoPropertyType"):
                 materials[rows] = self._number((0, 0), {})
                 continue
             if kind == "Colors":
@@ -186,6 +184,7 @@ class _Model:
         if (owner, -1) in self._materials:
             return self._materials[owner, -1]
         attachment = group.GetTexture2D().GetAttachment()
+        self.files.add(str(attachment.GetPath()))
         data = _table(attachment, "attachment_writetobuffer", ctypes.c_uint8).tobytes()
         if formats.kind_of_image(data) is None:
             self._left["a texture of an unknown format"] = None

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
 
@@ -28,6 +29,7 @@ from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
 from bsm.files.room import Doubles, Ints, as_format_error, as_library_error, require_count, single_suffices
+from bsm.files.unread import Said, Taken, rows_of
 from bsm.lengths import metres
 
 _COORDINATES = "st"  # what texture coordinates are called
@@ -44,9 +46,7 @@ _INPUTS = {
 """The kind of an input of a surface, and what glTF calls its number and its texture."""
 _USUAL = {"diffuseColor": [1.0] * 4, "emissiveColor": [0.0] * 3}
 _DEFAULTS = {"diffuseColor": [0.18] * 3, "metallic": [0.0], "roughness": [0.5]}
-_READ = {_SURFACE: (*_INPUTS, "opacity"), _TEXTURE: ("file", "st", "scale", "sourceColorSpace"), _READER: ("fallback",)}
-_AS_USUAL = ("repeat", "useMetadata", "(-1, -1, -1, 0)", "(0, 0, 0, 0)", _COORDINATES, "UVMap")
-"""The inputs that are read, of each kind of shader, and values that change nothing in others."""
+_TAKEN = rows_of("usd")
 _NO_TIME = float("nan")  # as usd-core has it
 _MOST_SETS = 1 << 12  # of the faces of parts: each is a prim
 
@@ -57,17 +57,17 @@ _MOST_SETS = 1 << 12  # of the faces of parts: each is a prim
 class Materials:
     """The materials of the meshes of a stage, met one after the other."""
 
-    def __init__(self, pxr: Any, path: str) -> None:
-        self._shade, self._geom, self._path = pxr.UsdShade, pxr.UsdGeom, path
+    def __init__(self, pxr: Any, path: str, stage: Any) -> None:
+        self._pxr, self._shade, self._geom, self._path, self._stage = pxr, pxr.UsdShade, pxr.UsdGeom, path, stage
         self._known: dict[tuple[tuple[str, str | int | float], ...], int] = {}
         self._images: dict[str, int] = {}
-        self._set, self.left = "", dict[str, None]()
+        self._sets, self._unsaid = set[str](), set[str]()
 
     def of_faces(self, prim: Any, faces: int, time: Any) -> tuple[Ints, list[tuple[str, Ints]]]:
         """Return the number of each face's material, one for all without; and the sets of faces without a material."""
         numbers, sets = np.full(faces, -1, np.int64), list[tuple[str, Ints]]()
         given = self._geom.PrimvarsAPI(prim).FindPrimvarsWithInheritance()
-        self._set = next((p.GetPrimvarName() for p in given if str(p.GetTypeName()).startswith("texCoord2")), "")
+        self._sets |= {*[str(p.GetPrimvarName()) for p in given if str(p.GetTypeName()).startswith("texCoord2")][:1]}
         double = bool(self._geom.Mesh(prim).GetDoubleSidedAttr().Get())
         for subset in self._geom.Subset.GetAllGeomSubsets(self._geom.Imageable(prim)):
             if subset.GetElementTypeAttr().Get() != self._geom.Tokens.face:
@@ -91,6 +91,26 @@ class Materials:
         with zipfile.ZipFile(self._path) as package:
             return formats.fetched({**entries, **names}, lambda name: _packed(package, name, limits.frame_bytes))
 
+    @cached_property
+    def left(self) -> list[str]:
+        """The names of everything that the stage says and nothing takes, once all its materials are known."""
+        own = " ".join((_TAKEN[_READER], *(f"varname={name}" for name in sorted(self._sets))))
+
+        def said() -> Iterator[Said]:
+            below = map(self._pxr.Usd.PrimRange, self._stage.GetPrototypes())
+            for prim in chain(self._stage.Traverse(), *below):
+                shader = prim.IsA(self._shade.Shader)
+                kind = str(self._shade.Shader(prim).GetIdAttr().Get() if shader else prim.GetTypeName())
+                if kind not in _TAKEN:
+                    yield "", f"shader {kind}" if shader else f"{kind}, which is not a mesh", ""
+                    continue
+                for name in (*prim.GetAuthoredPropertyNames(), *["customData"] * prim.HasAuthoredCustomData()):
+                    attr = prim.GetAttribute(name)
+                    value = attr.Get() if attr and attr.GetTypeName().isScalar else ""
+                    yield kind, name.removeprefix("inputs:") if shader else name, value
+
+        return sorted(self._unsaid) + Taken({**_TAKEN, _READER: own}).left(said())
+
     def _bound(self, prim: Any) -> Any:
         return self._shade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
 
@@ -102,17 +122,11 @@ class Materials:
     def _words(self, material: Any) -> formats.Material:
         words: formats.Material = {"name": str(material.GetPrim().GetName())}
         surface = material.ComputeSurfaceSource()[0]
-        for shader in map(self._shade.Shader, filter(self._shade.Shader, material.GetPrim().GetAllChildren())):
-            kind = str(shader.GetIdAttr().Get())
-            inputs = {str(given.GetBaseName()): str(given.Get()) for given in shader.GetInputs()}
-            read, same = _READ.get(kind, ()), (*_AS_USUAL, self._set)
-            names = [f"{name} of {kind}" for name, value in inputs.items() if name not in read and value not in same]
-            self.left |= dict.fromkeys(names if kind in _READ else [f"shader {kind}"])
         if not surface or surface.GetIdAttr().Get() != _SURFACE:
             return words
         sizes = {name: 3 if kind == "Color3f" else 1 for name, (kind, _, _) in _INPUTS.items()}
         values = {name: self._value(surface, name, size) or _DEFAULTS.get(name) for name, size in sizes.items()}
-        self.left |= {f"texture of {name}": None for name in ("metallic", "roughness") if self._texture(surface, name)}
+        self._unsaid |= {f"texture of {name}" for name in ("metallic", "roughness") if self._texture(surface, name)}
         for name, (_, _, painted) in _INPUTS.items():
             texture = self._texture(surface, name) if painted else None
             if texture is None:
@@ -122,6 +136,9 @@ class Materials:
                 inside, folder = str(image.resolvedPath).rpartition("["), Path(self._path).resolve().parent
                 path = inside[2].rstrip("]") if inside[1] else os.path.relpath(inside[2] or folder / image.path, folder)
                 words[painted] = self._images.setdefault(path, len(self._images))
+            space = texture.GetInput("sourceColorSpace")
+            if space and space.Get() not in ("auto", "sRGB" if name in ("diffuseColor", "emissiveColor") else "raw"):
+                self._unsaid.add(f"sourceColorSpace of {_TEXTURE}")
             if name in ("diffuseColor", "emissiveColor"):
                 values[name] = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
         usual = (("opacity", 1.0), ("opacityThreshold", 0.0))
@@ -307,16 +324,10 @@ class _Shape:
         self.triangles = corners - 2 * faces
         self.left_handed = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
         self.rows: dict[Domain, int] = {"vertex": self.vertices, "face": faces, "corner": corners}
-        self.left_out: list[str] = ["normals"] if mesh.GetNormalsAttr().HasAuthoredValue() else []
-        scheme = str(mesh.GetSubdivisionSchemeAttr().Get())
-        if scheme != "none" and mesh.GetSubdivisionSchemeAttr().HasAuthoredValue():
-            self.left_out.append(f"subdivision ({scheme}; the mesh is its cage)")
-        creased = mesh.GetCreaseIndicesAttr().Get(time) or mesh.GetCornerIndicesAttr().Get(time)
-        self.left_out += ["creases"] if creased else []
         given = pxr.UsdGeom.PrimvarsAPI(prim).FindPrimvarsWithInheritance()
         self._primvars = [primvar for primvar in given if primvar.HasAuthoredValue()]
-        self.frozen = [
-            str(primvar.GetPrimvarName())
+        self.left_out = [
+            f"how {primvar.GetPrimvarName()} changes"
             for primvar in self._primvars
             if primvar.ValueMightBeTimeVarying() and primvar.GetAttr() not in self.painted
         ]
@@ -530,7 +541,7 @@ class _Stage:
         if self.stage.HasAuthoredTimeCodeRange() and self.stage.GetStartTimeCode() <= self.stage.GetEndTimeCode():
             self.span = float(self.stage.GetStartTimeCode()), float(self.stage.GetEndTimeCode())
         self.first = pxr.Usd.TimeCode(self.span[0]) if self.span else pxr.Usd.TimeCode.EarliestTime()
-        self._materials = Materials(pxr, path)
+        self._materials = Materials(pxr, path, self.stage)
         lost = [" ".join(str(error).split()) for error in self.stage.GetCompositionErrors()]
         self.notes: list[str] = [f"left out, a layer or reference: {text[:200]}" for text in lost[:MOST_NAMED]]
         with _quiet(pxr):
@@ -553,7 +564,6 @@ class _Stage:
         """Yield the visible meshes, and the instances of instancers."""
         pxr, left = self.pxr, dict[str, list[str]]()
         self.blinking: list[str] = []
-        others = (pxr.UsdGeom.Gprim, pxr.UsdGeom.Camera)
         every = iter(pxr.Usd.PrimRange.Stage(self.stage, pxr.Usd.TraverseInstanceProxies()))
         for count, prim in enumerate(every):
             if count == MOST_PRIMS:
@@ -570,8 +580,6 @@ class _Stage:
                 yield from instancer.instances()
             elif prim.IsA(pxr.UsdGeom.Mesh):
                 yield prim, None
-            elif any(map(prim.IsA, others)) or str(prim.GetTypeName()).endswith("Light"):
-                left.setdefault(f"{prim.GetTypeName()}, which is not a mesh", []).append(str(prim.GetPath()))
         if self.blinking and not self._runs:
             names = ", ".join(self.blinking[:MOST_NAMED])
             self.notes.append(f"these vanish, and are always shown; --runs lets them: {names}")
@@ -661,10 +669,8 @@ class _Stage:
         metadata = {"up": up, "unit": conventions.unit_named(unit), **named, **found.metadata, **of_materials}
         own = self.parts[0].prim.GetPath()
         metadata |= {"prim": str(own)} if len(self.parts) == 1 and own.pathElementCount > 1 else {}
-        left = dict.fromkeys(name for part in self.parts for name in part.shape.left_out) | materials.left
+        left = dict.fromkeys((*(name for part in self.parts for name in part.shape.left_out), *materials.left))
         notes = [*found.notes, *absent, *self.notes]
-        if frozen := dict.fromkeys(name for part in self.parts for name in part.shape.frozen):
-            notes.append(f"{', '.join(frozen)}: as the first frame has them, for they are not values of vertices")
         notes += [f"left out, face sets without a material: {', '.join(unnamed)}"] if unnamed else []
         return replace(found, notes=tuple(notes), dropped=tuple(left), metadata=metadata).checked(self._limits)
 

@@ -1,0 +1,63 @@
+"""What a file says and no reader takes: all names in it but those in a table of the reader."""
+
+import csv
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import TypeAlias
+from xml.parsers import expat
+
+Said: TypeAlias = tuple[str, str, object]
+"""The owner of a name (an object of JSON, an element of XML, a prim of USD), the name, and its value."""
+_MOST_NAMED, _MOST_SHAPES = 24, 1 << 12
+
+
+def rows_of(file_format: str) -> dict[str, str]:
+    """The rows of taken.csv for a format."""
+    every = csv.DictReader(Path(__file__).with_name("taken.csv").read_text().splitlines())
+    mine = [(row["owners"].split() or [""], row["names"]) for row in every if row["format"] == file_format]
+    return {owner: names for owners, names in mine for owner in owners}
+
+
+class Taken:
+    """The names that a reader takes: a row of words for each owner, and the row "" for all of them.
+
+    A word is a name, the beginning of names, which ends with : or _, or a name with the value that changes nothing.
+    """
+
+    def __init__(self, rows: Mapping[str, str]) -> None:
+        self._rows = {owner: {*f"{words} {rows.get('', '')}".split()} for owner, words in {"": "", **rows}.items()}
+
+    def takes(self, owner: str, name: str, value: object = "") -> bool:
+        row = self._rows.get(owner, self._rows[""])
+        if name in row:
+            return True
+        shown = f"{value:g}" if isinstance(value, int | float) else "".join(str(value).split())
+        return f"{name}={shown}" in row or any(name[: found.end()] in row for found in re.finditer("[:_]", name))
+
+    def left(self, said: Iterable[Said]) -> list[str]:
+        """Return the names that are not taken, as "name of owner", of many only the first."""
+        found = dict.fromkeys(one[:2] for one in said if not self.takes(*one))
+        names = [name if owner in ("", "glTF", "extensions") else f"{name} of {owner}" for owner, name in found]
+        return names[:_MOST_NAMED] + [f"{len(names) - _MOST_NAMED} other names"] * (len(names) > _MOST_NAMED)
+
+    def in_xml(self, data: bytes) -> Iterator[Said]:
+        """The elements and attributes of a document, but not those below an element that is not taken."""
+        found, above = dict[tuple[str, ...], None](), [""]
+
+        def begin(tag: str, attributes: Mapping[str, str]) -> None:
+            one = (above[-1], tag.rpartition(":")[2], *attributes)
+            if one not in found and len(found) < _MOST_SHAPES:
+                found[one] = None
+            above.append(one[1])
+
+        parser = expat.ParserCreate()
+        parser.StartElementHandler, parser.EndElementHandler = begin, lambda _: above.pop()
+        with suppress(expat.ExpatError):  # a library has read it
+            parser.Parse(data, True)
+        for owner, tag, *names in found:
+            if not owner or self.takes("", owner):
+                yield owner, tag, ""
+                own = (name.rpartition(":")[2] for name in names if not name.startswith("xmlns"))
+                yield from ((tag, name, "") for name in own if self.takes("", tag))
