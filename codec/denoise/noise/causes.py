@@ -128,4 +128,5 @@ class Reach:
             along = np.einsum("ij,ij->i", way, normals)[:, None] * normals
             across = way - along
             way = along + across / (1.0 + np.linalg.norm(across, axis=1, keepdims=True) / (ASIDE * level))
-        return given + way / np.maximum(np.linalg.norm(way, axis=1, keepdims=True) / (FARTHEST * level), 1.0)
+        far = np.linalg.norm(way, axis=1, keepdims=True) / (FARTHEST * level)
+        return np.asarray(given + way / np.maximum(far, 1.0))
