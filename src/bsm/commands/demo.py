@@ -69,7 +69,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _drawn(sample: TriangleMesh, positions: Positions, titles: tuple[str, ...], console: Console) -> bytes:
-    """A picture of the sample, of what was decoded, and of the error."""
+    """A picture of the sample, of its decoded mesh, and of the error."""
     bounds, far = bounds_of(sample.positions), np.linalg.norm(positions - sample.positions, axis=1)
     top = float(np.percentile(far, 99)) or 1.0
     heat = colors_of(far / top)[sample.faces].mean(axis=1) / 255.0
