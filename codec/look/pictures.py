@@ -26,6 +26,7 @@ TOWARDS = ((2, 2, 1), (-2, -2, -1), (-2, 1, 2), (2, -1, -2), (1, -2, 2), (-1, 2,
 """Directions of the camera, from the middle of the mesh: both ends of three oblique axes at right angles."""
 SAMPLES = 4  # samples along each side of a pixel, which is their mean
 LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
+ASIDE = (2.0**-12, 2.0**-11.5, 0.0)  # samples, by which edges of symmetric shapes miss the centers of samples
 AIR = 1.03  # the side of the picture over the longer side of what it shows
 LEAST_PIXELS, MOST_PIXELS = 512, 2048  # samples along the side of a picture
 FEWEST_PIXELS = 16  # if many faces cover each other and `LEAST_PIXELS` would take too long
@@ -130,7 +131,7 @@ def cameras(positions: Positions, pixels: int, sides: tuple[tuple[int, int, int]
         low, high = (np.array([values.min() for values in seen]), np.array([values.max() for values in seen]))
         side = AIR * float((high - low)[:2].max()) or 1.0
         scale = np.array([pixels / side, -pixels / side, 2.0**22])  # as many depths in the box's diagonal
-        offset = np.array([pixels / 2, pixels / 2, 0.0]) - scale * (low + high) / 2
+        offset = np.array([pixels / 2, pixels / 2, 0.0]) + ASIDE - scale * (low + high) / 2
         light = LIGHT[0] * rows[0] + LIGHT[1] * rows[1] + LIGHT[2] * rows[2]
         found.append(np.concatenate([np.column_stack([rows * scale[:, None], offset]).ravel(), light]))
     return found

@@ -7,6 +7,7 @@
 #define DARK 1e-24f /* the squared length of a normal that is none */
 #define FAR 1e6     /* a place in samples, within which sums are exact to far less than one */
 #define BACKGROUND 1.0f
+#define NEAR 6.0f /* depths that rounding may put between faces at one place */
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
 #define SAMPLE 4096 /* faces that tell which half is ahead */
 #define LANES 8   /* faces, or rows, that are prepared side by side */
@@ -66,7 +67,7 @@ INLINE bool hidden(Face face, ConstSingles2 farthest) {
     int64_t last = tile_at(higher(higher(a[1], b[1]), c[1]), farthest.rows);
     int64_t from = tile_at(lower(lower(a[0], b[0]), c[0]), farthest.columns);
     int64_t to = tile_at(higher(higher(a[0], b[0]), c[0]), farthest.columns);
-    float nearest = depth_of(a[2] + higher(b[2] - a[2], 0.0) + higher(c[2] - a[2], 0.0));
+    float nearest = depth_of(a[2] + higher(b[2] - a[2], 0.0) + higher(c[2] - a[2], 0.0)) + NEAR;
     bool behind = true;
     for (int64_t row = first; row <= last && behind; row++) {
         const float *tiles = farthest.data + row * farthest.columns;
@@ -219,7 +220,7 @@ INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t i
     FourSingles z = __builtin_convertvector((deep + WHOLE) - WHOLE, FourSingles);
     int64_t pixel = row * on.picture.columns + column;
     FourSingles before = *(const UnalignedSingles *)(on.depth.data + pixel);
-    FourInts seen = (z >= before) & ((inside & bits) != 0);
+    FourInts seen = (z >= before - NEAR) & ((inside & bits) != 0), nearest = seen & (z > before);
     if (!any(seen)) return;
     double start = square[0] + y * (square[2] + y * square[5]), slope = square[1] + y * square[4];
     FourSingles facing = __builtin_convertvector(light[0] + y * light[2] + x * light[1], FourSingles);
@@ -228,10 +229,10 @@ INLINE void draw_span(const Plane *plane, int64_t row, int64_t column, int32_t i
     for (int k = 0; k < SPAN; k++) length[k] = __builtin_sqrtf(length[k]);
     FourInts share = (FourInts)(facing / length) & lit & INT32_MAX;
     FourSingles shades = AMBIENT + DIFFUSE * (FourSingles)share;
-    FourInts tied = seen & (z == before);
+    FourInts tied = seen & (z <= before + NEAR);
     if (any(tied)) seen &= ~tied | (shades > *(const UnalignedSingles *)(on.picture.data + pixel));
     if (on.owner.rows) keep(seen, (FourInts){0} + plane->number, on.owner.data + pixel);
-    keep(seen, (FourInts)z, on.depth.data + pixel);
+    keep(nearest, (FourInts)z, on.depth.data + pixel);
     keep(seen, (FourInts)shades, on.picture.data + pixel);
 }
 
@@ -291,7 +292,7 @@ INLINE void find_farthest(Singles2 depth, const int32_t *drawn, Singles2 farthes
 }
 
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of
- * faces at one depth, the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` for a
+ * faces about as near, the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` for a
  * picture, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1, if it has any
  * rows. Outside of `drawn` (its first row, the one after its last, and columns), `depth` and `picture` are empty.
  *
