@@ -331,6 +331,7 @@ EXACTLY(bsmenc_status, bsmenc_encode,
         || (known.allocator->size >= sizeof host && known.allocator->allocate != NULL
             && known.allocator->release != NULL);
     if (allocates && known.allocator != NULL) host = *known.allocator;
+    if (stream == NULL) return BSMENC_MISUSED;
     Encoder *encoder = host.allocate(host.host, sizeof *encoder);
     *stream = NULL;
     if (encoder == NULL) return BSMENC_NO_MEMORY;
