@@ -130,7 +130,8 @@ def test_wrong_meshes_and_options_are_refused(encoder):
     for options, pattern in (
         ({"bits": 21}, "20 bits"),
         ({"positions": 3}, "unknown"),
-        ({"positions": CELLS}, "not a positive number"),
+        ({"positions": CELLS}, "from 1e-290"),
+        ({"positions": CELLS, "cell": 1e300}, "from 1e-290"),
         ({"positions": LOSSLESS, "quick": 1}, "exclude each other"),
         ({"size": 8}, "options.size"),
     ):

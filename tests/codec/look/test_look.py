@@ -382,7 +382,7 @@ def test_narrow_faces_are_as_bright_as_faces_can_be_and_no_nearer_than_their_cor
     aside = np.exp2(random.uniform(-48, 6, (2000, 1))) * random.normal(size=(2000, 2))
     narrow = np.stack([middles + along, middles - along, middles + aside], axis=1)
     depths = random.uniform(0, 9, (2000, 3, 1))
-    front = [[(-900.0, -900.0, 10.0), (900.0, -900.0, 10.0), (0.0, 900.0, 10.0)]]
+    front = [[(-900.0, -900.0, 100.0), (900.0, -900.0, 100.0), (0.0, 900.0, 100.0)]]
     positions = np.vstack([np.concatenate([narrow, depths], axis=2), front]).reshape(-1, 3)
     normals = np.tile(np.eye(3, dtype=np.float32).ravel(), (2001, 1))
     faces, camera = np.arange(6003, dtype=np.int32).reshape(-1, 3), np.r_[np.eye(3, 4).ravel(), 0.6, 0.0, 0.8]

@@ -74,7 +74,7 @@ def test_the_best_effort_is_smaller_than_all_stricter_presets() -> None:
         assert best[name] <= min(usual[stricter] for stricter in ORDER[at:])
 
 
-@pytest.mark.parametrize("size", [(14, 10), (10, 8)])
+@pytest.mark.parametrize("size", [(12, 8), (13, 11)])
 def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> None:
     one = torus(*size)
     mesh = together(one, TriangleMesh(one.positions * (1.0, 1.0, -1.0) + (3.1, 0.123, 0.2), one.faces[:, ::-1]))
