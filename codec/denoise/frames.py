@@ -11,7 +11,7 @@ from bsm.bitstream.errors import ArgumentError, HarmError, MeshError, OptionErro
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
-from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.coarse import RULES, CoarseFilter, by_lengths
 from bsm.codec.denoise.filters import HAND_OVERS, DenoiseOptions, Filters
 from bsm.codec.denoise.noise.causes import weld_seams
 from bsm.codec.denoise.noise.finding import Finding
@@ -151,9 +151,10 @@ class FrameDenoiser:
         topology = self._surface.topology
         start, step = HAND_OVERS[options.hand_over], FINE_STEPS[options.fine]
         iterations = {} if options.iterations is None else {"iterations": options.iterations}
-        coarse = None
+        coarse, first = None, list(islice(frames, 2))
         if options.hand_over != "none":
-            coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size)
+            rules = RULES if len(first) != 1 else by_lengths(first[0][self._members])  # frames share dictionaries
+            coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size, rules)
 
         def finish(task: tuple[int | None, Positions]) -> Pair:
             number, given = task
@@ -167,7 +168,6 @@ class FrameDenoiser:
                 raise HarmError(f"{reason}; nothing is written unless it is forced", frame=number)
             return given, np.where(good[:, None], result, noisy)
 
-        first = list(islice(frames, 2))
         numbers: Iterable[int | None] = count() if len(first) == 2 else [None]  # a mesh has no frames
         yield from ordered_map(finish, zip(numbers, chain(first, frames)), None)
 

@@ -5,7 +5,7 @@ import pytest
 
 from bsm import DenoiseOptions, HarmError, MeshError, OptionError, TriangleMesh
 from bsm.codec.denoise import FrameDenoiser, denoise
-from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.coarse import CoarseFilter, by_lengths
 from bsm.codec.denoise.filters import HAND_OVERS
 from bsm.codec.denoise.normals import GuidedFilter, guided_normal_filtering
 from bsm.codec.denoise.surface import Topology, surface_normals
@@ -22,7 +22,7 @@ def test_either_step_may_stand_alone() -> None:
     fine = denoise(mesh, DenoiseOptions(hand_over="none", iterations=3), force=True)
     assert (fine.positions == guided_normal_filtering(NOISY, FACES, 3)).all()
     coarse = denoise(mesh, DenoiseOptions(iterations=0, keep=0.2, block_size=200), force=True)
-    assert coarse.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200)(NOISY, 0.2))
+    assert coarse.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200, by_lengths(NOISY))(NOISY, 0.2))
 
 
 @pytest.mark.parametrize(
@@ -97,3 +97,6 @@ def test_the_coarse_step_is_as_good_as_the_published_one(
     n = len(mesh.positions)
     coarse = CoarseFilter(mesh.faces, n, block=n // 10)(mesh.positions)
     assert theta(original.positions, coarse, mesh.faces) < 1.02 * expected
+    weighted = denoise(mesh, DenoiseOptions(), force=True).positions
+    unweighted = guided_normal_filtering(CoarseFilter(mesh.faces, n)(mesh.positions), mesh.faces)
+    assert theta(original.positions, weighted, mesh.faces) < theta(original.positions, unweighted, mesh.faces)
