@@ -106,16 +106,14 @@ class LookMetric:
         if not len(used):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
         low, high = box_around(used)
-        with np.errstate(over="ignore"):
-            self._diagonal = math.hypot(*(high - low))
+        with np.errstate(over="ignore", invalid="ignore"):
+            self._diagonal, lost = math.hypot(*(high - low)), np.abs(used.astype(np.float32) - used).max()
         if not self._diagonal > 0.0:
             raise MeshError("the mesh cannot be looked at: all vertices are at one place")
         if not self._diagonal < _LARGEST:
             raise MeshError("the mesh cannot be looked at: its coordinates are too large to compute with; scale it")
         self._middle = low + (high - low) / 2
         # Files hold numbers of single precision: what they take from an original is no difference.
-        with np.errstate(over="ignore", invalid="ignore"):
-            lost = np.abs(used.astype(np.float32) - used).max()
         self._kept = np.float32 if lost <= LOST * self._diagonal else np.float64
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)

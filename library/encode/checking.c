@@ -1,6 +1,5 @@
 /* What is given to the encoder, and whether its streams keep what they promise. */
 #include "library/encode/checking.h"
-#include "bitstream/container/metadata.h"
 
 #ifdef BSMDEC_WRITES
 
@@ -59,32 +58,24 @@ static bool check_options(Context *context, const bsmenc_options *o) {
 
 static Span text_of(const char *text) { return (Span){(const uint8_t *)text, (int64_t)strlen(text)}; }
 
-static bool check_entry(Context *context, const bsmdec_metadata *entry, int64_t index) {
-    bool text = entry->type == BSMDEC_TEXT, sized = text || entry->type == BSMDEC_BYTES;
-    if (entry->name == NULL || strlen(entry->name) > MOST_NAME || !is_text(text_of(entry->name))
-        || entry->type < BSMDEC_WHOLE || entry->type > BSMDEC_BYTES || (sized && entry->size > UINT32_MAX)
-        || (sized && entry->size > 0 && entry->bytes == NULL))
-        return FAIL(context, MISUSED, "metadata entry # has no name of up to # bytes, no value, or an unknown type",
-            index, MOST_NAME);
-    if (text && !is_text((Span){entry->bytes, (int64_t)entry->size}))
-        return FAIL(context, MISUSED, "metadata '$' is not UTF-8", .name = entry->name);
-    if (entry->type == BSMDEC_NUMBER && !is_finite(entry->number))
-        return FAIL(context, MISUSED, "metadata '$' is not finite", .name = entry->name);
-    return true;
-}
-
 static bool check_metadata(Context *context, const bsmenc_mesh *mesh) {
-    Metadata known = {.arena = arena_of(context)};
-    bool done = mesh->metadata_count == 0 || mesh->metadata != NULL || FAIL(context, MISUSED, "mesh.metadata is NULL");
-    for (size_t i = 0; done && i < mesh->metadata_count; i++) {
-        const char *name = mesh->metadata[i].name;
-        done = check_entry(context, mesh->metadata + i, (int64_t)i);
-        if (done && find_name(&known, text_of(name)) != NULL)
-            done = FAIL(context, MISUSED, "two metadata entries have the name '$'", .name = name);
-        done = done && add_entry(&known, &(Value){.kind = TEXT, .bytes = text_of(name)}, &(Value){.kind = TEXT});
+    if (mesh->metadata_count > 0 && mesh->metadata == NULL) return FAIL(context, MISUSED, "mesh.metadata is NULL");
+    for (size_t i = 0; i < mesh->metadata_count; i++) {
+        const bsmdec_metadata *entry = mesh->metadata + i;
+        bool text = entry->type == BSMDEC_TEXT, sized = text || entry->type == BSMDEC_BYTES;
+        if (entry->name == NULL || strlen(entry->name) > MOST_NAME || !is_text(text_of(entry->name))
+            || entry->type < BSMDEC_WHOLE || entry->type > BSMDEC_BYTES || (sized && entry->size > UINT32_MAX)
+            || (sized && entry->size > 0 && entry->bytes == NULL))
+            return FAIL(context, MISUSED, "metadata entry # has no short name, no value, or no type", (int64_t)i);
+        if (text && !is_text((Span){entry->bytes, (int64_t)entry->size}))
+            return FAIL(context, MISUSED, "metadata '$' is not UTF-8", .name = entry->name);
+        if (entry->type == BSMDEC_NUMBER && !is_finite(entry->number))
+            return FAIL(context, MISUSED, "metadata '$' is not finite", .name = entry->name);
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(mesh->metadata[k].name, entry->name) == 0)
+                return FAIL(context, MISUSED, "two metadata entries have the name '$'", .name = entry->name);
     }
-    release_all(&known.arena);
-    return done;
+    return true;
 }
 
 /* Whether floats are labels or ids: whole numbers, and few of them. */
