@@ -41,7 +41,6 @@ ROOM = 0.1  # share of a distance that is left for rounding normals
 TURNED = 1.5  # degrees that normals may be turned, on average over the picture where that is most, at distance 1
 MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
-LOST = 1e-6  # of the diagonal, at most, by rounding to single precision
 _LARGEST = 1e150
 FAR = 1e3  # times as far away as most vertices: the stray vertex of a scan
 
@@ -113,8 +112,7 @@ class LookMetric:
         if not self._diagonal < _LARGEST:
             raise MeshError("the mesh cannot be looked at: its coordinates are too large to compute with; scale it")
         self._middle = low + (high - low) / 2
-        # Files hold numbers of single precision: what they take from an original is no difference.
-        self._kept = np.float32 if lost <= LOST * self._diagonal else np.float64
+        self._kept = np.float32 if lost <= 1e-6 * self._diagonal else np.float64  # as files have them
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)
         self._size = Size.of(positions, faces, most_pixels)
