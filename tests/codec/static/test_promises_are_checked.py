@@ -30,9 +30,9 @@ def shaded(mesh: TriangleMesh, zero: int = 0) -> TriangleMesh:
     return replace(mesh, attributes=(Attribute("normal", normals.astype(np.float32), "vertex", "normal"),))
 
 
-def textured(mesh: TriangleMesh) -> TriangleMesh:
-    places = mesh.positions[:, :2].astype(np.float32)
-    return replace(mesh, attributes=(Attribute("uv", places, "vertex", "texcoord"),))
+def colored(mesh: TriangleMesh) -> TriangleMesh:
+    colors = (0.5 + 0.5 * np.sin(9.0 * mesh.positions)).astype(np.float32)
+    return replace(mesh, attributes=(Attribute("color", colors, "vertex", "color"),))
 
 
 def rounded(given: Search, *_: object) -> object:
@@ -50,7 +50,7 @@ BROKEN = {
     "a bound": (MESH, {"contract": Contract(1e-4)}, Search, "smallest", rounded),
     "whether bounds are kept": (MESH, {}, search, "widest", lambda way, *_, **__: way.at(0.05)),
     "normals": (shaded(MESH), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
-    "texture coordinates": (textured(MESH), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
+    "colors": (colored(patch(20, 20)), {}, attributes, "bisect_left", lambda values, *_, **__: 0),
     "a step": (
         MESH,
         {"target": Target("nmsve_db", -60.0), "coefficients": 30},

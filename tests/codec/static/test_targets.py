@@ -100,12 +100,12 @@ def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
 
 def test_a_size_makes_attributes_as_coarse_as_the_promised_look_allows() -> None:
     mesh = torus(24, 16)
-    values = np.sin(mesh.positions * (3.0, 7.0, 5.0)) + np.cos(7.0 * mesh.positions[:, ::-1])
-    mesh = replace(mesh, attributes=(Attribute("texcoord", values[:, :2].astype(np.float32), "vertex", "texcoord"),))
+    values = 0.5 + 0.25 * (np.sin(mesh.positions * (3.0, 7.0, 5.0)) + np.cos(7.0 * mesh.positions[:, ::-1]))
+    mesh = replace(mesh, attributes=(Attribute("color", values.astype(np.float32), "vertex", "color"),))
     usual, options = encode(mesh), EncodeOptions(target=Target("size", 1.0))
 
     def error(data: bytes) -> float:
-        errors = bsm.compare(mesh, data).attributes["texcoord"]
+        errors = bsm.compare(mesh, data).attributes["color"]
         assert errors is not None
         return errors.max_error
 
