@@ -1,7 +1,6 @@
 """bsmdec by ctypes: what a stream decodes to, or the status of its error."""
 
 import ctypes
-import fcntl
 import hashlib
 import subprocess
 import tarfile
@@ -15,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import pytest
 
 from tools.amalgamate import ROOT, amalgamated, interface
 
@@ -22,8 +22,6 @@ FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-shared")
 QUICKLY = ("-O1", "-DKERNEL_ONE_TARGET")
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, END_OF_STREAM, ERROR = range(1, 12)
-
-
 SEMANTICS, DOMAINS = ("generic", "color", "normal", "texcoord"), ("vertex", "corner", "face")
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 
@@ -145,6 +143,7 @@ def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = 
     folder = ROOT / "build" / "bsmdec" / name
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "lock").open("w") as lock:
+        fcntl = pytest.importorskip("fcntl", reason="the library is compiled for ctypes on POSIX")
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not (folder / "bsmdec.so").exists():
             (folder / "bsmdec.c").write_text(source)

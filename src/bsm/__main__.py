@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import _thread
 import gc
 import os
 import signal  # an interrupt before `run` prints a traceback, so no module that loads slowly is imported up here
 import sys
+import time
 import warnings
 
 _interrupts: list[int] = []
@@ -19,16 +21,15 @@ def _interrupt(number: int, _: object) -> None:
 
 def _interrupt_again(lost: sys.UnraisableHookArgs) -> None:
     """Repeat an interrupt that came where Python drops errors, such as in the callback of a lock of imports."""
-    if lost.exc_type is KeyboardInterrupt and hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, 1e-3)
+    if lost.exc_type is KeyboardInterrupt:
+        _thread.start_new_thread(lambda: (time.sleep(1e-3), _thread.interrupt_main()), ())
     else:
         sys.__unraisablehook__(lost)
 
 
 def run() -> None:
     """Run as a program; an interrupt is one from the first moment on, whatever is being imported."""
-    for signum in {signal.SIGINT, getattr(signal, "SIGALRM", signal.SIGINT)}:
-        signal.signal(signum, _interrupt)
+    signal.signal(signal.SIGINT, _interrupt)
     sys.unraisablehook = _interrupt_again
     # Looking for cycles among the objects of all modules, while they load and again at the end, would take longer than
     # decoding a small mesh.

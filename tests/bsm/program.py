@@ -1,11 +1,13 @@
 """The program: in this process, or as a user runs it, in one of its own."""
 
+import importlib
 import io
 import json
 import subprocess
 import sys
 import tomllib
 from contextlib import redirect_stderr, redirect_stdout
+from functools import partial
 from importlib.metadata import entry_points
 from pathlib import Path
 
@@ -45,6 +47,12 @@ def python(*words, timeout=120, **keywords):
 def process(*arguments, **keywords):
     """The program in a process of its own."""
     return python("-m", "bsm", *arguments, **keywords)
+
+
+def bound(name, most):
+    """What bounds a process that is started."""
+    resource = importlib.import_module("resource")
+    return partial(resource.setrlimit, getattr(resource, name), (most, most))
 
 
 def contents(folder):

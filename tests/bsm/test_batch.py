@@ -1,12 +1,12 @@
 """Many inputs: outputs, names that would meet, messages, and the files that interrupted work leaves."""
 
+import importlib
 import json
 import os
 import re
 import signal
 import subprocess
 import sys
-import termios
 import time
 from functools import partial
 
@@ -235,7 +235,7 @@ def test_a_pipe_without_a_name_wants_one(meshes, tmp_path):
 def on_a_terminal(*arguments):
     """What the program shows on a terminal."""
     ours, theirs = os.openpty()
-    termios.tcsetwinsize(theirs, (24, 120))
+    importlib.import_module("termios").tcsetwinsize(theirs, (24, 120))
     with subprocess.Popen(
         [sys.executable, "-m", "bsm", *map(str, arguments)], cwd=ROOT, stdout=subprocess.PIPE, stderr=theirs
     ) as process:

@@ -159,6 +159,7 @@ def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
     assert "KeyError" in done[4]["error"] and "please report" in done[4]["error"]
     left = {name for name in contents(tmp_path) if not name.endswith(".part")}
     assert left == {*names, "once.mark", "always.mark"} - {"always"}
+    pytest.importorskip("fcntl", reason="without locks the files of writers that died stay")
     assert all(".always." in name for name in set(contents(tmp_path)) - left), "only what has no other attempt"
 
 
@@ -270,6 +271,7 @@ def test_only_what_is_not_as_it_was_is_done_again(sources, tmp_path):
     assert run(inputs[:5]) == set()
     (output / "00.bsm").unlink()
     (output / "01.bsm").write_bytes(whole["01.bsm"][:-1] + b"?")
+    pytest.importorskip("fcntl", reason="without locks the file of a writer that died stays")
     (output / ".01.bsm.abcd_123.part").write_bytes(b"cut off")
     os.utime(inputs[2], (1, 1))
     refused = bsm.encode_many(inputs, output, report=report, resume=True, grid=8)

@@ -1,7 +1,6 @@
 """What the program leaves behind, says and returns when the machine fails it; always in a process of its own."""
 
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -13,6 +12,7 @@ import pytest
 from bsm.cli import main
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
+from tests.bsm.program import bound
 from tests.bsm.program import process as run
 from tools.vectors.store import FOLDER as VECTORS
 
@@ -38,9 +38,9 @@ def printed(done):
     return text
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
-def test_killed_in_mid_encode(number, folder, tmp_path):
-    output = tmp_path / "a.bsm"
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGKILL"])
+def test_killed_in_mid_encode(name, folder, tmp_path):
+    output, number = tmp_path / "a.bsm", getattr(signal, name)
     command = [*BSM, "encode", folder / "large.ply", "-o", output, "--set", "block-size=300", "--set", "keep=1"]
     with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE) as process:
         while not list(tmp_path.iterdir()):  # the temporary file is there from the first block on
@@ -48,9 +48,9 @@ def test_killed_in_mid_encode(number, folder, tmp_path):
             time.sleep(0.05)
         process.send_signal(number)
         errors = process.communicate(timeout=120)[1].decode()
-    assert process.returncode == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number], errors
+    assert process.returncode == {"SIGTERM": 143, "SIGINT": 130, "SIGKILL": -9}[name], errors
     assert not output.exists()
-    if number != signal.SIGKILL:
+    if name != "SIGKILL":
         assert list(tmp_path.iterdir()) == []
 
 
@@ -59,7 +59,7 @@ def test_no_room_for_the_whole_file(command, folder, tmp_path):
     """A limit on the size of files fails in mid-file, as a full disk does."""
     given, output = ("sample.ply", "a.bsm") if command == "encode" else ("sample.bsm", "a.ply")
     words = (command, folder / given, "-o", tmp_path / output, *OPTIONS[command])
-    done = run(*words, preexec_fn=_small_files)
+    done = run(*words, preexec_fn=bound("RLIMIT_FSIZE", 512))
     assert done.returncode == 9
     assert printed(done) == f"bsm: {tmp_path / output}: File too large\n"
     assert list(tmp_path.iterdir()) == []
@@ -85,14 +85,10 @@ def test_the_reader_of_a_pipe_goes_away(command, folder):
 def test_a_file_that_is_replaced_is_whole_or_the_old_one(folder, tmp_path):
     output = tmp_path / "a.ply"
     output.write_bytes(b"old")
-    done = run("decode", folder / "sample.bsm", "-f", "-o", output, preexec_fn=_small_files)
+    done = run("decode", folder / "sample.bsm", "-f", "-o", output, preexec_fn=bound("RLIMIT_FSIZE", 512))
     assert done.returncode == 9 and output.read_bytes() == b"old"
     assert run("decode", folder / "sample.bsm", "-f", "-q", "-o", output).returncode == 0
     assert len(read_mesh(output).mesh.faces) == len(read_mesh(folder / "sample.ply").mesh.faces)
-
-
-def _small_files():
-    resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
 
 
 @pytest.mark.parametrize(

@@ -64,6 +64,7 @@ def test_a_file_that_appears_meanwhile_is_not_overwritten(tmp_path):
 
 
 def test_what_a_dead_writer_left_goes_with_the_next_write_and_nothing_of_a_living_one(tmp_path):
+    pytest.importorskip("fcntl", reason="without locks the file of a writer that died stays")
     (tmp_path / ".a.abcd_123.part").write_bytes(b"cut off")
     (tmp_path / ".ab.abcd_123.part").write_bytes(b"of another name")
     with open_output(tmp_path / "a", overwrite=True) as first:
@@ -264,6 +265,7 @@ def test_no_result_is_lost_for_a_note(closed, words, tmp_path):
 @pytest.mark.parametrize("there", [True, False])
 def test_links_that_appear_after_planning_are_not_followed(command, there, tmp_path, monkeypatch):
     """Of two inputs to a folder, the second output becomes a link while the first one is written."""
+    os.symlink("nowhere", tmp_path / "tried")
     victim, out = tmp_path / "victim", tmp_path / "out"
     given = [tmp_path / f"{name}.{'bsm' if command == 'decode' else 'ply'}" for name in "ab"]
     for name in given:
@@ -290,6 +292,7 @@ def test_links_that_appear_after_planning_are_not_followed(command, there, tmp_p
 @pytest.mark.parametrize("beside", [False, True])
 def test_a_folder_that_becomes_a_link_is_not_followed(beside, tmp_path, monkeypatch):
     """A folder below the one that the user named is swapped for a link after planning."""
+    os.symlink("nowhere", tmp_path / "tried")
     given, victim = tmp_path / "in", tmp_path / "victim"
     (given / "sub").mkdir(parents=True)
     victim.mkdir()

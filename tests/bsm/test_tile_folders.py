@@ -32,6 +32,7 @@ def tile(source, output, *more, run=bsm):
 
 def holding(folder):
     """A process that holds a folder until its standard input is closed."""
+    pytest.importorskip("fcntl", reason="without locks a folder is not held")
     code = (
         "import sys; from pathlib import Path; from bsm.tiles.work import held\n"
         f"with held(Path({str(folder)!r}), False): print('held', flush=True); sys.stdin.read()"

@@ -1,7 +1,7 @@
 """Meshes in tiles: borders, levels, shards, and the way back."""
 
+import importlib
 import json
-import resource
 import shutil
 from concurrent.futures import ThreadPoolExecutor
 
@@ -322,6 +322,7 @@ def test_processes_and_clusters_give_the_same_bytes(mesh, folder, tmp_path):
 @pytest.mark.parametrize("most", [20_000, 100_000, 300_000])
 def test_a_full_disk_is_reported(mesh, folder, tmp_path, most):
     write_mesh(tmp_path / "mesh.ply", mesh)
+    resource = importlib.import_module("resource")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, before[1]))
     try:

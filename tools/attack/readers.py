@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import base64
 import gzip
+import importlib
 import io
 import json
 import os
@@ -33,7 +34,6 @@ from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files import isolation
 from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.motion.frames import Shared, Wanted
@@ -47,7 +47,6 @@ HUGE_BYTES = tuple(
 )
 _NUMBER = re.compile(rb"(?<![\w.+-])-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?![\w.])")
 MOST_SECONDS = 60
-END_OF_CHILD = isolation.end_of_child
 
 
 @dataclass(frozen=True)
@@ -692,15 +691,16 @@ def is_ours(name: str) -> bool:
 def reading(make: Callable[[], Sample], folder: Path, limits: Limits) -> Callable[[], Taken]:
     """Write a file and those beside it, then measure the reader, with its processes behind the isolation."""
     path, size = written(make(), folder)
+    end_of_child = importlib.import_module("bsm.files.isolation").end_of_child  # of Linux
 
     def read() -> Taken:
-        ends: list[isolation.End] = []
+        ends: list[Any] = []
 
-        def noted(*given: Any) -> isolation.End:
-            ends.append(END_OF_CHILD(*given))
+        def noted(*given: Any) -> Any:
+            ends.append(end_of_child(*given))
             return ends[-1]
 
-        with mock.patch.object(isolation, "end_of_child", noted):
+        with mock.patch("bsm.files.isolation.end_of_child", noted):
             taken = read_all(path, limits)
         memory, seconds = max((end[1] for end in ends), default=0), sum(end[2] for end in ends)
         return replace(taken, size=size, memory=memory, seconds=seconds)

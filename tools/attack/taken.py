@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import faulthandler
 import gc
+import importlib
 import json
 import os
-import resource
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -185,6 +186,7 @@ def _reported_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> lis
         faulthandler.disable()  # pytest's writes to another copy of standard error
         # Of our own arithmetic none may be heard of.
         warnings.filterwarnings("error", category=RuntimeWarning, module=r"bsm\.")
+        resource = importlib.import_module("resource")  # of POSIX
         resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
         for prepare in works:
             signal.setitimer(signal.ITIMER_PROF, 2 * seconds)  # of its own: a busy machine is nobody's fault
@@ -203,19 +205,13 @@ def _reported_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> lis
 
 def _measured(work: Work) -> Taken:
     Path("/proc/self/clear_refs").write_text("5")  # the peak begins with what there is now
-    seconds, memory = seconds_of_cpu(), resident("VmRSS")
+    seconds, memory = time.process_time(), resident("VmRSS")
     try:
         taken = work()
     except BaseException as error:
         taken = Taken(f"escaped: {type(error).__name__}: {error}"[:1000])
-    own_seconds, own_memory = seconds_of_cpu() - seconds, resident("VmHWM") - memory
+    own_seconds, own_memory = time.process_time() - seconds, resident("VmHWM") - memory
     return replace(taken, seconds=taken.seconds + own_seconds, memory=max(taken.memory, own_memory))
-
-
-def seconds_of_cpu() -> float:
-    """CPU seconds that this process has taken, all threads together."""
-    usage = resource.getrusage(resource.RUSAGE_SELF)
-    return usage.ru_utime + usage.ru_stime
 
 
 def resident(name: str) -> int:

@@ -147,7 +147,8 @@ def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> boo
     if lack is not None and foreign is not None:
         error = DependencyError if "pip" in lack else UnsupportedError
         what = f".{foreign} files" if foreign else "files"
-        raise error(f"{what} from strangers are read in a process of its own, which needs {lack}")
+        why = "since nothing else bounds a reader's memory, time and files"
+        raise error(f"{what} from strangers are read in a process of its own, {why}; that needs {lack}")
     return sys.platform == "linux"
 
 

@@ -4,7 +4,6 @@ import gzip
 import io
 import json
 import os
-import resource
 import sys
 import time
 import zipfile
@@ -22,8 +21,8 @@ from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.room import gunzipped
 from bsm.files.sequence import open_sequence
 from bsm.files.table import format_of_bytes
+from tests.bsm.program import bound, python
 from tests.bsm.program import bsm as program
-from tests.bsm.program import python
 from tests.gltf import Built
 from tests.shapes import ply_head
 from tests.streams import memory_below
@@ -318,14 +317,10 @@ EXPECTED = {
 }
 
 
-def bound_memory():
-    resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
-
-
 def read_all(paths):
     """Read each file in a process of its own, of limited time and memory: what came of it, by name."""
     single = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    done = python("-c", PROGRAM, *paths, timeout=20 * SECONDS, preexec_fn=bound_memory, env=single)
+    done = python("-c", PROGRAM, *paths, timeout=20 * SECONDS, preexec_fn=bound("RLIMIT_AS", BYTES), env=single)
     assert done.returncode == 0, done.stderr
     return {Path(path).name: result for path, result in map(json.loads, done.stdout.splitlines())}
 
