@@ -12,13 +12,13 @@ a few vertices it is an order in which row r means about the same place in every
 of one block a good start for the next.
 """
 
+import importlib
 from dataclasses import dataclass
 
 import numpy as np
 
 from bsm._core import Cut
 from bsm._core import codec as _kernels
-from bsm.bitstream.errors import imported
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.graph import Graph
@@ -51,13 +51,20 @@ def derive_partition(graph: Graph, parts: int) -> Partition:
     return Partition(Cut(graph.offsets, graph.neighbors).labels(parts))
 
 
+def lacks_metis() -> bool:
+    """Whether METIS is missing: PyPI lacks wheels for Windows and for Linux on arm64."""
+    try:
+        return importlib.import_module("pymetis") is None
+    except ImportError:
+        return True
+
+
 def metis_partition(graph: Graph, parts: int) -> Partition:
-    """METIS k-way partition; its labels differ between builds, so a stream has to carry them."""
-    pymetis = imported("pymetis", "METIS, which cuts meshes into parts, is not installed", "paper")
-    if parts == 1:
-        return partition_of_labels(np.zeros(graph.size, np.int32))
-    adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbors)
-    _, labels = pymetis.part_graph(parts, adjacency)
+    """METIS k-way partition, or the derived one without METIS; labels differ, so a stream has to carry them."""
+    if parts == 1 or lacks_metis():
+        return partition_of_labels(derive_partition(graph, parts).labels)
+    pymetis = importlib.import_module("pymetis")
+    _, labels = pymetis.part_graph(parts, pymetis.CSRAdjacency(graph.offsets, graph.neighbors))
     return partition_of_labels(np.asarray(labels, dtype=np.int32))
 
 
