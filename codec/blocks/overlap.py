@@ -12,7 +12,7 @@ a few vertices it is an order in which row r means about the same place in every
 of one block a good start for the next.
 """
 
-import importlib
+import importlib.util
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,8 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
+
+HAS_METIS = importlib.util.find_spec("pymetis") is not None  # PyPI lacks it for Windows and for Linux on arm64
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,20 +53,12 @@ def derive_partition(graph: Graph, parts: int) -> Partition:
     return Partition(Cut(graph.offsets, graph.neighbors).labels(parts))
 
 
-def lacks_metis() -> bool:
-    """Whether METIS is missing: PyPI lacks wheels for Windows and for Linux on arm64."""
-    try:
-        return importlib.import_module("pymetis") is None
-    except ImportError:
-        return True
-
-
 def metis_partition(graph: Graph, parts: int) -> Partition:
     """METIS k-way partition, or the derived one without METIS; labels differ, so a stream has to carry them."""
-    if parts == 1 or lacks_metis():
+    if parts == 1 or not HAS_METIS:
         return partition_of_labels(derive_partition(graph, parts).labels)
-    pymetis = importlib.import_module("pymetis")
-    _, labels = pymetis.part_graph(parts, pymetis.CSRAdjacency(graph.offsets, graph.neighbors))
+    metis = importlib.import_module("pymetis")
+    _, labels = metis.part_graph(parts, metis.CSRAdjacency(graph.offsets, graph.neighbors))
     return partition_of_labels(np.asarray(labels, dtype=np.int32))
 
 

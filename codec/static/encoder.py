@@ -15,7 +15,7 @@ from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
-from bsm.codec.blocks.overlap import lacks_metis
+from bsm.codec.blocks import overlap
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference, decibel
 from bsm.codec.progress import Nearing, Progress
@@ -127,7 +127,7 @@ class Encoder:
         unseen = [f"no look is promised: {self._unseen}"] if self._unseen else []
         missed = 0 if self.options.target or not self.options.paper.doi else self._spectral.missed
         over = [OVER.format(missed, self._input.prepared.blocks.count)] if missed else []
-        own = [OWN_RULE] if self.options.paper.partition == "metis" and lacks_metis() else []
+        own = [OWN_RULE] if self.options.paper.partition == "metis" and not overlap.HAS_METIS else []
         return (*self._input.joined.losses, *doubt, *unseen, *over, *own)
 
     @property

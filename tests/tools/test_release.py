@@ -11,6 +11,8 @@ import pytest
 import bsm
 from tools import pythons
 from tools.release.__main__ import fits
+from tools.release.cross import FOREIGN, zig
+from tools.release.imports import check_imports
 from tools.release.trial import _from_wheel, readme_commands
 from tools.release.versions import OTHERS, check_versions, notes, sections
 from tools.release.wheels import check_contents
@@ -34,18 +36,16 @@ def test_versions_that_differ_are_refused(tmp_path):
         check_versions(tmp_path)
 
 
-KERNELS = ["bsm/_core.abi3.so"]
-
-
 @pytest.mark.parametrize(
     ("names", "message"),
     [
-        (["bsm/py.typed", *KERNELS], None),
+        (["bsm/py.typed", "bsm/_core.abi3.so"], None),
+        (["bsm/py.typed", "bsm/_core.pyd"], None),
         (["bsm/py.typed"], "not what"),
-        (["bsm/py.typed", *KERNELS, "codec/geometry.py"], "codec"),
-        (["bsm/py.typed", *KERNELS, "bsm/codec/isa.c"], "isa.c"),
-        (["bsm/py.typed", *(name.replace("abi3", "cpython-311-aarch64-linux-gnu") for name in KERNELS)], None),
-        (["bsm/py.typed", *(name.replace("abi3", "cpython-311-x86_64-linux-gnu") for name in KERNELS)], "not what"),
+        (["bsm/py.typed", "bsm/_core.abi3.so", "codec/geometry.py"], "codec"),
+        (["bsm/py.typed", "bsm/_core.abi3.so", "bsm/codec/isa.c"], "isa.c"),
+        (["bsm/py.typed", "bsm/_core.cpython-311-aarch64-linux-gnu.so"], None),
+        (["bsm/py.typed", "bsm/_core.cpython-311-x86_64-linux-gnu.so"], "not what"),
     ],
 )
 def test_wheels_are_looked_into(names, message, tmp_path):
@@ -62,7 +62,24 @@ def test_wheels_are_looked_into(names, message, tmp_path):
 def test_each_python_has_its_wheel():
     old, new = (Path(f"bsm_codec-1-{tags}-manylinux_2_34_x86_64.whl") for tags in ("cp311-cp311", "cp312-abi3"))
     assert fits(old, (3, 11)) and fits(new, (3, 13)) and not fits(new, (3, 11)) and not fits(old, (3, 12))
-    assert not fits(Path("bsm_codec-1-cp312-abi3-manylinux_2_28_aarch64.whl"), (3, 13))
+    assert not any(
+        fits(Path(f"a-cp312-abi3-{end}.whl"), (3, 13)) for end in ("manylinux_2_28_aarch64", "macosx_11_0_x86_64")
+    )
+
+
+@pytest.mark.slow
+def test_an_extension_may_ask_for_the_stable_abi_only(tmp_path):
+    for module in ("abi3info", "pefile", "ziglang"):
+        pytest.importorskip(module, reason=f"no {module} here (extra release)")
+    (tmp_path / "a.def").write_text("LIBRARY python3.dll\nEXPORTS\nPyLong_No\nPyLong_FromLong\n")
+    (tmp_path / "a.c").write_text("int DllMainCRTStartup(void) { return PyLong_FromLong(PyLong_No()); }\n")
+    zig(tmp_path, "dlltool", "-m", "i386:x86-64", "-d", "a.def", "-l", "a.lib")
+    words = ("-target", FOREIGN[0].zig, "-shared", "-nostdlib", "-w", "-std=gnu89")
+    zig(tmp_path, "cc", *words, "a.c", "a.lib", "-o", "_core.pyd")
+    with zipfile.ZipFile(tmp_path / "a.whl", "w") as wheel:
+        wheel.write(tmp_path / "_core.pyd", "bsm/_core.pyd")
+    with pytest.raises(SystemExit, match=r"what may not be there: PyLong_No$"):
+        check_imports(tmp_path / "a.whl", FOREIGN[0])
 
 
 def test_readmes_commands_install_the_wheel_instead():

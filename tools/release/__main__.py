@@ -27,19 +27,18 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tools.pythons import pythons
+from tools.release.cross import FOREIGN, LINUX, STABLE, clean
 from tools.release.library import STREAM, make_archive, make_crate, make_suite
 from tools.release.npm import make_npm
 from tools.release.trial import try_newcomer, try_wheel
 from tools.release.versions import check_versions, notes
-from tools.release.wheels import ARM, INTEL, clean, make_sdist, make_wheel
+from tools.release.wheels import make_sdist, make_wheel
 from tools.release.windows import make_windows
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("sdist", "wheels", "arm64", "npm", "library")
+PARTS = ("sdist", "wheels", "arm64", "others", "npm", "library")
 RELEASED = ("bsm_codec-*", "bsm-decoder-*", "bsmdec-*", "bsm-conformance-*", "SHA256SUMS", "NOTES.md")
 """What a release consists of, and what an earlier one has left."""
-STABLE = (3, 12)
-"""From this Python on one wheel is enough."""
 
 
 def main() -> None:
@@ -80,13 +79,15 @@ def make(
     with tempfile.TemporaryDirectory() as folder:
         sources = exported(name, Path(folder))
         made = []
-        if set(only) & {"sdist", "wheels", "arm64"}:
+        if set(only) & {"sdist", "wheels", "arm64", "others"}:
             made.append(make_sdist(sources, output))
         found = pythons()
         builders = [found[version] for version in sorted({min(found), min(v for v in found if v >= STABLE)})]
-        for target, part in ((INTEL, "wheels"), (ARM, "arm64")):
+        for target, part in zip(LINUX, ("wheels", "arm64"), strict=True):
             if part in only:
                 made += [make_wheel(made[0], python, target, output) for python in builders]
+        if "others" in only:
+            made += [make_wheel(made[0], builders[-1], target, output) for target in FOREIGN]
         if made:
             subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *made], check=True)
         if "wheels" in only:
@@ -140,7 +141,7 @@ def exported(commit: str, folder: Path) -> Path:
 
 def fits(wheel: Path, version: tuple[int, int]) -> bool:
     """Whether a wheel is for this processor and Python."""
-    tag = "abi3" if version >= STABLE else f"cp{version[0]}{version[1]}-cp"
+    tag = "abi3-many" if version >= STABLE else f"cp{version[0]}{version[1]}-cp"
     return "x86_64" in wheel.name and tag in wheel.name
 
 

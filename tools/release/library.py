@@ -14,8 +14,8 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+from tools.release.cross import clean
 from tools.release.trial import try_newcomer
-from tools.release.wheels import clean
 
 STREAM = "spec/vectors/1.0/good-tetrahedron.bsm"
 EXAMPLES = ("dec.c", "enc.c", "frames.cpp", "threads.c")

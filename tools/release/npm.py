@@ -6,8 +6,8 @@ import os
 import subprocess
 from pathlib import Path
 
+from tools.release.cross import clean
 from tools.release.trial import try_newcomer
-from tools.release.wheels import clean
 
 
 def make_npm(sources: Path, root: Path, output: Path) -> Path:

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from tools.release.wheels import clean
+from tools.release.cross import clean
 
 COMPILERS = ("cc", "gcc", "clang", "c++", "cmake", "ninja")
 

