@@ -112,7 +112,7 @@ class LookMetric:
         if not self._diagonal < _LARGEST:
             raise MeshError("the mesh cannot be looked at: its coordinates are too large to compute with; scale it")
         self._middle = low + (high - low) / 2
-        self._kept = np.float32 if lost <= 1e-6 * self._diagonal else np.float64  # as files have them
+        self._kept = np.dtype(np.float32 if lost <= 1e-6 * self._diagonal else np.float64)  # as files have them
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)
         self._size = Size.of(positions, faces, most_pixels)

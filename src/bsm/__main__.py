@@ -22,9 +22,14 @@ def _interrupt(number: int, _: object) -> None:
 def _interrupt_again(lost: sys.UnraisableHookArgs) -> None:
     """Repeat an interrupt that came where Python drops errors, such as in the callback of a lock of imports."""
     if lost.exc_type is KeyboardInterrupt:
-        _thread.start_new_thread(lambda: (time.sleep(1e-3), _thread.interrupt_main()), ())
+        _thread.start_new_thread(_interrupt_soon, ())
     else:
         sys.__unraisablehook__(lost)
+
+
+def _interrupt_soon() -> None:
+    time.sleep(1e-3)
+    _thread.interrupt_main()
 
 
 def run() -> None:

@@ -132,11 +132,11 @@ def test_an_npz_sequence_is_denoised_frame_by_frame(frames, tmp_path):
     with np.load(tmp_path / "out.npz") as out:
         assert out["positions"].shape == frames.shape
         assert (out["faces"] == CLEAN.faces).all()
-        alone = TriangleMesh(frames[-1].astype(np.float32), CLEAN.faces)
-        write_mesh(tmp_path / "last.npz", alone)
-        assert bsm("denoise", tmp_path / "last.npz", "-o", tmp_path / "last_out.npz", *FEW).returncode == 0
-        last = read_mesh(tmp_path / "last_out.npz").mesh.positions
-        assert np.abs(out["positions"][-1] - last).max() < 1e-10
+        two = frames[[-1, 0]].astype(np.float32)
+        np.savez_compressed(tmp_path / "two.npz", positions=two, faces=CLEAN.faces)
+        assert bsm("denoise", tmp_path / "two.npz", "-o", tmp_path / "two_out.npz", *FEW).returncode == 0
+        with np.load(tmp_path / "two_out.npz") as others:
+            assert np.abs(out["positions"][[-1, 0]] - others["positions"]).max() < 1e-10
 
 
 def test_a_folder_of_frames_becomes_a_folder(frames, tmp_path):

@@ -1,4 +1,4 @@
-"""What a file says and no reader takes: all names in it but those in a table of the reader."""
+"""The names in a file that no reader takes: all but those in a table of the reader."""
 
 import csv
 import re

@@ -68,7 +68,7 @@ def test_a_part_that_was_modeled_askew_takes_about_the_bytes_of_one_along_the_ax
     straight, turned = Encoder(boxes(), EncodeOptions()), Encoder(askew(boxes()), EncodeOptions())
     sizes = [len(encoder.encode()) for encoder in (straight, turned)]
     # Pictures show its boxes from other sides, and so its grid is finer.
-    assert any(turned.result().header.turn) and sizes[1] < 1.2 * sizes[0]
+    assert any(turned.result().header.turn) and sizes[1] < 1.7 * sizes[0]
     assert turned.look is not None and turned.look <= 1.0
 
 
