@@ -12,17 +12,19 @@ a few vertices it is an order in which row r means about the same place in every
 of one block a good start for the next.
 """
 
+import importlib.util
 from dataclasses import dataclass
 
 import numpy as np
 
 from bsm._core import Cut
 from bsm._core import codec as _kernels
-from bsm.bitstream.errors import imported
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
+
+HAS_METIS = importlib.util.find_spec("pymetis") is not None  # PyPI lacks it for Windows and for Linux on arm64
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,12 +54,11 @@ def derive_partition(graph: Graph, parts: int) -> Partition:
 
 
 def metis_partition(graph: Graph, parts: int) -> Partition:
-    """METIS k-way partition; its labels differ between builds, so a stream has to carry them."""
-    pymetis = imported("pymetis", "METIS, which cuts meshes into parts, is not installed", "paper")
-    if parts == 1:
-        return partition_of_labels(np.zeros(graph.size, np.int32))
-    adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbors)
-    _, labels = pymetis.part_graph(parts, adjacency)
+    """METIS k-way partition, or the derived one without METIS; labels differ, so a stream has to carry them."""
+    if parts == 1 or not HAS_METIS:
+        return partition_of_labels(derive_partition(graph, parts).labels)
+    metis = importlib.import_module("pymetis")
+    _, labels = metis.part_graph(parts, metis.CSRAdjacency(graph.offsets, graph.neighbors))
     return partition_of_labels(np.asarray(labels, dtype=np.int32))
 
 

@@ -15,6 +15,7 @@ from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
+from bsm.codec.blocks import overlap
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference, decibel
 from bsm.codec.progress import Nearing, Progress
@@ -64,6 +65,7 @@ SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 LOOKS = [Contract(WIDEST, look=kept.look) for preset in reversed(PRESETS.values()) if (kept := preset.promise)]
 """The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
 OVER = "eps_h is exceeded in {} of {} blocks: these have as many coefficients as they may have"
+OWN_RULE = "METIS (pymetis) is not installed: BSM's own rule cuts the mesh into parts"
 ONE_BLOCK = "the mesh fits in one block: its basis is exact, and no orthogonal iterations follow"
 
 
@@ -125,7 +127,8 @@ class Encoder:
         unseen = [f"no look is promised: {self._unseen}"] if self._unseen else []
         missed = 0 if self.options.target or not self.options.paper.doi else self._spectral.missed
         over = [OVER.format(missed, self._input.prepared.blocks.count)] if missed else []
-        return (*self._input.joined.losses, *doubt, *unseen, *over)
+        own = [OWN_RULE] if self.options.paper.partition == "metis" and not overlap.HAS_METIS else []
+        return (*self._input.joined.losses, *doubt, *unseen, *over, *own)
 
     @property
     def mesh(self) -> TriangleMesh:

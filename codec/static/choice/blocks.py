@@ -205,10 +205,9 @@ class InBlocks:
     @cached_property
     def _eps(self) -> tuple[float, float] | None:
         """eps_l and eps_h in BSM units."""
-        if (doi := self._options.paper.doi) is None:
-            return None
-        edge = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces)
-        return edge * doi[0], edge * doi[1]
+        if doi := self._options.paper.doi:
+            edge = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces)
+        return doi and (edge * doi[0], edge * doi[1])
 
     @property
     def first_step(self) -> float:
@@ -287,9 +286,9 @@ class Refined:
         self.least, self.most = FINEST_LAYER, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), FINEST_LAYER)
         self.at = lru_cache(1)(self._made)
 
-    def replaced(self, first: float, prepared: Prepared | None = None, ratio: float | None = None) -> "Refined":
-        """This way with other blocks, or another ratio, from another step on."""
-        other = Refined(prepared or self._prepared, self._options, self._bounds, self._settled, ratio or self.ratio)
+    def replaced(self, first: float, prepared: Prepared) -> "Refined":
+        """This way with other blocks, from another step on."""
+        other = Refined(prepared, self._options, self._bounds, self._settled, self.ratio)
         other.first = first
         return other
 

@@ -72,7 +72,7 @@ class Search:
                 # The guess is for steps at which a mesh looks right.
                 size = found.congruent.size if gain < 1.0 else found.size if seen else found.draft.size
                 least = min(least, size - leaning)
-                ways += self._others(way, found, bounds) if isinstance(way, Refined) else []
+                ways += self._larger(way, found, bounds) if isinstance(way, Refined) else []
         if not kept:
             kept.append(self._last_resort(bounds))
         repeats = share < 1.0 - LEAST_SAVED and not self._prepared.light
@@ -114,21 +114,17 @@ class Search:
                 yield candidate
                 least = candidate.congruent.size
 
-    def _others(self, way: Refined, found: Trial, bounds: Bounds) -> list[Refined]:
-        """Ways that may be smaller than one that has come to a candidate."""
-        others = list[Refined]()
-        if bounds.contract.look == math.inf:
-            return others
-        if bounds.excess(found) < -4.0 * SLACK:  # folds are in the way: fewer if steps along tangents are finer
-            others.append(way.replaced(found.step, ratio=way.ratio / math.sqrt(2.0)))
+    def _larger(self, way: Refined, found: Trial, bounds: Bounds) -> list[Refined]:
+        """The way with larger blocks, where these may take fewer bytes than those that it has come to."""
         usual = self._prepared.parts.size == EncodeOptions.block_size and way.ratio == RATIO
-        if usual and way.base.coded > found.size / 4.0:
-            parts = replace(self._prepared.parts, size=LARGE_BLOCKS["block_size"])
-            larger = way.replaced(found.step, replace(self._prepared, parts=parts))
-            with suppress(LimitError):  # blocks that decoders would refuse
-                saved = (way.base.coded - larger.base.coded) / found.size
-                others += [larger] if larger.base.work < way.base.work * (1.0 + WORTH * saved) else []
-        return others
+        if bounds.contract.look == math.inf or not usual or way.base.coded <= found.size / 4.0:
+            return []
+        parts = replace(self._prepared.parts, size=LARGE_BLOCKS["block_size"])
+        larger = way.replaced(found.step, replace(self._prepared, parts=parts))
+        with suppress(LimitError):  # blocks that decoders would refuse
+            saved = (way.base.coded - larger.base.coded) / found.size
+            return [larger] if larger.base.work < way.base.work * (1.0 + WORTH * saved) else []
+        return []
 
     def _last_resort(self, bounds: Bounds) -> Trial:
         """The result of grids that are finer than where a search began, where it came to nothing."""

@@ -2,7 +2,6 @@
 
 import math
 import pickle
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +11,7 @@ import bsm
 from bsm import PRESETS, EncodeOptions, Encoder, OptionError, Paper, TriangleMesh
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.blocks import overlap
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.static.ways import block_coder
 from bsm.evaluation.curve import paper_options
@@ -105,10 +105,10 @@ def test_a_mesh_smaller_than_a_block_is_one_block_and_a_note_says_so():
     assert not any("one block" in note for note in Encoder(patch(6, 7), EncodeOptions(step=0.01)).notes)
 
 
-def test_without_metis_the_message_says_how_to_install_it(monkeypatch):
-    monkeypatch.setitem(sys.modules, "pymetis", None)
-    with pytest.raises(bsm.DependencyError, match=r"METIS.* is not installed; run: pip install 'bsm-codec\[paper\]'"):
-        bsm.encode(MESH, preset="paper")
+def test_without_metis_our_rule_cuts_and_a_note_says_so(monkeypatch):
+    monkeypatch.setattr(overlap, "HAS_METIS", False)
+    with pytest.warns(bsm.BsmWarning, match="METIS .* is not installed: BSM's own rule cuts the mesh into parts"):
+        assert len(bsm.decode(bsm.encode(MESH, preset="paper")).faces) == len(MESH.faces)
 
 
 @pytest.mark.parametrize("more", [{"look": 1.0}, {"max_error": 0.01}, {"grid": 12}, {"grid_cell": 0.1}])
