@@ -66,7 +66,7 @@ async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>): Prom
         loadMaterial: (index: number) => Promise.resolve(new MeshBasicMaterial({ name: String((json as { materials: { name?: string }[] }).materials[index].name ?? "") })),
     }));
     const { scene, parser: { json } } = await loader.parseAsync(bytes, "");
-    if (json.materials?.length) lost.add("colors and textures of materials");
+    if (/color|texture/i.test(JSON.stringify(json.materials ?? []))) lost.add("colors and textures of materials");
     for (const part of ["animations", "skins", "cameras"]) if (json[part]?.length) lost.add(part);
     return { root: scene };
 }
