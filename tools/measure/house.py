@@ -32,10 +32,10 @@ BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, lines": 36_617,
-    "rest of the product, lines": 31_705,
-    "tests, lines": 32_200,
-    "tools, lines": 18_480,
+    "codec proper, lines": 36_616,
+    "rest of the product, lines": 31_463,
+    "tests, lines": 31_814,
+    "tools, lines": 17_758,
     "tuned constants of the search": 55,
     "kernels driven by both Python and C": 20,
 }
