@@ -89,7 +89,7 @@ class Rehearsal:
         self._finding, self._level, self._touched = finding, level, finding.levels > 0.0
         self._synthesis = Synthesis(finding, surface.probe, level.tangential)
         if finding.kind == "unsteady" and level.normal > FINE_SHAPE * finding.level:
-            # Little noise is left: what is rehearsed with has the detail of the shape.
+            # Little noise is left, so the guess has the detail of the shape.
             self._rehearse(given.given, SEED)
             return
         iterations = 1

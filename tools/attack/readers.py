@@ -689,7 +689,7 @@ def is_ours(name: str) -> bool:
 
 
 def reading(make: Callable[[], Sample], folder: Path, limits: Limits) -> Callable[[], Taken]:
-    """Write a file and those beside it, then measure the reader, with its processes behind the isolation."""
+    """Write a file and those beside it, then measure the reader and its isolated processes."""
     path, size = written(make(), folder)
     end_of_child = importlib.import_module("bsm.files.isolation").end_of_child  # of Linux
 

@@ -6,7 +6,7 @@ cannot pretend remains: names in which upper and lower case differ, open files t
 
 import errno
 import os
-import random  # noqa: F401 - asks for what is taken, once
+import random  # noqa: F401 - it looks at os once, when it is imported
 import signal
 import subprocess  # noqa: F401 - the same
 import sys

@@ -32,7 +32,7 @@ def read(source, kind):
 
 
 def require_each(kind, whole, variants, monkeypatch):
-    """Each name, of which there are files without it, changes what is read, but those that are known to be silent."""
+    """A file without one of its names gives another mesh or other notes, except for the names in `silent.json`."""
     monkeypatch.setattr(unread, "_MOST_NAMED", 1 << 16)
     (held, left), told, every = read(whole, kind), set(), set()
     for name, source in variants(left):
