@@ -12,6 +12,8 @@ interface Part {
 
 const REFUSED = { isSkinnedMesh: "skins", isInstancedMesh: "instances", isBatchedMesh: "batches", isLOD: "levels of detail" };
 const GETTERS = ["getX", "getY", "getZ", "getW"] as const;
+const LABELS = ["part", "material"];
+type Given = BufferAttribute | InterleavedBufferAttribute;
 
 const semanticOf = (name: string): AttributeInput["semantic"] => (name === "normal" ? "normal" : name.startsWith("color") ? "color" : /^(uv|texcoord)\d*$/.test(name) ? "texcoord" : "generic");
 
@@ -22,18 +24,20 @@ export function meshOf(given: BufferGeometry | Object3D, note: (text: string) =>
     if (parts.length === 0) refuse(`there are no meshes with triangles${left.size > 0 ? `, only ${[...left].join(", ")}` : ""}`);
     const materials = [...new Set(parts.flatMap(({ material = [] }: Part) => material))];
     const faces = parts.map((part) => facesOf(part, materials));
+    if (faces.every(({ labels }) => labels.length === 0)) refuse("no face is drawn: see the index, the draw range, the groups and the materials");
     const places = parts.map((part) => valuesOf(part, "position", false) as Values);
     const starts = places.map((_, i) => places.slice(0, i).reduce((sum, { length }) => sum + length / 3, 0));
     const names = [...new Set(parts.flatMap(({ geometry }) => Object.keys(geometry.attributes)))].filter((name) => name !== "position");
     const attributes = names.flatMap((name): AttributeInput[] => {
         const own = parts.flatMap(({ geometry }) => geometry.attributes[name] ?? []);
         const components = own[0].itemSize;
-        if (own.length < parts.length || components > GETTERS.length || own.some(({ itemSize }) => itemSize !== components)) return left.add(name), [];
+        const isTaken = ({ array, itemSize }: Given): boolean => kindOf(array ?? []) !== undefined && itemSize === components && itemSize <= GETTERS.length;
+        if (own.length < parts.length || LABELS.includes(name) || !own.every(isTaken)) return left.add(name), [];
         const kinds = [...new Set(own.map(({ array, normalized }) => `${kindOf(array)} ${normalized}`))].join();
         const asShares = semanticOf(name) === "color" && /^uint(8|16) true$/.test(kinds);
         return [{ name, components, semantic: semanticOf(name), values: joined(parts.map((part) => valuesOf(part, name, asShares))) }];
     });
-    const labels = ["part", "material"].map((name, which) => ({ name, components: 1, domain: "face" as const, values: Uint16Array.from(faces.flatMap(({ labels }, part) => (which ? labels : labels.map(() => part)))) }));
+    const labels = LABELS.map((name, which) => ({ name, components: 1, domain: "face" as const, values: Uint16Array.from(faces.flatMap(({ labels }, part) => (which ? labels : labels.map(() => part)))) }));
     const metadata: MeshInput["metadata"] = Object.fromEntries(materials.length > 1 ? materials.map(({ name }, i) => [`material.${i}.name`, name]) : []);
     if (parts.length > 1) metadata["part.names"] = parts.map(({ name }) => name.replaceAll("\n", " ")).join("\n");
     if (materials.some((material) => Object.values(material).some((value: Texture | undefined) => value?.isTexture))) left.add("textures");
@@ -43,7 +47,9 @@ export function meshOf(given: BufferGeometry | Object3D, note: (text: string) =>
 
 /** The meshes of an object and of all in it that can be seen. */
 function partsOf(object: Object3D, left: Set<string>): Part[] {
-    object.updateWorldMatrix(true, true);
+    let top = object;
+    while (top.parent) top = top.parent;
+    top.updateMatrixWorld(true);
     const found = (each: Object3D): Part[] => {
         if (!each.visible) return left.add("what is invisible"), [];
         for (const [kind, what] of Object.entries(REFUSED)) if (kind in each) refuse(`no stream has ${what}: encode the geometry, or a mesh of what is drawn`);
@@ -57,12 +63,12 @@ function partsOf(object: Object3D, left: Set<string>): Part[] {
 /** The drawn faces, and the material of each: with several, what is in no group is not drawn. */
 function facesOf({ geometry, material, matrix }: Part, materials: Material[]): { corners: Uint32Array; labels: number[] } {
     const { index, attributes, groups, drawRange: { start, count }, morphAttributes } = geometry;
-    if (attributes.position?.itemSize !== 3) refuse("the geometry has no positions");
-    if (Object.keys(morphAttributes).length > 0) refuse("no stream has morph targets: delete geometry.morphAttributes, or encode each shape");
+    if (!(attributes.position as Given)?.array) refuse("the geometry has no positions");
+    if (Object.values(morphAttributes).some(({ length }) => length > 0)) refuse("no stream has morph targets: delete geometry.morphAttributes, or encode each shape");
     if ("instanceCount" in geometry || Object.values(attributes).some((each) => "isInstancedBufferAttribute" in each)) refuse("no stream has instances: encode the geometry without them");
     const all = index ? wholes(index.array, "an index") : Uint32Array.from({ length: attributes.position.count }, (_, i) => i);
     const own = material && [material].flat();
-    const numberOf = (number = 0): number => (own ? materials.indexOf(own[number] ?? own[0]) : number);
+    const numberOf = (number = 0): number => (!own ? number : own[number]?.visible ? materials.indexOf(own[number]) : -1);
     const isGrouped = Array.isArray(material) && groups.length > 0;
     const labels = new Int32Array(all.length).fill(isGrouped ? -1 : numberOf());
     if (isGrouped || !own) for (const group of groups) labels.fill(numberOf(group.materialIndex), group.start, group.start + group.count);
@@ -74,14 +80,15 @@ function facesOf({ geometry, material, matrix }: Part, materials: Material[]): {
 
 /** The numbers that an attribute stands for, where its object is; `asShares`: integers stay shares of their range. */
 function valuesOf({ geometry, matrix }: Part, name: string, asShares: boolean): ArrayLike<number> {
-    const attribute = geometry.attributes[name] as BufferAttribute | InterleavedBufferAttribute;
-    const { array, count, itemSize, normalized } = attribute;
+    const attribute = geometry.attributes[name] as Given;
+    const { array, itemSize, normalized } = attribute;
     const isPlace = name === "position";
+    const [count, width] = [geometry.attributes.position.count, isPlace ? 3 : itemSize];
     const isMoved = matrix !== undefined && (isPlace || /^(normal|tangent)$/.test(name)) && !matrix.equals(matrix.clone().identity());
     const isPlain = !("data" in attribute || "isFloat16BufferAttribute" in attribute) && (asShares || !normalized) && kindOf(array) !== undefined;
-    if (isPlain && !isMoved && (!isPlace || /^float/.test(kindOf(array)!))) return array;
-    const read = (i: number): number => attribute[GETTERS[i % itemSize]](Math.floor(i / itemSize));
-    const moved = new BufferAttribute(Float64Array.from({ length: itemSize * count }, (_, i) => read(i)), itemSize);
+    if (isPlain && !isMoved && width === itemSize && (!isPlace || /^float/.test(kindOf(array)!))) return array.subarray(0, width * count);
+    const read = (i: number): number => (i % width < itemSize ? attribute[GETTERS[i % width]](Math.floor(i / width)) : 0);
+    const moved = new BufferAttribute(Float64Array.from({ length: width * Math.min(count, attribute.count) }, (_, i) => read(i)), width);
     if (!isMoved) return isPlace && (kindOf(array) === "float64" || !normalized) ? moved.array : Float32Array.from(moved.array);
     if (isPlace) return moved.applyMatrix4(matrix).array; // a matrix may place it where single precision is coarse
     return Float32Array.from((name === "normal" ? moved.applyNormalMatrix(new Matrix3().getNormalMatrix(matrix)) : moved.transformDirection(matrix)).array);

@@ -65,10 +65,12 @@ async function read(suffix: string, bytes: ArrayBuffer, lost: Set<string>): Prom
         name: "plain",
         loadMaterial: (index: number) => Promise.resolve(new MeshBasicMaterial({ name: String((json as { materials: { name?: string }[] }).materials[index].name ?? "") })),
     }));
-    const { scene, parser: { json } } = await loader.parseAsync(bytes, "");
+    const { scene, scenes, parser: { json } } = await loader.parseAsync(bytes, "");
+    if (!(scene ?? scenes[0])) throw new Error("It has no scene.");
+    if (scenes.length > 1) lost.add("other scenes");
     if (/color|texture/i.test(JSON.stringify(json.materials ?? []))) lost.add("colors and textures of materials");
     for (const part of ["animations", "skins", "cameras"]) if (json[part]?.length) lost.add(part);
-    return { root: scene };
+    return { root: scene ?? scenes[0] };
 }
 
 function readPly(bytes: ArrayBuffer, lost: Set<string>): BufferGeometry {

@@ -9,10 +9,9 @@ import {
 } from "three";
 import { encodeHere, EncodeError, type EncodeOptions, type Drawn, type MeshInput } from "../src/encode";
 import { decode, type Attribute } from "../src/index";
-import { BUILDS, compile, WEB } from "./shared";
+import { kernels, WEB } from "./shared";
 
 const wasm = await WebAssembly.compile(readFileSync(join(WEB, "built/encode.wasm")));
-const kernels = await compile(BUILDS[0]);
 
 interface Found {
     low: number[];
@@ -58,6 +57,10 @@ describe("kept", () => {
         doubles: positions(box(), new BufferAttribute(Float64Array.from(whole(1)), 3)),
         "interleaved, normalized": positions(box(), spaced()),
         "no index": box().toNonIndexed(),
+        "four numbers": positions(box(), new BufferAttribute(Float32Array.from({ length: 96 }, (_, i) => (i % 4 < 3 ? whole(1)[3 * (i >> 2) + (i % 4)] : 9)), 4)),
+        "no shape of a morph": Object.assign(box(), { morphAttributes: { position: [] } }),
+        "beside numbers of 64 bits": box().setAttribute("id", new BufferAttribute(new BigInt64Array(24) as never, 1)),
+        "a longer attribute": box().setAttribute("uv", new BufferAttribute(new Float32Array(60), 2)),
     })) {
         test(`positions: ${what}`, async () => {
             const found = await back(geometry);
@@ -81,6 +84,7 @@ describe("kept", () => {
         const found = await back(geometry);
         assert.equal(found.faces, 4);
         assert.deepEqual([...new Set(found.attribute("material")!.values)].sort(), [1, 2]);
+        for (const few of [[new MeshBasicMaterial()], [0, 1, 2, 3, 4, 5].map((i) => new MeshBasicMaterial({ visible: i === 3 }))]) assert.equal((await back(new Mesh(box(), few))).faces, 2);
     });
 
     test("where an object is, what it mirrors, its parts, and their materials", async () => {
@@ -89,6 +93,9 @@ describe("kept", () => {
         assert.ok(one.volume > 0, "turned inside out");
         const normals = one.attribute("normal")!.values;
         assert.ok(Math.abs(Math.hypot(...normals.subarray(0, 3)) - 1) < 1e-3);
+        const still = Object.assign(new Mesh(box()), { matrixAutoUpdate: false });
+        still.matrix.makeTranslation(9, 0, 0);
+        assert.deepEqual((await back(still)).low, [8, -1, -1]);
         const group = new Group().add(new Mesh(box(), new MeshBasicMaterial({ name: "red" })), moved(new Mesh(box(), new MeshBasicMaterial({ name: "blue" }))));
         const both = await back(group);
         assert.deepEqual([both.low, both.high, both.faces], [[-1, -1, -2], [6, 1, 2], 24]);
@@ -124,6 +131,7 @@ describe("refused", () => {
         "instances of an attribute": [instanced(), /instances/],
         "levels of detail": [new LOD().addLevel(new Mesh(box())), /levels of detail/],
         points: [new Points(box()), /only points and lines/],
+        "no face in the draw range": [Object.assign(box(), { drawRange: { start: 99, count: 3 } }), /no face is drawn/],
         "nothing that can be seen": [Object.assign(new Mesh(box()), { visible: false }), /only what is invisible/],
         "a half vertex": [{ ...mesh, faces: [0, 0.5, 2] }, /whole numbers/],
         "a vertex below 0": [{ ...mesh, faces: [0, -1, 2] }, /whole numbers/],
