@@ -1,4 +1,4 @@
-// The kernels of `bitstream` and `codec` as WebAssembly, with and without vector instructions: `npm run kernels`.
+// The kernels of `bitstream` and `codec` as WebAssembly with vector instructions: `npm run kernels`.
 import { execFileSync, spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -136,21 +136,20 @@ function optionsOf(source, fast, light) {
     return ["-Oz", ...(APART.test(source) && !light ? [] : ["-flto"]), ...(LEAN.test(source) || DRIVERS.test(source) ? ["-DBSM_LEAN"] : []), ...(light ? ["-DBSMDEC_LIGHT"] : [])];
 }
 
-/** Every build: whether with vector instructions, what of the decoder it is without, which headers ask for that, and which sources are compiled for speed; `light`: for light grids alone; `writes`: the encoder; `long`: without brief streams. */
+/** Every build: what of the decoder it is without, which headers ask for that, and which sources are compiled for speed; `light`: for light grids alone; `writes`: the encoder; `long`: without brief streams. */
 export const KERNEL_BUILDS = {
-    "built/kernels.wasm": { vectors: true },
-    "built/kernels-scalar.wasm": { vectors: false },
-    "built/small.wasm": { vectors: true, without: /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/moving.wasm": { vectors: true, without: /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/, long: true, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/encode.wasm": { vectors: true, exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "!header->on_grid || header->congruence" },
-    "built/quick.wasm": { vectors: true, exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: true },
+    "built/kernels.wasm": {},
+    "built/small.wasm": { without: /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
+    "built/moving.wasm": { without: /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/, long: true, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
+    "built/encode.wasm": { exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "!header->on_grid || header->congruence" },
+    "built/quick.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: true },
 };
 
 /** Objects of sources, which builds have in common. */
 const compiled = new Map();
 
 /** One of them. */
-export function compileKernels({ vectors, exported = PAGE, without, lacks, fast = FAST, light = false, writes = false, long = false }) {
+export function compileKernels({ exported = PAGE, without, lacks, fast = FAST, light = false, writes = false, long = false }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -161,7 +160,7 @@ export function compileKernels({ vectors, exported = PAGE, without, lacks, fast 
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            const options = [...FLAGS, writes ? "-DBSMDEC_WRITES" : "-DBSM_DECODER", ...optionsOf(source, fast, light), ...(without && DRIVERS.test(source) ? [...(writes ? [] : ["-DBSMDEC_TERSE"]), ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : []), ...(long ? ["-DBSMDEC_LONG=1"] : [])] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
+            const options = [...FLAGS, writes ? "-DBSMDEC_WRITES" : "-DBSM_DECODER", ...optionsOf(source, fast, light), ...(without && DRIVERS.test(source) ? [...(writes ? [] : ["-DBSMDEC_TERSE"]), ...(lacks ? [`-DBSMDEC_LACKS=(${lacks})`] : []), ...(long ? ["-DBSMDEC_LONG=1"] : [])] : []), "-msimd128", "-I", ".", "-c", source];
             const key = options.join(" ");
             if (source === data || !compiled.has(key)) {
                 clang(...options, "-o", object);
@@ -171,7 +170,7 @@ export function compileKernels({ vectors, exported = PAGE, without, lacks, fast 
         });
         checkPriors(clang, objects.at(-1), priors, target);
         clang(TARGET, "-nostdlib", ...objects.filter((_, i) => !without?.test(SOURCES[i])), ...LINK, ...(without ? ["-Wl,--unresolved-symbols=ignore-all"] : []), ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
-        const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
+        const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", "--enable-simd"];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
         const passes = ["-Oz", "--converge", "--low-memory-unused", "--flatten", "--rereloop", "-Oz", "-Oz", "--one-caller-inline-max-function-size=100"];
         execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, ...passes, ...features, "-o", target]);

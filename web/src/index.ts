@@ -4,7 +4,6 @@ export { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 export type { Attribute } from "./attributes";
 export type { Header } from "./header";
 export { Kernels } from "./kernels";
-export { hasVectors } from "./threads";
 export * from "./decoder";
 export type * from "./drawing";
 export { Helper } from "./helper";

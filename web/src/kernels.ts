@@ -11,7 +11,7 @@ export class Kernels {
     /** Of a module that is compiled already; it may be sent to other threads. */
     constructor(readonly module: WebAssembly.Module) {}
 
-    /** Compile the bytes of one of the two builds. */
+    /** Compile the bytes of a build. */
     static async compile(bytes: BufferSource): Promise<Kernels> {
         return new Kernels(await WebAssembly.compile(bytes));
     }

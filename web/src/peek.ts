@@ -23,8 +23,7 @@ export function needOf(data: Uint8Array): Need | undefined {
         const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, value]) => [Number(key.value), value.type === "array" ? value.value[0] : value]));
         const first = (key: number): number => Number(header.get(key)?.value ?? 0);
         const { vertices, paper, sequence, attributes, light, congruence } = HEADER_KEYS;
-        const isPacked = first(paper) > 0;
-        const build = isPacked || header.has(attributes) ? "whole" : header.has(sequence) ? "moving" : first(light) === 1 && !header.has(congruence) ? "quick" : "small";
+        const build = first(paper) > 0 || header.has(attributes) ? "whole" : header.has(sequence) ? "moving" : first(light) === 1 && !header.has(congruence) ? "quick" : "small";
         return { build, vertices: first(vertices) };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;

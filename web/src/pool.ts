@@ -36,6 +36,10 @@ export interface StreamDecoding {
 
 const LIMIT = 4;
 const MOST_FAILED = 1; // threads that may fail to start before the page does without
+const MOMENT = 100; // milliseconds that a stream waits for the headers of others, to have one decoder with them
+/** Which streams each build reads, the smallest first. */
+const READS: Record<Build, Build[]> = { quick: ["quick"], moving: ["moving"], small: ["quick", "small"], whole: ["quick", "moving", "small", "whole"] };
+const BUILDS = Object.keys(READS) as Build[];
 
 /** A thread, and the streams that it works on, as their decoder or as a helper. */
 interface Hand {
@@ -58,6 +62,8 @@ export class Pool {
     /** Threads that never began, one after the other: a server may fail once. */
     private failed = 0;
     private alone = false;
+    /** Builds whose kernels were asked for. */
+    private readonly asked = new Set<Build>();
 
     constructor(private readonly source: Source = here, private limit = LIMIT) {}
 
@@ -66,6 +72,7 @@ export class Pool {
     }
 
     async preload(build: Build = "small"): Promise<void> {
+        this.asked.add(build);
         if (!this.alone && !this.hands.some((hand) => hand.build === build)) this.start(build);
         await this.source.kernels(build);
     }
@@ -83,7 +90,11 @@ export class Pool {
         for (const stream of [...this.streams]) stream.fail(new Error("the decoder's threads were stopped"));
     }
 
-    private async begin(stream: PooledStream, need: Need): Promise<void> {
+    private async begin(stream: PooledStream, named: Need): Promise<void> {
+        stream.need = named;
+        if (!this.asked.has(named.build)) await Promise.race([Promise.all([...this.streams].map(({ said }) => said)), new Promise((go) => setTimeout(go, MOMENT))]);
+        if (stream.closed) return;
+        const need = { ...named, build: this.buildFor(named.build) };
         let kernels: WebAssembly.Module;
         try {
             kernels = await this.source.kernels(need.build);
@@ -92,6 +103,15 @@ export class Pool {
         }
         stream.prepare(kernels, need);
         if (!stream.closed) this.place(stream);
+    }
+
+    /** A build that was asked for and reads a stream, or the smallest that also reads all streams which no such build reads. */
+    private buildFor(build: Build): Build {
+        const there = (wanted: Build): Build | undefined => BUILDS.find((each) => this.asked.has(each) && READS[each].includes(wanted));
+        const wanted = [...this.streams].filter((stream) => stream.known && !there(stream.need.build)).map(({ need }) => need.build);
+        const found = there(build) ?? BUILDS.find((each) => [build, ...wanted].every((one) => READS[each].includes(one)))!;
+        this.asked.add(found);
+        return found;
     }
 
     /** Give a stream to a thread that has none, or to a new one; or let it wait for the next that is free. */
@@ -130,9 +150,7 @@ export class Pool {
         if (need.build === "quick" || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0) return [];
         const busy = this.hands.filter((other) => other !== hand && other.streams.size > 0).length;
         const found: Hand[] = [];
-        while (found.length < most - busy) {
-            const helper = this.free(need.build);
-            if (!helper) break;
+        for (let helper; found.length < most - busy && (helper = this.free(need.build)); ) {
             helper.streams.add(stream);
             found.push(helper);
         }
@@ -204,8 +222,11 @@ class PooledStream implements StreamDecoding {
     begun = false;
     task = -1;
     need: Need = { build: "whole", vertices: 0 };
+    /** Whether its need is known; `said` waits for that, or for its end. */
+    known = false;
+    private tell = (): void => {};
+    readonly said = new Promise<void>((go) => (this.tell = go));
     private readonly pieces: (Uint8Array | null)[] = [];
-    private known = false;
     private reported = 0;
     private kernels?: WebAssembly.Module;
     private say?: (message: Message, moved: Transferable[]) => void;
@@ -228,6 +249,7 @@ class PooledStream implements StreamDecoding {
     close(): void {
         if (this.closed) return;
         this.closed = true;
+        this.tell();
         this.say?.({ task: this.task, stop: true }, []);
         this.pieces.length = 0;
         this.end();
@@ -278,7 +300,9 @@ class PooledStream implements StreamDecoding {
         else if (!this.known) {
             const need = this.wishes.tolerant ? { build: "whole" as const, vertices: 0 } : needOf(joined(this.pieces));
             this.known = need !== undefined || data === null;
-            if (this.known) this.begin(need ?? this.need);
+            if (!this.known) return;
+            this.tell();
+            this.begin(need ?? this.need);
         }
     }
 

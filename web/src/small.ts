@@ -2,6 +2,5 @@
 export * from "./errors";
 export { DEFAULT_LIMITS, type Limits } from "./limits";
 export { Kernels } from "./kernels";
-export { hasVectors } from "./threads";
 export * from "./decoder";
 export { openDesk, serve } from "./workerFull";

@@ -1,7 +1,6 @@
 /** Where threads and kernels come from: the files beside this one, or those of a folder that is named. */
 import type { StreamWorker, Say, Start } from "./worker";
 import { compiled } from "./fetched";
-import { hasVectors } from "./threads";
 import type { Build } from "./peek";
 
 export interface Source {
@@ -19,20 +18,12 @@ const WORKERS: Record<Build, () => Worker> = {
     quick: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM-quick" }),
     moving: () => new Worker(new URL("./moving-worker.js", import.meta.url), { type: "module", name: "BSM-moving" }),
 };
-const KERNELS: Record<Build | "scalar", () => URL> = {
+const KERNELS: Record<Build, () => URL> = {
     whole: () => new URL("./kernels.wasm", import.meta.url),
     small: () => new URL("./small.wasm", import.meta.url),
     quick: () => new URL("./quick.wasm", import.meta.url),
     moving: () => new URL("./moving.wasm", import.meta.url),
-    scalar: () => new URL("./kernels-scalar.wasm", import.meta.url),
 };
-const SCRIPTS: Record<Build, string> = { whole: "worker.js", small: "small-worker.js", quick: "quick-worker.js", moving: "moving-worker.js" };
-const FILES: Record<Build | "scalar", string> = { whole: "kernels.wasm", small: "small.wasm", quick: "quick.wasm", moving: "moving.wasm", scalar: "kernels-scalar.wasm" };
-
-/** The lesser builds have vector instructions only; a machine without them has the whole one. */
-function buildOf(build: Build): Build {
-    return hasVectors() ? build : "whole";
-}
 
 /** An address beside this file, of which bundles of CommonJS know nothing. */
 function beside(address: () => URL): URL {
@@ -63,12 +54,12 @@ export function once(load: (build: Build) => Promise<WebAssembly.Module>): (buil
     };
 }
 
-const local: Source["local"] = (build) => (build === "quick" && hasVectors() ? import("./quick") : import("./index"));
+const local: Source["local"] = (build) => (build === "quick" ? import("./quick") : import("./index"));
 
 /** The files beside this one. */
 export const here: Source = {
-    worker: (build) => started(WORKERS[buildOf(build)]),
-    kernels: once(async (build) => compiled(beside(KERNELS[hasVectors() ? build : "scalar"]))),
+    worker: (build) => started(WORKERS[build]),
+    kernels: once(async (build) => compiled(beside(KERNELS[build]))),
     local,
 };
 
@@ -76,8 +67,8 @@ export const here: Source = {
 export function placeOf(path: string): Source {
     const base = new URL(path.endsWith("/") ? path : `${path}/`, globalThis.document?.baseURI ?? globalThis.location?.href);
     return {
-        worker: (build) => started(() => new Worker(new URL(SCRIPTS[buildOf(build)], base), { type: "module", name: "BSM" })),
-        kernels: once((build) => compiled(new URL(hasVectors() ? FILES[build] : FILES.scalar, base))),
+        worker: (build) => started(() => new Worker(new URL(build === "whole" ? "worker.js" : `${build}-worker.js`, base), { type: "module", name: "BSM" })),
+        kernels: once((build) => compiled(new URL(`${build === "whole" ? "kernels" : build}.wasm`, base))),
         local,
     };
 }

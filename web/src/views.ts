@@ -48,7 +48,8 @@ export class CodedViews<T> {
             const onError = (error: unknown): void => (fail(error), end(error));
             const onPicture = (picture: Picture): void => {
                 try {
-                    this.drawn(picture);
+                    if (picture.type === "whole") this.charge(sizeOf(picture.shape));
+                    if (picture.type === "frame") this.charge(sizeOf({ ...picture, index: new Uint8Array() }));
                 } catch (error) {
                     return onError(error);
                 }
@@ -58,22 +59,11 @@ export class CodedViews<T> {
             };
             const onEnd = (): void => (end(), shape ? resolve(shape) : fail(new Error(`${what} is a stream without a mesh`)));
             const decoding = pool.open({ onPicture, onEnd, onError }, { drawing: "whole" });
-            this.watch(decoding);
+            this.decodings.add(decoding);
+            this.charge(0);
             decoding.receiveData(data);
             decoding.receiveEof();
         });
-    }
-
-    /** Let a decoding end as soon as too much was made. */
-    watch(decoding: StreamDecoding): void {
-        this.decodings.add(decoding);
-        this.charge(0);
-    }
-
-    /** Count a shape or a frame that is there. */
-    drawn(picture: Picture): void {
-        if (picture.type === "whole") this.charge(sizeOf(picture.shape));
-        if (picture.type === "frame") this.charge(sizeOf({ ...picture, index: new Uint8Array() }));
     }
 
     /** Count bytes that were made. */

@@ -11,11 +11,10 @@ import { BSMExporter, encodeHere, encodeWith, type AttributeInput } from "../src
 import { meshOf } from "../src/content";
 import { decode } from "../src/index";
 import { POLICY, serveSite } from "./server";
-import { BUILDS, CHROMIUM, compile, FLAGS, PATIENCE, WEB } from "./shared";
+import { CHROMIUM, kernels, FLAGS, PATIENCE, WEB } from "./shared";
 
 const wasm = readFileSync(join(WEB, "built/encode.wasm"));
 const module = await WebAssembly.compile(wasm);
-const kernels = await compile(BUILDS[0]);
 
 /** A mesh with an attribute of each kind. */
 function dressed(): ReturnType<typeof meshOf> {

@@ -8,7 +8,7 @@ import { setTimeout as delay } from "node:timers/promises";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import { decode } from "../src/index";
 import { serveSite, POLICY, type Site } from "./server";
-import { BUILDS, compile, FIREFOX, PATIENCE, savedPage, VECTORS } from "./shared";
+import { kernels, FIREFOX, PATIENCE, savedPage, VECTORS } from "./shared";
 
 const NAMES = ["good-labels", "good-grid", "good-refined", "good-sequence-learnt", "good-attribute-uv-blocks"];
 
@@ -36,7 +36,6 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
     });
 
     test("decodes to the last bit what node does", async () => {
-        const kernels = await compile(BUILDS[0]);
         site.extra.set("/script.js", 'import * as bsm from "bsm"; window.bsm = bsm;');
         await page.goto(site.address);
         await until(() => "bsm" in window);
@@ -83,7 +82,7 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
             pool.dispose();
             return { positions, helped, workers };
         });
-        assert.deepEqual(found, { positions: [...decode(await compile(BUILDS[0]), read("good-keys")).positions], helped: 1, workers: 2 });
+        assert.deepEqual(found, { positions: [...decode(kernels, read("good-keys")).positions], helped: 1, workers: 2 });
     });
 
     test("draws and plays, or says that this machine cannot draw", async (t) => {

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import test from "node:test";
 import { BsmError, Decoder, Helper, NEED_BLOCK, type Event, type Kernels } from "../src/index";
-import { BUILDS, compile, mended, VECTORS } from "./shared";
+import { kernels, mended, VECTORS } from "./shared";
 
 const CHAINS = ["good-independent-predicted", "good-independent", "good-key-seed", "good-keys"];
 
@@ -45,7 +45,6 @@ function decodeShared(kernels: Kernels, data: Uint8Array, size: number, among: n
 
 for (const name of CHAINS) {
     test(`${name} with helpers`, async () => {
-        const kernels = await compile(BUILDS[0]);
         const data = readFileSync(join(VECTORS, `${name}.bsm`));
         const alone = decodeShared(kernels, data, data.length, 1, false);
         assert.equal(alone.error, undefined);
@@ -62,7 +61,6 @@ for (const name of CHAINS) {
 const [DAMAGED, LAST] = ["good-keys", 3];
 
 test(`${DAMAGED}, damaged, with helpers, strict and tolerant`, async () => {
-    const kernels = await compile(BUILDS[0]);
     const data = readFileSync(join(VECTORS, `${DAMAGED}.bsm`));
     const [lost, refused] = [new Set<number | undefined>(), new Set<string | undefined>()];
     for (let at = 5; at < data.length; at++) {

@@ -10,7 +10,7 @@ import { serveSite, POLICY, type Site } from "./server";
 import { decode } from "../src/index";
 import { frontOf } from "../src/viewer/camera";
 import { sceneOf } from "./scene";
-import { BUILDS, CHROMIUM, compile, eventsOf, FLAGS, PATIENCE, VECTORS, WEB } from "./shared";
+import { CHROMIUM, kernels, eventsOf, FLAGS, PATIENCE, VECTORS, WEB } from "./shared";
 
 const STREAM = "good-labels";
 const KEYS = "good-keys";
@@ -69,7 +69,6 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
 
     /** Scenes of one stream: as it is, with a wrong size, and cut off. */
     async function serveScenes(): Promise<void> {
-        const kernels = await compile(BUILDS[0]);
         const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
         const { positions, faces } = decode(kernels, stream);
         site.extra.set("/scene.glb", sceneOf(stream, positions.length / 3, faces.length));
@@ -156,7 +155,6 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const damaged = broken(name);
             site.extra.set("/damaged.bsm", damaged);
             const expected: string[] = [];
-            const kernels = await compile(BUILDS[0]);
             assert.throws(() => { for (const { type } of eventsOf(kernels, damaged, damaged.length)) expected.push(type); }, { name: "CorruptError" });
             const seen = await found(`
                 const data = new Uint8Array(await (await fetch("/damaged.bsm")).arrayBuffer());
@@ -227,6 +225,15 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             await Promise.all([large, decoded(), decoded(), decoded(), decoded()]);
             return { alone, most };`);
         assert.deepEqual(seen, { alone: 3, most: 3 });
+    });
+
+    test("fetches one decoder for all that a page names, the smallest that reads it", async () => {
+        for (const [build, streams] of Object.entries({ small: [STREAM, "good-light-tent"], kernels: [STREAM, "good-sequence-learnt", "good-attribute-textured"] })) {
+            const seen = await found(`
+                await Promise.all(${JSON.stringify(streams)}.map((name) => new BSMLoader().loadAsync("/stream/" + name + ".bsm")));
+                return { kernels: performance.getEntriesByType("resource").flatMap(({ name }) => /\\w+(?=\\.wasm$)/.exec(name) ?? []) };`);
+            assert.deepEqual(seen, { kernels: [build] });
+        }
     });
 
     test("stops all streams with the threads, those without any too", async () => {
@@ -362,7 +369,7 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
 
     test("moves meshes in Babylon.js", async () => {
         const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
-        const { positions, faces } = decode(await compile(BUILDS[0]), stream);
+        const { positions, faces } = decode(kernels, stream);
         site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
         const seen = await found(`
             const { Engine, Scene, AppendSceneAsync } = await import("/babylon.js");
@@ -393,10 +400,10 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
 
     test("moves meshes of glTF", async () => {
         const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
-        const { positions, faces } = decode(await compile(BUILDS[0]), stream);
+        const { positions, faces } = decode(kernels, stream);
         site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
         const name = "good-sequence-low-delay";
-        const whole = decode(await compile(BUILDS[0]), readFileSync(join(VECTORS, `${name}.bsm`)));
+        const whole = decode(kernels, readFileSync(join(VECTORS, `${name}.bsm`)));
         site.extra.set("/damaged.glb", sceneOf(broken(name), whole.positions.length / 3, whole.faces.length, true));
         const seen = await found(`
             const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");

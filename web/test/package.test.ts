@@ -8,9 +8,7 @@ import test, { after, before, describe } from "node:test";
 import { pathToFileURL } from "node:url";
 import { build } from "esbuild";
 import { readNpz } from "./npz";
-import { BUILDS, compile, eventsOf, meshOfEvents, VECTORS, WEB } from "./shared";
-
-const kernels = await compile(BUILDS[0]);
+import { kernels, eventsOf, meshOfEvents, VECTORS, WEB } from "./shared";
 
 const CONSUMER = `
 import { decode, loadKernels, Pool, type Metadata } from "bsm-decoder";

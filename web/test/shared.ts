@@ -14,7 +14,6 @@ export const VECTORS = join(SPEC, "1.0");
 /** Of all versions. */
 export const FOLDERS = readdirSync(SPEC).filter((name) => name.startsWith("1.")).map((name) => join(SPEC, name));
 export const VIEWER = join(WEB, "../src/bsm/viewer");
-export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
 
 export const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 export const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
@@ -34,9 +33,8 @@ export async function lesserDecode(build: "small" | "quick" | "moving"): Promise
     return (data) => lesser.decode(kernels, data);
 }
 
-export function compile(build: string): Promise<Kernels> {
-    return Kernels.compile(readFileSync(join(WEB, "built", build)));
-}
+/** Those of everything. */
+export const kernels = await Kernels.compile(readFileSync(join(WEB, "built/kernels.wasm")));
 
 /** All events of a stream that comes in pieces of `size` bytes; the error is thrown behind them. */
 export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}, wishes: Wishes = {}, Type = Decoder): Generator<Event> {
@@ -97,8 +95,8 @@ export function contentOf(name: string, bytes: Uint8Array): { name: string; main
 
 /** The page's module with kernels in it. */
 export function viewerScript(): string {
-    const kernels = ["kernels", "kernels-scalar"].map((name) => [name, { data: base64(readFileSync(join(VIEWER, `${name}.wasm`))) }]);
-    return `const KERNELS=${JSON.stringify(Object.fromEntries(kernels))};${readFileSync(join(VIEWER, "viewer.js"), "utf8")}`;
+    const kernels = { data: base64(readFileSync(join(VIEWER, "kernels.wasm"))) };
+    return `const KERNELS=${JSON.stringify({ kernels })};${readFileSync(join(VIEWER, "viewer.js"), "utf8")}`;
 }
 
 /** Drop files on a page. */

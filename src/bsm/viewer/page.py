@@ -193,9 +193,7 @@ def embedded(_: str, data: bytes) -> dict[str, str]:
 
 def script(place: Place, *more: str) -> str:
     """Return the module of the page with the addresses of the full kernels, and of `more` smaller ones or scripts."""
-    names = {"kernels": "kernels.wasm", "kernels-scalar": "kernels-scalar.wasm"} | {
-        PurePath(it).stem: it for it in more
-    }
+    names = {"kernels": "kernels.wasm"} | {PurePath(it).stem: it for it in more}
     kernels = {key: place(f"/{name}", _built(name)) for key, name in names.items()}
     return f"const KERNELS={json.dumps(kernels)};{_built('viewer.js').decode()}"
 

@@ -1,7 +1,6 @@
 /** Threads as parts of the script, and kernels where the page says: beside it, for who asks, or in it. */
 import { bsm, openDesk } from "../index";
 import { once, type Source } from "../source";
-import { hasVectors } from "../threads";
 
 /** Bytes, or their address, or in base64. */
 export interface Inlined {
@@ -11,7 +10,7 @@ export interface Inlined {
 }
 
 /** What `bsm.viewer.page` says before the script. */
-declare const KERNELS: { kernels: Inlined; "kernels-scalar": Inlined; small?: Inlined; encoder?: Inlined };
+declare const KERNELS: { kernels: Inlined; small?: Inlined; encoder?: Inlined };
 
 /** The script of the thread that encodes, where no server does; whether `bsm view` serves the page, and can encode. */
 export const encoder = KERNELS.encoder?.url;
@@ -29,7 +28,7 @@ export async function bytesOf({ url, data, bytes }: Inlined): Promise<Uint8Array
     return new Uint8Array(await (await fetched(url!)).arrayBuffer());
 }
 
-const load = once(async (build) => WebAssembly.compile(await bytesOf((build === "small" && KERNELS.small) || KERNELS[hasVectors() ? "kernels" : "kernels-scalar"])));
+const load = once(async (build) => WebAssembly.compile(await bytesOf((build === "small" && KERNELS.small) || KERNELS.kernels)));
 
 export const inlined: Source = {
     worker() {
@@ -42,6 +41,6 @@ export const inlined: Source = {
             URL.revokeObjectURL(url);
         }
     },
-    kernels: (build) => load(build === "small" && hasVectors() && KERNELS.small ? build : "whole"),
+    kernels: (build) => load(build === "small" && KERNELS.small ? build : "whole"),
     local: () => Promise.resolve({ openDesk }),
 };
