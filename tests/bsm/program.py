@@ -25,17 +25,17 @@ def bsm(*arguments, input=b"", text=False):
     out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
         patch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(input)))
-        try:
-            code = main(words)
-        except SystemExit as ended:
-            code = ended.code
+        code = run(*words)
     found = [stream.buffer.getvalue() for stream in (out, err)]
     return subprocess.CompletedProcess(words, code, *([line.decode() for line in found] if text else found))
 
 
 def run(*arguments):
     """The exit code of `bsm` in this process; what it prints stays for `capsys`."""
-    return main(list(map(str, arguments)))
+    try:
+        return main(list(map(str, arguments)))
+    except SystemExit as ended:
+        return ended.code
 
 
 def python(*words, timeout=120, **keywords):

@@ -8,6 +8,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from tests.bsm.program import run
 from tests.shapes import torus
 
 MEANT = """
@@ -36,6 +37,7 @@ encode ring.ply --quick | ring.bsm
 encode ring.ply --effort best | ring.bsm
 encode ring.ply --keep-order | ring.bsm
 encode ring.ply --up z | ring.bsm
+encode ring.ply --grid-cell 0.01 --grid-origin -1,-.5,-1e-3 | ring.bsm
 encode ring.ply --threads 1 | ring.bsm
 encode ring.ply -q | ring.bsm
 encode ring.ply --json | ring.bsm
@@ -79,6 +81,7 @@ verify old.bsm |
 verify -r streams |
 verify moving.glb |
 verify old.bsm moving.bsm |
+verify old.bsm --quick moving.bsm |
 compare ring.ply old.bsm |
 compare old.bsm ring.ply |
 compare ring.ply ring.obj |
@@ -114,6 +117,7 @@ compress ring.ply | it is: bsm encode
 pack ring.ply | it is: bsm encode
 Compress ring.ply | it is: bsm encode
 encde ring.ply | did you mean encode
+enc ring.ply | unknown command enc; did you mean encode
 decompress old.bsm | it is: bsm decode
 unpack old.bsm | it is: bsm decode
 extract old.bsm | it is: bsm decode
@@ -160,6 +164,8 @@ denoise ring.ply clean.ply | bsm denoise ring.ply -o clean.ply
 encode -i ring.ply -o a.bsm | inputs need no option
 encode --input ring.ply | inputs need no option
 encode ring.ply -o a.glb | bsm glb ring.ply -o a.glb
+encode ring.ply -o 'a b.ply' | bsm decode
+encode ring.ply -o a.usdz | bsm encode
 encode ring.glb -o a.glb | bsm glb ring.glb -o a.glb
 encode ring.glb -o a.gltf | bsm glb ring.glb -o a.glb
 encode ring.ply -o a.ply | bsm encode ring.ply -o a.bsm
@@ -218,24 +224,38 @@ encode ring.ply --meta mm | NAME=TEXT
 encode ring.ply --fps 30 | --frame-rate
 encode ring.ply --no-normals | --attribute normal=none
 encode ring.ply --tehta 3 | did you mean --theta
+encode ring.ply --qick | unknown option --qick; did you mean --quick
+encode ring.ply --effort bst | unknown value bst; did you mean best
+encode ring.ply --set partition=mtis | unknown value 'mtis' of partition; did you mean metis
+encode ring.ply --set keep=7 | keep | 2
+encode ring.ply --theta 0 | mean angle 0 degrees cannot be a target | 2
+encode ring.ply --theta 1e-9 | cannot be kept | 10
+encode ring.ply --size 20 | 20 bytes at most cannot be | 10
+encode ring.ply -j -3 | argument -j/--jobs: -3 is less than 0
+encode ring.ply -o - --json | json | 2
+encode old.bsm | replace | 2
+encode ring.ply -o old.bsm | exists | 9
+encode none/ | the folder none does not exist | 9
+encode -r none | none: not a local folder | 2
 encode ring.ply --grid 30 | grid
 encode ring.ply --workers 4 | --jobs
 encode ring.ply --outdir sub | --output FOLDER/
-encode old.bsm -o a.bsm | decode it first
-encode none.ply | No such file
+encode old.bsm -o a.bsm | decode it first | 3
+encode none.ply | No such file | 9
 encode none/ring.ply | folder none does not exist
 encode a.fbx | convert it to GLB
 encode notes.txt | convert it to GLB
 encode empty.ply | empty
 encode scans | -r
 encode ring.ply ring2.ply -o a | need an output folder: -o a/
-encode ring.ply -o none/a.bsm | folder
+encode ring.ply -o none/a.bsm | folder | 9
 decode | IN
-decode ring.ply | bsm encode ring.ply
+decode ring.ply | bsm encode ring.ply | 3
 decode ring.glb -o ring.glb | -o
 decode streams | bsm decode -r streams
 decode none.bsm | No such file
-decode old.bsm -o a.fbx | not written as fbx
+decode old.bsm -o a.fbx | not written as fbx | 2
+decode old.bsm -o a.ply --blocks 0 | at least one block | 2
 decode old.bsm -o a.usdc | single meshes are not written as usdc; use one of .3mf, .glb
 decode old.bsm -o a.ply --format usdc | not written as usdc
 decode moving.bsm --layers 1 -o a.npz | single meshes
@@ -245,15 +265,20 @@ decode moving.bsm --frame 1 -o a.obj | --frames
 decode moving.bsm --frames 1 -o a.obj | give A:B
 decode moving.bsm --frames 9:10 -o a.obj | count from 0
 decode old.bsm --frames 0:1 -o a.obj | single mesh
-decode cut.bsm | ends
+decode cut.bsm | ends | 12
 info ring.ply | bsm encode ring.ply
 info ring.obj | bsm encode ring.obj
+info '' | '': No such file or directory | 9
+info later.bsm | version | 5
 info streams | folder
 verify ring.ply | bsm encode ring.ply
 verify streams | verify -r
 verify ring.glb | no streams
+verify damaged.bsm | checksum | 4
+verify -- -a | -a: No such file | 9
 verify cut.bsm | ends
 compare ring.ply none.ply | No such file
+compare ring.ply scans/b.obj | faces | 3
 compare moving.bsm none.usda | No such file
 compare ring.ply moving.bsm | sequence
 compare ring.ply old.bsm walk.npz | one input too many
@@ -262,11 +287,18 @@ glb ring.glb -o a.bsm | .glb
 glb none.glb -o a.glb | No such file
 glb a.fbx -o a.glb | convert it to GLB
 denoise none.ply | No such file
+denoise - -o - | --format | 2
 view none.ply | No such file
+view --port 99999 | argument --port: 99999 is more than 65535
+view --port -1 | argument --port: -1 is less than 0
+demo --vertices -1 | argument --vertices: -1 is less than 1
+tile ring.ply -o b -j x | argument -j/--jobs: invalid whole_number value: 'x'
+curve -o a --blocks 0 | argument --blocks: 0 is less than 1
+curve -o a --repeat 0 | argument --repeat: 0 is less than 1
 curve ring.ply -o a.json | folder or a picture
 curve ring.ply -o a --codecs mp3 | unknown codec mp3
 """
-"""Commands that cannot be meant as they are, and a part of the sentence that says what to type."""
+"""Commands that cannot be meant as they are, a part of the sentence that says what to type, and some exit codes."""
 
 
 def lines(text):
@@ -290,7 +322,10 @@ def pristine(tmp_path_factory):
     for number in range(3):
         bsm.save(bsm.TriangleMesh(frames[number], mesh.faces), write(f"walk/{number}.ply"))
     write("named.glb").write_bytes(write("old.bsm").read_bytes())
-    write("cut.bsm").write_bytes(write("old.bsm").read_bytes()[:-40])
+    stream = write("old.bsm").read_bytes()
+    write("cut.bsm").write_bytes(stream[:-40])
+    write("damaged.bsm").write_bytes(stream[:60] + bytes([stream[60] ^ 1]) + stream[61:])
+    write("later.bsm").write_bytes(stream[:4] + b"\x7f" + stream[5:])
     write("a.fbx").write_bytes(b"Kaydara FBX Binary  \0\x1a\0")
     write("notes.txt").write_text("buy milk\n")
     write("empty.ply").write_bytes(b"")
@@ -311,30 +346,27 @@ def folder(pristine, monkeypatch):
             path.write_bytes(before[path])
 
 
-def run(text):
-    try:
-        return main(shlex.split(text))
-    except SystemExit as stop:
-        return stop.code
-
-
 def test_there_are_two_hundred():
     assert len(lines(MEANT)) + len(lines(ADVICE)) >= 200
 
 
 @pytest.mark.parametrize(("words", "made"), lines(MEANT))
 def test_it_does_what_was_meant(folder, words, made):
-    assert run(words) == 0
+    assert run(*shlex.split(words)) == 0
     assert not made or (folder / made).stat().st_size > 0
 
 
-@pytest.mark.parametrize(("words", "advice"), lines(ADVICE))
-def test_it_says_what_to_type(folder, capsys, words, advice):
-    before = set(folder.rglob("*"))
-    assert run(words) not in (0, 1)
+@pytest.mark.parametrize("row", lines(ADVICE), ids=" | ".join)
+def test_it_says_what_to_type(folder, capsys, row):
+    before, (words, advice, *code) = set(folder.rglob("*")), row
+    ended = run(*shlex.split(words))
+    assert ended == int(code[0]) if code else ended not in (0, 1)
     shown = capsys.readouterr()
-    said = [line for line in shown.err.splitlines() if line.startswith("bsm")]
-    assert len(said) == 1 and re.search(re.escape(advice), said[0], re.IGNORECASE), shown.err
-    assert not shown.out and "Traceback" not in shown.err and "utf-8" not in said[0]
+    said, *more = shown.err.splitlines()
+    assert said.startswith(("bsm", "{")) and re.search(re.escape(advice), said, re.IGNORECASE), shown.err
+    assert all(line.startswith("usage: bsm") and "--help" in line for line in more), shown.err
+    assert not shown.out and "Traceback" not in shown.err and "utf-8" not in said
     made = [path for path in folder.rglob("*") if path not in before and path.is_file()]
     assert not made
+    for command in filter(None, said.partition(" Run: ")[2].split("; ")):
+        assert run(*shlex.split(command.removeprefix("then "))[1:]) in (0, 9), "the advice works, or the file is there"
