@@ -34,7 +34,7 @@ void bind_codec(nb::module_ &m) {
     KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(follow_normals)
     KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(basis_of_levels)
     CHECKED(turn_columns) CHECKED(back_into_unit) CHECKED(place_block) KERNEL(apply_powers) KERNEL(combine_powers)
-    CHECKED(smooth_all) KERNEL(weigh_by_cotangents)
+    CHECKED(smooth_all)
     // What both sides of a sequence have.
     for (const auto &[name, number] : {NUMBER(BENDING), NUMBER(INHERITED), NUMBER(BATCH), NUMBER(LEAST_KEPT),
              NUMBER(MOST_KEPT), NUMBER(POSITIONS_KEPT), NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})
