@@ -44,6 +44,11 @@ def packets_of(data: bytes, kind: type = object) -> list[tuple[Any, int, int]]:
     return [(packet, span.offset, span.length) for packet, span in scan(data) if isinstance(packet, kind)]
 
 
+def frame_ends(data: bytes) -> list[int]:
+    """Offsets behind the preamble and behind every frame."""
+    return [5, *(span.offset + span.length for _, span in scan(data))]
+
+
 def without(data: bytes, packet: type, index: int, how: str) -> bytes:
     """A stream whose packet number `index` of a kind is "removed" or "changed"."""
     _, offset, length = packets_of(data, packet)[index]

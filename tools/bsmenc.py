@@ -1,6 +1,7 @@
 """bsmenc by ctypes: the stream of a mesh, or the status of its error."""
 
 import ctypes
+from collections.abc import Container
 from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
@@ -50,11 +51,11 @@ TAKE, GIVE = CFUNCTYPE(c_void_p, c_void_p, c_size_t), CFUNCTYPE(None, c_void_p, 
 
 
 class Allocator(Structure):
-    """Memory of malloc, of which one piece is refused."""
+    """Memory of malloc, of which some calls are refused."""
 
     _fields_ = [("size", c_size_t), ("allocate", TAKE), ("release", GIVE), ("host", c_void_p)]
 
-    def __init__(self, refused: int) -> None:
+    def __init__(self, refused: Container[int] = ()) -> None:
         self.held, self.calls, self.refused = dict[int, int](), 0, refused
         libc = ctypes.CDLL(None)
         libc.malloc.argtypes, libc.malloc.restype, libc.free.argtypes = [c_size_t], c_void_p, [c_void_p]
@@ -63,7 +64,7 @@ class Allocator(Structure):
 
     def _take(self, host: int, size: int) -> int | None:
         self.calls += 1
-        if self.calls == self.refused:
+        if self.calls in self.refused:
             return None
         memory: int = self._libc.malloc(max(size, 1))
         self.held[memory] = size

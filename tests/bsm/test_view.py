@@ -35,10 +35,9 @@ from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.files.sequence import open_sequence
 from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Shown, compared, uploaded
 from bsm.viewer.page import MOST_BYTES, UPLOAD, Arrival, PageServer, Ranged, Tiled, written_to
-from tests.bitstream.streams import frame_ends
 from tests.motion import bending
 from tests.shapes import curved, torus
-from tests.streams import all_events, moving_events_of
+from tests.streams import all_events, frame_ends, moving_events_of
 from tools.pictures import pages
 
 needs_packages = pytest.mark.skipif(

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import bsm
+from tests.library.conftest import linked
 from tools.amalgamate import ROOT
 from tools.bsmdec import WARNINGS, build, compiled, decode, of_sequence
 from tools.processors.__main__ import NotHere, complaint, lines, prepare, program
@@ -80,15 +81,8 @@ def test_a_build_that_computes_otherwise_decodes_nothing(flags: tuple[str, ...])
 def test_the_arithmetic_of_the_host_changes_nothing(tmp_path: Path) -> None:
     """A host that rounds upward and flushes small numbers gets the same bits, and its arithmetic back."""
     made, vectors = compiled(), sorted((ROOT / "spec/vectors").glob("*/*.bsm"))
-    source = ROOT / "tools/processors/fingerprint.c"
-    command = ["cc", "-w", f"-I{made}", f"-I{ROOT}", source, "-o", "fingerprint"]
-    subprocess.run([*command, made / "bsmdec.so", "-lm", f"-Wl,-rpath,{made}"], check=True, cwd=tmp_path)
-    usual, unusual = (
-        subprocess.run(
-            [tmp_path / "fingerprint", *options, *vectors], check=True, capture_output=True, text=True
-        ).stdout
-        for options in ((), ("-u",))
-    )
+    fingerprint = linked(made, ROOT / "tools/processors/fingerprint.c", tmp_path / "fingerprint", "-w")
+    usual, unusual = (run(fingerprint, *options, *vectors) for options in ((), ("-u",)))
     assert len(usual.splitlines()) == len(vectors)
     assert unusual == usual
 

@@ -3,7 +3,7 @@
 import ctypes
 from collections.abc import Iterator
 from contextlib import contextmanager
-from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_int, c_int64, c_size_t, c_void_p
+from ctypes import POINTER, Structure, byref, c_char_p, c_int, c_int64, c_size_t, c_void_p
 from typing import Any
 
 import numpy as np
@@ -14,11 +14,12 @@ import bsm
 from tests.streams import frames_in, moving_events_of
 from tools.amalgamate import ROOT
 from tools.bsmdec import BLOCK, CONNECTIVITY, KINDS, SEMANTICS, Entry, Event, Failure, Options
+from tools.bsmenc import Allocator
 
 VECTORS = ROOT / "spec/vectors/1.0"
 CARRYING = sorted(path.stem for path in VECTORS.glob("good-*attribute*.bsm") if "sequence" not in path.stem)
 MISUSED, CORRUPT, NO_MEMORY, FLOAT32, FLOAT64, POSITION, ABSENT = 2, 4, 8, 6, 7, -1, -2
-UINT8, INT8, UINT16 = 0, 1, 2
+UINT8, INT8, UINT16, EVER = 0, 1, 2, 1 << 60
 COLOR, NORMAL, TEXCOORD = 1, 2, 3
 UNITS = (255, 127, 65535, 32767, 4294967295, 2147483647, 1, 1)
 
@@ -53,31 +54,6 @@ class Mesh(Structure):
     def index(self) -> npt.NDArray[Any]:
         kind = {2: np.uint16, 4: np.uint32}[self.index_size]
         return np.frombuffer(ctypes.string_at(self.index_data, 3 * self.faces * self.index_size), kind).reshape(-1, 3)
-
-
-_TAKE, _GIVE = CFUNCTYPE(c_void_p, c_void_p, c_size_t), CFUNCTYPE(None, c_void_p, c_void_p, c_size_t)
-
-
-class Allocator(Structure):
-    """Gives memory a number of times."""
-
-    _fields_ = [("size", c_size_t), ("allocate", _TAKE), ("release", _GIVE), ("host", c_void_p)]
-
-    def __init__(self, most: int) -> None:
-        self.held: dict[int, Any] = {}
-        self.left = most
-        super().__init__(ctypes.sizeof(Allocator), _TAKE(self._take), _GIVE(self._give), None)
-
-    def _take(self, host: int, size: int) -> int | None:
-        self.left -= 1
-        if self.left < 0:
-            return None
-        memory = ctypes.create_string_buffer(size)
-        self.held[ctypes.addressof(memory)] = memory
-        return ctypes.addressof(memory)
-
-    def _give(self, host: int, memory: int, size: int) -> None:
-        assert len(self.held.pop(memory)) == size
 
 
 @pytest.fixture(scope="module")
@@ -249,7 +225,7 @@ def test_streams_that_are_none_give_an_error_to_release(decoder: ctypes.CDLL) ->
 def test_a_host_without_memory_gets_an_error_wherever_that_is(decoder: ctypes.CDLL) -> None:
     stream, statuses = (VECTORS / "good-attribute-uv-plain.bsm").read_bytes(), set()
     for most in range(400):
-        allocator = Allocator(most)
+        allocator = Allocator(range(most + 1, EVER))
         mesh = POINTER(Mesh)()
         options = Options(None, ctypes.addressof(allocator), False, 0)
         statuses.add(decoder.bsmdec_decode(stream, len(stream), byref(options), byref(mesh)))
@@ -260,14 +236,14 @@ def test_a_host_without_memory_gets_an_error_wherever_that_is(decoder: ctypes.CD
 
 
 def test_positions_without_memory_are_an_error(decoder: ctypes.CDLL) -> None:
-    stream, allocator, event = (VECTORS / "good-keys.bsm").read_bytes(), Allocator(10_000), Event()
+    stream, allocator, event = (VECTORS / "good-keys.bsm").read_bytes(), Allocator(), Event()
     own = decoder.bsmdec_open(byref(Options(allocator=ctypes.addressof(allocator))))
     decoder.bsmdec_push(own, stream, len(stream))
     while decoder.bsmdec_next(own, byref(event)) == 0 and event.type != BLOCK:
         pass
     positions, vertices = np.zeros((event.vertices, 3)), c_int64()
     assert decoder.bsmdec_split(own, None, -1, byref(vertices)) == 0
-    allocator.left = 0
+    allocator.refused = range(EVER)
     for _ in range(2):
         assert decoder.bsmdec_positions(own, positions.ctypes.data, positions.size) == NO_MEMORY
     room = (positions.ctypes.data, positions.nbytes)

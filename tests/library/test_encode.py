@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 import bsm
 from bsm import Attribute, TriangleMesh
+from tests.library.conftest import linked
 from tests.shapes import soup, tetrahedron, torus
 from tools.amalgamate import ROOT
 from tools.bsmenc import CELLS, LOSSLESS, PROGRESS, STOPPED, UNREACHABLE, Allocator, compiled_whole, encode, library
@@ -161,12 +162,12 @@ def test_progress_ascends_and_can_stop(encoder):
 
 def test_no_memory_at_any_place_is_an_error_and_everything_is_given_back(encoder):
     mesh = dressed(torus(5, 4))
-    allocator = Allocator(0)
+    allocator = Allocator()
     at = ctypes.addressof(allocator)
     expected = encode(encoder, mesh, allocator=at, keep_order=1)
     assert expected.status == 0 and not allocator.held
     for refused in range(1, allocator.calls + 1):
-        hungry = Allocator(refused)
+        hungry = Allocator([refused])
         found = encode(encoder, mesh, allocator=ctypes.addressof(hungry), keep_order=1)
         assert (found.status, found.data) == (8, b""), refused
         assert not hungry.held
@@ -200,8 +201,6 @@ def test_the_program_of_the_documents_writes_a_stream(tmp_path):
     text = (ROOT / "docs/guides/encode.md").read_text()
     program = re.search(r"```c\n(.*?)```", text, re.DOTALL)[1]
     (tmp_path / "write.c").write_text(program)
-    made = compiled_whole()
-    command = ["cc", "-O0", "-Wall", "-Werror", f"-I{made}", "write.c", made / "bsmdec.so", f"-Wl,-rpath,{made}"]
-    subprocess.run([*command, "-o", "write"], cwd=tmp_path, check=True)
-    subprocess.run(["./write"], cwd=tmp_path, check=True)
+    write = linked(compiled_whole(), tmp_path / "write.c", tmp_path / "write", "-O0", "-Wall", "-Werror")
+    subprocess.run([write], cwd=tmp_path, check=True)
     assert len(bsm.load(tmp_path / "tetrahedron.bsm").faces) == 4

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import bsm
-from tests.streams import frames_in, moving_events_of
+from tests.library.conftest import linked
 from tools.amalgamate import ROOT
 from tools.bsmdec import (
     BLOCK,
@@ -28,7 +28,6 @@ from tools.bsmdec import (
     compiled,
     decode,
 )
-from tools.surgery import frames_of, stream_of
 
 MISUSED = 2
 VECTORS = ROOT / "spec/vectors/1.0"
@@ -162,11 +161,7 @@ def test_positions_are_checked_from_whatever_start(library: ctypes.CDLL, name: s
 
 
 def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:
-    made = compiled()
-    program, example = tmp_path / "bsmdec", ROOT / "library/examples/dec.c"
-    subprocess.run(
-        ["cc", *WARNINGS, f"-I{made}", example, made / "bsmdec.so", f"-Wl,-rpath,{made}", "-o", program], check=True
-    )
+    program = linked(compiled(), ROOT / "library/examples/dec.c", tmp_path / "bsmdec", *WARNINGS)
     subprocess.run([program, VECTORS / "good-chain.bsm", tmp_path / "mesh.obj"], check=True)
     mesh, expected = bsm.load(tmp_path / "mesh.obj"), bsm.decode(VECTORS / "good-chain.bsm")
     assert np.array_equal(mesh.faces, expected.faces)
@@ -177,7 +172,6 @@ def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:
     assert "block" in refused.stderr
 
 
-GOP = 7
 SEQUENCES = (
     "good-sequence-long",
     "good-sequence-low-delay-long",
@@ -200,42 +194,17 @@ def test_frames_from_a_start_on_are_those_of_the_whole(library: ctypes.CDLL, nam
         assert all(np.array_equal(frame[key], other[key]) for key in other)
 
 
-@pytest.mark.parametrize("name", ["good-sequence-long", "good-sequence-low-delay-long", "good-sequence-runs-many"])
-def test_a_lost_gop_costs_what_it_costs_in_python(library: ctypes.CDLL, name: str) -> None:
-    parts = frames_of((VECTORS / f"{name}.bsm").read_bytes())
-    gops = [place for place, (kind, _) in enumerate(parts) if kind == GOP]
-    parts[gops[1]] = (GOP, parts[gops[1]][1][: len(parts[gops[1]][1]) // 2])
-    broken = stream_of(parts)
-    found = decode(library, broken, tolerant=True)
-    events = moving_events_of(broken, tolerant=True)
-    lost = [(event.frames.start, len(event.frames)) for event in events if isinstance(event, bsm.LossEvent)]
-    kept = list(frames_in(events))
-    assert found.status == 0
-    assert found.lost == lost
-    assert [index for index, _ in found.frames] == kept
-    assert kept
-    assert lost
-
-
 def test_the_example_goes_through_all_frames(tmp_path: Path) -> None:
-    made = compiled()
-    example = ROOT / "library/examples/frames.cpp"
-    flags = ["-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{made}"]
-    subprocess.run(
-        ["c++", *flags, example, made / "bsmdec.so", f"-Wl,-rpath,{made}", "-o", "frames"], check=True, cwd=tmp_path
-    )
+    flags, example = ("-std=c++17", "-Wall", "-Wextra", "-Werror"), ROOT / "library/examples/frames.cpp"
+    frames = linked(compiled(), example, tmp_path / "frames", *flags, compiler="c++")
     vector = VECTORS / "good-sequence-long.bsm"
-    lines = subprocess.run(
-        [tmp_path / "frames", vector, "2"], check=True, capture_output=True, text=True
-    ).stdout.splitlines()
+    lines = subprocess.run([frames, vector, "2"], check=True, capture_output=True, text=True).stdout.splitlines()
     positions, faces = bsm.decode_sequence(vector.read_bytes())
     expected = [
         f"frame {index} of {len(positions)}: {len(faces)} faces, x from {x.min():.6g} to {x.max():.6g}"
         for index, x in enumerate(positions[:, :, 0].astype(np.float32))
     ]
     assert lines == expected[2:]
-    refused = subprocess.run(
-        [tmp_path / "frames", VECTORS / "bad-sequence-beyond.bsm"], capture_output=True, text=True, check=False
-    )
+    refused = subprocess.run([frames, VECTORS / "bad-sequence-beyond.bsm"], capture_output=True, text=True, check=False)
     assert refused.returncode == 1
     assert "frame" in refused.stderr

@@ -9,6 +9,7 @@ import pytest
 
 import bsm
 from bsm.evaluation.sample import knot
+from tests.library.conftest import linked
 from tools.amalgamate import ROOT, sources
 from tools.bsmdec import compiled
 
@@ -40,10 +41,9 @@ SAMPLE = ("exact-tiny", "packed-zstd", "pieces-follow", "attribute-colors", "exa
 
 def test_a_host_without_memory_gets_an_error_and_nothing_else(tmp_path: Path) -> None:
     """Each allocation fails once, and 64 heaps are too small; tools/sanitize.sh does that to more, with sanitizers."""
-    made, streams = compiled(), [ROOT / f"spec/vectors/1.0/good-{name}.bsm" for name in SAMPLE]
-    command = ["cc", "-w", f"-I{made}", f"-I{ROOT}", ROOT / "tools/attack/starve.c", "-o", tmp_path / "starve"]
-    subprocess.run([*command, made / "bsmdec.so", "-pthread", f"-Wl,-rpath,{made}"], check=True)
-    run = subprocess.run([tmp_path / "starve", "1", *streams], capture_output=True, text=True, check=False)
+    streams = [ROOT / f"spec/vectors/1.0/good-{name}.bsm" for name in SAMPLE]
+    starve = linked(compiled(), ROOT / "tools/attack/starve.c", tmp_path / "starve", "-w")
+    run = subprocess.run([starve, "1", *streams], capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
     assert run.stdout.startswith(f"{len(SAMPLE)} streams")
 
@@ -58,12 +58,11 @@ def test_memory_is_taken_by_what_says_whether_it_is_there() -> None:
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc of Linux says how much memory there was")
 def test_decoding_again_takes_no_more_memory(tmp_path: Path) -> None:
-    made, stream = compiled(), tmp_path / "knot.bsm"
+    stream = tmp_path / "knot.bsm"
     stream.write_bytes(bsm.encode(knot(12_000), step=2.0**-10, smoothing=1.0, coefficients=48))
     (tmp_path / "again.c").write_text(AGAIN, encoding="ascii")
-    command = ["cc", f"-I{made}", tmp_path / "again.c", "-o", tmp_path / "again"]
-    subprocess.run([*command, made / "bsmdec.so", f"-Wl,-rpath,{made}"], check=True)
-    run = subprocess.run([tmp_path / "again", stream], capture_output=True, text=True, check=True)
+    again = linked(compiled(), tmp_path / "again.c", tmp_path / "again")
+    run = subprocess.run([again, stream], capture_output=True, text=True, check=True)
     second, last = map(int, run.stdout.split())
     assert last < second + 4096  # KiB
 

@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 
 import bsm
-from tests.bitstream.streams import encoded, frame_ends
-from tests.streams import events_of
+from bsm.bitstream.container.packets import Connectivity, Header
+from tests.streams import events_of, frame_ends
 from tools.attack.library import compare
 from tools.bsmdec import decode, of_sequence, released
+from tools.surgery import write_stream
 from tools.vectors.store import Vector, read_manifest
 
 STATUS = {"format": 3, "corrupt": 4, "unsupported": 5, "limit": 6, "numeric": 7, "truncated": 12}
@@ -37,7 +38,7 @@ def test_the_decoder_of_1_0_and_todays_agree_on_mutants() -> None:
 
 
 def test_a_length_that_cannot_be_is_over_a_limit_and_to_those_who_tolerate_damage_damage() -> None:
-    stream = encoded("bare")
+    stream = write_stream([Header(vertices=9, faces=9, grid=(1, 1, 1)), Connectivity(b"\0\x01")])
     header = frame_ends(stream)[1]
     broken = stream[:header] + b"\xff\xff\xff\xff\x7f" + stream[header:]
     for tolerant, error in ((False, bsm.LimitError), (True, bsm.CorruptError)):

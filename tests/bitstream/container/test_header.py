@@ -24,8 +24,9 @@ from bsm.bitstream.container.header import (
 from bsm.bitstream.container.packets import write_header
 from bsm.bitstream.container.wire import SHORT, SKIPPABLE_TYPES, FrameType, checksum, write_map
 from bsm.files.inspection import inspect_stream
-from tests.bitstream.streams import SMALL_HEADER
 from tools.surgery import record_of, stream_of
+
+SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
 
 
 def parse(payload: bytes) -> Header:
