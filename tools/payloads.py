@@ -10,7 +10,7 @@ import numpy.typing as npt
 from bsm._core import Decoder
 from bsm._core import bitstream as _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel
-from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of, write_levels
+from bsm.bitstream.coefficients.matrices import Lead, Levels, write_levels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, Writer
 from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder, finish_writing, start_writing
 from bsm.bitstream.errors import CorruptError, TruncatedError
@@ -38,11 +38,6 @@ def finish_reading(coder: Coder) -> None:
         raise TruncatedError(f"an entropy-coded payload of {size} bytes ends before its last symbol")
     if taken < size:
         raise CorruptError(f"{size - taken} bytes are left over after the last symbol of a payload")
-
-
-def overran(coder: Coder) -> bool:
-    """Whether more was read than any complete payload of this length can hold."""
-    return int(coder.state[POSITION]) > coder.data.size + AHEAD
 
 
 def decode_connectivity(payload: bytes, vertices: int, faces: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
@@ -75,22 +70,6 @@ def encode_levels(
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
         coder = write_levels(coder, bank, matrix, reference, lead)
     return finish_writing(coder)
-
-
-def decode_levels(
-    bank: Bank,
-    payload: bytes,
-    matrices: Sequence[Levels],
-    references: Sequence[Levels],
-    leads: Sequence[Lead | None] | None = None,
-) -> None:
-    """Fill `matrices`, shapes (rows_k, columns), which hold zeros."""
-    coder = start_reading(payload)
-    for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
-        code_matrix(coder, bank, matrix, reference, 0, extent_of(matrix, lead))
-        if overran(coder):
-            break
-    finish_reading(coder)
 
 
 def parse_stretches(cursor: Cursor, frames: int) -> list[int]:

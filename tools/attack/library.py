@@ -1,6 +1,6 @@
 """Mutants of the vectors by the decoder of release 1.0 and by today's, which agree. With flags: by today's alone.
 
-python -m tools.attack.library COUNT SEED [--tolerant] [--exact] [--sequences] [--seconds N] [--flags="-O1 -g"]
+python -m tools.attack.library COUNT SEED [--tolerant] [--exact] [--seconds N] [--flags="-O1 -g"]
 """
 
 from __future__ import annotations
@@ -80,20 +80,11 @@ def _alike(attribute: np.ndarray, other: np.ndarray, *, exact: bool) -> bool:
 
 
 def compare(
-    library: ctypes.CDLL,
-    count: int,
-    seed: str,
-    *,
-    exact: bool = False,
-    tolerant: bool = False,
-    sequences: bool = False,
-    seconds: float = np.inf,
+    library: ctypes.CDLL, count: int, seed: str, *, exact: bool = False, tolerant: bool = False, seconds: float = np.inf
 ) -> tuple[Counter[str], list[str]]:
     """Count the outcomes of a number of mutants of a seed, or of those that fit into a time, and list failures."""
     end = time.monotonic() + seconds
     random, seeds = Random(seed), vector_seeds()
-    if sequences:
-        seeds = [seed for seed in seeds if is_sequence(seed)]
     tally, found = Counter[str](), list[str]()
     for number in range(count):
         if time.monotonic() > end:
@@ -120,11 +111,10 @@ def main() -> int:
     parser.add_argument("seed")
     parser.add_argument("--tolerant", action="store_true")
     parser.add_argument("--exact", action="store_true")
-    parser.add_argument("--sequences", action="store_true", help="of these alone")
     parser.add_argument("--seconds", type=float, default=np.inf, help="at most")
     parser.add_argument("--flags", default="", help="of the compiler")
     args = parser.parse_args()
-    wanted = {name: getattr(args, name) for name in ("exact", "tolerant", "sequences", "seconds")}
+    wanted = {name: getattr(args, name) for name in ("exact", "tolerant", "seconds")}
     tally, found = compare(library(*args.flags.split()) if args.flags else released(), args.count, args.seed, **wanted)
     print(dict(tally), *found[:20], f"{len(found)} findings", sep="\n")
     return 1 if found else 0

@@ -25,6 +25,7 @@ import numpy as np
 
 import bsm
 from tools.made_shapes import made_shape
+from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
 from tools.vectors.made import GOODS
 from tools.vectors.meshes import hub, patch, shuffled, tangled, together, torus
 
@@ -51,22 +52,12 @@ def shape(seed: int) -> bsm.TriangleMesh:
     return bsm.TriangleMesh(*made_shape(seed, 24))
 
 
-def dressed(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
-    """The mesh with an attribute of each kind of coding, with and without seams."""
-    count, faces = len(mesh.positions), len(mesh.faces)
-    ramp = np.linspace(0, 1, count)[:, None]
-    corners = np.arange(3 * faces, dtype=np.int32).reshape(-1, 3)
-    around = mesh.positions - mesh.positions.mean(axis=0)
-    normals = (around / np.maximum(np.linalg.norm(around, axis=1, keepdims=True), 1e-9)).astype(np.float32)
-    charts = np.round(np.repeat(around[mesh.faces].mean(axis=1)[:, :2], 3, axis=0), 1) + around[mesh.faces.ravel(), :2]
-    attributes = (
-        bsm.Attribute("color", (255 * np.hstack([ramp, ramp**2, 1 - ramp])).astype(np.uint8), "vertex", "color"),
-        bsm.Attribute("normal", normals, "vertex", "normal"),
-        bsm.Attribute("uv", charts.astype(np.float32), "corner", "texcoord", corners),
-        bsm.Attribute("heat", np.sin(9 * ramp)),
-        bsm.Attribute("group", (np.arange(faces) // 37 % 5).astype(np.int32), "face"),
-    )
-    return bsm.TriangleMesh(mesh.positions, mesh.faces, attributes=attributes)
+def heat(mesh: bsm.TriangleMesh) -> bsm.Attribute:
+    """Doubles that change along the vertices."""
+    return bsm.Attribute("heat", np.sin(9 * np.linspace(0, 1, len(mesh.positions))))
+
+
+DRESS = (charts, creases, colors, groups, heat)
 
 
 def cases() -> Iterator[Case]:
@@ -78,10 +69,11 @@ def cases() -> Iterator[Case]:
         yield f"{way} {name}", partial(bsm.encode, mesh, **options)
         yield f"{way} {name}, order", partial(bsm.encode, mesh, keep_order=True, **options)
         for what, quality in ATTRIBUTES.items():
-            yield f"{way} {name}, {what}", partial(bsm.encode, dressed(mesh), attributes={"*": quality}, **options)
+            dressed = with_attributes(mesh, *DRESS)
+            yield f"{way} {name}, {what}", partial(bsm.encode, dressed, attributes={"*": quality}, **options)
     for (name, mesh), (way, options) in product(meshes.items(), SEQUENCES.items()):
         frames = [mesh.positions * (1 + 0.02 * t) + 0.01 * np.sin(3 * mesh.positions + 0.3 * t) for t in range(7)]
-        given = dressed(mesh).attributes if options.get("keep_order") else ()
+        given = with_attributes(mesh, *DRESS).attributes if options.get("keep_order") else ()
         yield f"{way} {name}", partial(bsm.encode_sequence, frames, mesh.faces, mesh_attributes=given, **options)
 
 

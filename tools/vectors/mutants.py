@@ -208,15 +208,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tools.vectors.mutants", description=__doc__)
     parser.add_argument("count", type=int, help="how many places, chosen by chance; 0: all")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--lines", nargs="*", help="only places in these lines, as MODULE:LINE")
     args = parser.parse_args()
     sys.path.insert(0, str(SPEC))
     decoder = reference()
     streams = [known(decoder, vector.stream.read_bytes()) for vector in read_manifest()]
     streams.sort(key=lambda vector: vector.seconds)
     spots = [spot for module in MODULES for spot in spots_of(module)]
-    if args.lines:
-        spots = [spot for spot in spots if f"{spot.module}:{spot.line}" in args.lines]
     chosen = random.Random(args.seed).sample(spots, args.count or len(spots))
     missed = 0
     for spot in chosen:

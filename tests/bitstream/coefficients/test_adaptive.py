@@ -1,4 +1,4 @@
-"""The coefficient coder: exact round trips, cheap levels, no harm from damaged payloads, learnt numbers."""
+"""The coefficient coder: exact round trips, cheap levels, learnt numbers."""
 
 import hashlib
 import itertools
@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import CorruptError, OptionError, TruncatedError
+from bsm import OptionError
 from bsm.bitstream.coefficients.adaptive import (
     MAX_LEVEL,
     TARGET_UNIT,
@@ -58,29 +58,10 @@ def test_a_short_chain_costs_little_more_than_its_entropy(mean: float, ratio: fl
     assert bits <= ratio * entropy_of_laplace(mean) * 4 * 180
 
 
-def test_every_truncation_of_a_payload_is_noticed() -> None:
-    levels = spectrum(np.random.default_rng(5), 30)
-    payload = encode_coefficients(CoefficientModel(30), levels)
-    for size in range(len(payload)):
-        try:
-            decoded = decode_coefficients(CoefficientModel(30), payload[:size], 30)
-        except (TruncatedError, CorruptError):
-            continue
-        assert not np.array_equal(decoded, levels)
-
-
-def test_bytes_behind_the_payload_are_noticed() -> None:
-    payload = encode_coefficients(CoefficientModel(30), spectrum(np.random.default_rng(6), 30))
-    with pytest.raises(CorruptError, match="left over"):
-        decode_coefficients(CoefficientModel(30), payload + bytes(5), 30)
-
-
 def test_a_block_wider_than_announced_is_refused() -> None:
     levels = np.ones((11, 3), np.int32)
     with pytest.raises(OptionError, match="at most 10 rows"):
         encode_coefficients(CoefficientModel(10), levels)
-    with pytest.raises(CorruptError, match="11 coefficients"):
-        decode_coefficients(CoefficientModel(10), encode_coefficients(CoefficientModel(11), levels), 11)
 
 
 def test_levels_beyond_the_largest_are_refused() -> None:

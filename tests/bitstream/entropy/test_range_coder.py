@@ -1,48 +1,28 @@
-"""The entropy coder: exact round trips, sizes near the entropy, and no harm from damaged payloads."""
+"""The entropy coder: sizes near the entropy, and refusals of what does not fit."""
 
 from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from bsm import CorruptError, OptionError, TruncatedError
+from bsm import OptionError
 from bsm._core.bitstream import code_uniform, code_unsigned
 from bsm.bitstream.entropy import range_coder as entropy
-from bsm.bitstream.entropy.range_coder import Bank, finish_writing, make_bank, start_writing
-from tools.payloads import finish_reading, overran, start_reading
+from bsm.bitstream.entropy.range_coder import finish_writing, make_bank, start_writing
 
 UNARY = 5
 SPAN = UNARY + 26  # nodes of an unsigned integer
 
 
-def _code_uniforms(coder, counts, values):
-    for i in range(values.size):
-        values[i] = code_uniform(coder, values[i], counts[i])
-
-
-def _code_order_one(coder, bank, values):
+def _code_order_one(coder, values):
     """Values below 16, given the value before, and given nothing."""
-    contexts = np.empty(2, np.int64)
+    bank, contexts = make_bank(SPAN * 17, SPAN, 2), np.empty(2, np.int64)
     before = 0
     for i in range(values.size):
         contexts[0] = 0
         contexts[1] = SPAN * (1 + before)
         values[i] = code_unsigned(coder, bank, contexts, 0, UNARY, values[i])
         before = min(values[i], 15)
-        if overran(coder):
-            break
-
-
-def _order_one_bank() -> Bank:
-    return make_bank(SPAN * 17, SPAN, 2)
-
-
-def _write(kernel, *arguments, capacity: int = 1 << 16) -> bytes:
-    coder = start_writing(capacity)
-    kernel(coder, *(a.copy() if isinstance(a, np.ndarray) else a for a in arguments))
-    return finish_writing(coder)
 
 
 def _entropy(counts: np.ndarray) -> float:
@@ -53,41 +33,15 @@ def _entropy(counts: np.ndarray) -> float:
 def test_size_is_near_the_entropy_of_a_memoryless_source() -> None:
     rng = np.random.default_rng(2)
     values = rng.choice(8, 60000, p=[0.6, 0.15, 0.1, 0.05, 0.04, 0.03, 0.02, 0.01]).astype(np.int64)
-    payload = _write(_code_order_one, _order_one_bank(), values, capacity=1 << 18)
+    coder = start_writing(1 << 18)
+    _code_order_one(coder, values)
+    payload = finish_writing(coder)
     assert 8 * len(payload) / len(values) < 1.015 * _entropy(np.bincount(values)) + 0.005
-
-
-@settings(max_examples=50)
-@given(st.binary(max_size=200))
-def test_random_bytes_are_read_without_harm(payload: bytes) -> None:
-    values = np.zeros(100000, np.int64)
-    try:
-        coder = start_reading(payload)
-        _code_order_one(coder, _order_one_bank(), values)
-        finish_reading(coder)
-    except (TruncatedError, CorruptError):
-        pass
-    assert values.min() >= 0
-    assert values.max() < 1 << 25
-
-
-def test_what_no_range_contains_is_refused() -> None:
-    with pytest.raises(CorruptError, match="ff ff ff ff"):
-        start_reading(b"\xff" * 9)
-
-
-@settings(max_examples=50)
-@given(st.binary(max_size=50), st.integers(1, 1 << 32))
-def test_uniform_values_stay_below_their_count(payload: bytes, count: int) -> None:
-    values = np.zeros(20, np.int64)
-    _code_uniforms(start_reading(b"\xfe" + payload), np.full(20, count), values)
-    assert values.min() >= 0
-    assert values.max() < count
 
 
 def test_a_full_buffer_is_an_error_and_not_a_crash() -> None:
     coder = start_writing(10)
-    _code_order_one(coder, _order_one_bank(), np.arange(1000, dtype=np.int64))
+    _code_order_one(coder, np.arange(1000, dtype=np.int64))
     with pytest.raises(OptionError, match="10 bytes"):
         finish_writing(coder)
 
