@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import OptionError, imported
+from bsm.bitstream.errors import CorruptError, imported
 
 _MAGIC = b"\x28\xb5\x2f\xfd"
 _LEVEL = 19
@@ -24,17 +24,21 @@ def _zstandard() -> Any:
     return imported("zstandard", why, "paper")
 
 
-MAX_BITS = 32
-
-
 def pack_coefficients(values: npt.NDArray[Any], bits: int) -> bytes:
     """Bytes of unsigned integers below ``2**bits``, most significant bit first, and compressed."""
-    flat = np.asarray(values).ravel()
-    if not 1 <= bits <= MAX_BITS:
-        raise OptionError(f"{bits} bits for a coefficient; 1 to {MAX_BITS} are possible")
-    if flat.dtype.kind not in "iu":
-        raise OptionError(f"packed coefficients must be integers, not {flat.dtype}")
-    if flat.size and not (flat.min() >= 0 and int(flat.max()) < 1 << bits):
-        raise OptionError(f"coefficients {flat.min()}..{flat.max()} do not fit {bits} bits")
-    digits = np.unpackbits(flat.astype(">u4").view(np.uint8).reshape(-1, 4), axis=1)
-    return compress(np.packbits(digits[:, MAX_BITS - bits :]).tobytes())
+    digits = np.unpackbits(values.astype(">u4").view(np.uint8).reshape(-1, 4), axis=1)
+    return compress(np.packbits(digits[:, 32 - bits :]).tobytes())
+
+
+def unpack_coefficients(data: bytes, bits: int, count: int) -> npt.NDArray[np.int64]:
+    """Twin of `pack_coefficients`, of `count` integers."""
+    size, library = -(-count * bits // 8), _zstandard()
+    try:
+        if len(data) != size and library.frame_content_size(_MAGIC + data) == size:
+            data = library.ZstdDecompressor().decompress(_MAGIC + data, allow_extra_data=False)
+    except library.ZstdError:
+        data = b""
+    if len(data) != size:
+        raise CorruptError(f"packed coefficients do not come to {size} bytes")
+    digits = np.unpackbits(np.frombuffer(data, np.uint8), count=count * bits).reshape(count, bits)
+    return np.asarray(digits @ (1 << np.arange(bits - 1, -1, -1, dtype=np.int64)))

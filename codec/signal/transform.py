@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Basis, Integers, Levels, Matrix
+from bsm.codec.arrays import Basis, Levels, Matrix
 from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blocks
@@ -60,21 +60,6 @@ def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
     while first > half * step * 2**coarser:
         coarser += 1
     return step, coarser
-
-
-def quantize_packed(coefficients: Matrix, step: float, coarser: int) -> npt.NDArray[np.int64]:
-    """Levels nearest to `coefficients`, shape (c, 3); those of the first row are multiples of 2^`coarser`."""
-    levels = np.rint(coefficients / step).astype(np.int64)
-    levels[0] = np.rint(coefficients[0] / (step * 2**coarser)).astype(np.int64) << coarser
-    return levels
-
-
-def levels_to_unsigned(levels: Integers, bits: int, coarser: int) -> npt.NDArray[np.uint32]:
-    """Levels of `quantize_packed`, shape (c, 3), as unsigned integers of `bits` bits."""
-    stored = levels.copy()
-    stored[0] >>= coarser
-    half = 1 << (bits - 1)
-    return np.clip(stored + half, 0, 2 * half - 1).astype(np.uint32)
 
 
 def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> npt.NDArray[np.int64]:

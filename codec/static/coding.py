@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from bsm.bitstream.coefficients import adaptive
-from bsm.bitstream.coefficients.packed import pack_coefficients
+from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
 from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Paper
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Integers, Matrix
@@ -42,13 +42,22 @@ class Packed:
         return self
 
     def choose(self, coefficients: Matrix, sized: bool) -> Integers:
-        return transform.quantize_packed(coefficients, self.step, self.coarser)
+        return np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64)
 
     def write(self, levels: Integers) -> bytes:
-        return pack_coefficients(transform.levels_to_unsigned(levels, self.bits, self.coarser), self.bits)
+        half = 1 << (self.bits - 1)
+        return pack_coefficients(np.clip(levels + half, 0, 2 * half - 1), self.bits)
+
+    def read(self, data: bytes, count: int) -> Integers:
+        return unpack_coefficients(data, self.bits, 3 * count).reshape(-1, 3) - (1 << (self.bits - 1))
 
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
-        return ground.add(np.asarray(levels * self.step, np.float64))
+        return ground.add(levels * self._steps(len(levels)))
+
+    def _steps(self, count: int) -> Matrix:
+        steps = np.full((count, 1), self.step)
+        steps[0] *= 2**self.coarser
+        return steps
 
 
 @dataclass(eq=False)

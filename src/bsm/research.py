@@ -12,29 +12,36 @@
 True
 
 The rest is that of the codec: connectivity, quantization, entropy coding, smoothing. `curves` compares ideas with the
-codec, `blocks` returns the arrays that the codec works on. Names in this module may change with any release.
+codec, `blocks` returns the arrays that the codec works on, `PartCoder` codes parts that arrive one by one, as
+in the paper. Names in this module may change with any release.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm._core import Solver
-from bsm.bitstream.errors import ArgumentError, OptionError
-from bsm.codec.basis.laplacian import dense_laplacian, solver_of
-from bsm.codec.blocks.overlap import Partition, partition_of_labels
-from bsm.codec.geometry.graph import Graph
+from bsm.bitstream.container.wire import FrameType, checksum_size
+from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, OptionError
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.arrays import Basis
+from bsm.codec.blocks.overlap import Blocks, Partition, derive_partition, grow_blocks, partition_of_labels
+from bsm.codec.decoding import Decoder
+from bsm.codec.events import ConnectivityEvent
+from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal import chain
-from bsm.codec.signal.chain import Columns, Overrides
-from bsm.codec.static.choice.blocks import MOST_APART, InBlocks
-from bsm.codec.static.options import EncodeOptions, changed
+from bsm.codec.signal.chain import Chain, ChainRules, Columns, Overrides
+from bsm.codec.static.choice.blocks import InBlocks
+from bsm.codec.static.coding import Ground, Packed, rules_of
+from bsm.codec.static.options import RANGES, EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
+from bsm.codec.static.units import Units, checksum_of
+from bsm.codec.static.ways.block_coder import DecodedBlock, blended
+from bsm.files.inspection import Skimmer
 from bsm.libraries import as_mesh
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -42,10 +49,7 @@ Integers: TypeAlias = npt.NDArray[np.int32]
 
 MARK = b"BSM research\n"
 """Before streams that hold the dictionary or predictor of an idea, so that no decoder takes them for ordinary ones."""
-__all__ = [
-    *("BlockArrays", "Encoded", "Idea", "Site", "Sized", "algorithm_2", "blocks", "curves", "dynamic", "encode"),
-    *("frobenius", "mean_residual"),
-]
+__all__ = [*("BlockArrays", "Encoded", "Idea", "PartCoder", "Site", "blocks", "curves", "encode")]
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,89 +186,70 @@ def curves(
     return found
 
 
-Iterate: TypeAlias = Callable[[Floats], Floats]
+class PartCoder:
+    """Codes the parts of a mesh as they arrive, by the preset "paper"; one encodes, another decodes in the same order.
 
-
-def mean_residual(residual: Floats) -> float:
-    """The norm of equation 6: that of the sum over x, y and z of a residual, shape (n, 3)."""
-    return float(np.linalg.norm(residual.sum(axis=1)))
-
-
-def frobenius(residual: Floats) -> float:
-    """The norm over all numbers of a residual, shape (n, 3), by which the codec sizes blocks."""
-    return float(np.linalg.norm(residual))
-
-
-class Sized(NamedTuple):
-    """A block by Algorithm 2: U, shape (n, c), the residual that it leaves, shape (n, 3), and its iterations."""
-
-    basis: Floats
-    residual: Floats
-    iterations: int
-
-
-def algorithm_2(
-    basis: Floats,
-    positions: Floats,
-    iterate: Iterate,
-    eps: tuple[float, float],
-    *,
-    norm: Callable[[Floats], float] = mean_residual,
-    most: int = 400,
-) -> Sized:
-    """The dynamic orthogonal iterations of the paper on one block, as its text describes them (section 5).
-
-    From the `basis` of the block before, shape (n, c), each of at most `most` iterations is `iterate`, Onorm(R^z U).
-    While the `norm` of the residual is above eps_h, the residual becomes one more column (equation 7); while it is
-    below eps_l, the last column leaves. A decoder does not know the residual: with such a basis no stream can be
-    decoded. The codec grows by a cosine instead, and finds c in one iteration.
+    A part with as many vertices as the one before takes one orthogonal iteration from its basis, any other an exact
+    basis. Nothing else is shared: vertices on a border are coded in each part, and not averaged. eps is in mean edge
+    lengths of the part. `keywords` change other options; of `limits`, both sides need the same.
     """
-    lowest, highest = eps
-    for count in range(1, most + 1):
-        basis = iterate(basis)
-        residual = positions - basis @ (basis.T @ positions)
-        error = norm(residual)
-        if error > highest and basis.shape[1] < len(basis) and count < most:
-            column = residual.sum(axis=1, keepdims=True)
-            basis = np.hstack([basis, column / (np.linalg.norm(column) or 1.0)])
-        elif error < lowest and basis.shape[1] > 1 and count < most:
-            basis = basis[:, :-1]
-        else:
-            break
-    return Sized(basis, residual, count)
 
+    def __init__(self, **keywords: Any) -> None:
+        one_block: dict[str, Any] = {"block_size": int(RANGES["block_size"][1]), "partition": "derived"}
+        self._options = EncodeOptions(preset="paper", **(one_block | keywords))
+        self._limits, self._basis = NAMED_LIMITS[self._options.limits](), np.empty((0, 0), np.float32)
 
-def dynamic(
-    mesh: Any,
-    eps: tuple[float, float],
-    /,
-    *,
-    first: int = 50,
-    norm: Callable[[Floats], float] = mean_residual,
-    most: int = 400,
-    **keywords: Any,
-) -> list[Sized]:
-    """All blocks of a mesh by `algorithm_2`, in the order of the chain, the first from its `first` lowest eigenvectors.
+    def encode(self, part: Any) -> Encoded:
+        """Encode a part, as `bsm.encode` takes a mesh: its bytes, and the mesh that they decode to."""
+        prepared = _prepared(join(as_mesh(part).bare, keep=False).mesh, Idea(), self._options)
+        _, columns = self._begun(prepared.blocks, InBlocks(prepared, self._options)._rules())
+        draft = _draft(prepared, Overrides(lambda _, width, __: columns(width).astype(np.float64)), self._options)
+        data = MARK + b"".join(draft.frames)
+        return Encoded(data, self.decode(data))
 
-    Errors are in units of the box's diagonal; `keywords` change the options of the preset "paper".
-    """
-    options = EncodeOptions(preset="paper", **keywords)
-    prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, Idea(), options)
-    how, found, basis = options.paper, list[Sized](), np.empty((0, 0))
-    for block in (prepared.blocks.block(index) for index in range(prepared.blocks.count)):
-        solver = solver_of(block, how.shift)
-        if len(basis) != block.size:
-            basis = np.linalg.eigh(dense_laplacian(block))[1][:, :first]
-        iterate = partial(_iterated, solver, how.power)
-        found.append(algorithm_2(basis, prepared.positions[block.vertices], iterate, eps, norm=norm, most=most))
-        basis = found[-1].basis
-    return found
+    def decode(self, data: bytes) -> TriangleMesh:
+        """Decode the next part; `CorruptError` if it does not follow the one before."""
+        stream, skimmer = data.removeprefix(MARK), Skimmer(self._limits)
+        sections = {p.type: p for chunk in (stream, None) for p in skimmer.receive(chunk)}
+        block, header, law = sections.get(FrameType.BLOCK), skimmer.header, skimmer.header.constants
+        if stream == data or header.blocks != 1 or not law.bits or block is None or FrameType.ORDER in sections:
+            raise FormatError("this is not a part: it needs a mark, one block with packed coefficients, and no order")
+        end = block.offset + block.length - checksum_size(block.type, block.payload)
+        spoiled = stream[:end] + bytes([stream[end] ^ 1]) + stream[end + 1 :]  # so that its decoder makes no basis
+        with Decoder(self._limits, 1, tolerant=True) as decoder:
+            faces = next(found.faces for found in decoder.events([spoiled]) if isinstance(found, ConnectivityEvent))
+        graph = graph_of_faces(faces, header.vertices)
+        blocks = grow_blocks(graph, derive_partition(graph, 1), graph.size)
+        (rows, prediction, weights), columns = self._begun(blocks, replace(rules_of(law), apart=header.onorm))
+        basis = columns(min(block.count, graph.size))
+        coding = Packed(block.count, law.bits, header.step, law.coarser)
+        levels = coding.read(stream[end - block.data : end], basis.shape[1])
+        copy = DecodedBlock(0, rows, coding.positions(Ground(prediction, basis), levels), weights)
+        mesh = TriangleMesh(Units(header.center, header.scale).back(blended(graph.size, [copy])), faces)
+        if checksum_of(mesh.positions) != sections[FrameType.END].positions:
+            raise CorruptError("the part does not follow the one before: decode all parts, in the order of encoding")
+        self._basis = basis
+        return mesh
 
+    def _begun(
+        self, blocks: Blocks, rules: ChainRules
+    ) -> tuple[tuple[Integers, Floats, Floats], Callable[[int], Basis]]:
+        """What `Chain.begin` returns of a part, and its dictionary by width: that of a chain with the part before."""
+        size, edges, members = blocks.graph.size, np.tile(blocks.edges, 2), np.tile(blocks.members, 2)
+        chain = Chain(rules, Blocks(blocks.graph, np.tile(blocks.cores, 2), size * np.arange(3), edges, members))
+        begun = chain.begin(0)
+        if len(self._basis) == size:
+            chain.give(self._basis)
+            chain.commit(self._basis.shape[1], begun[1])
+            begun = chain.begin(1)
 
-def _iterated(solver: Solver, power: int, start: Floats) -> Floats:
-    apart = min(power, MOST_APART) if power > 1 else 0
-    columns = np.ascontiguousarray(start, np.float32)
-    return solver.iterate(columns, power, 1, apart).astype(np.float64)
+        def columns(width: int) -> Basis:
+            *work, memory = chain.costs(width)
+            self._limits.check_work(sum(work), size)
+            self._limits.check_memory(memory, size)
+            return chain.dictionary(width)
+
+        return begun, columns
 
 
 def _tried(idea: Idea, options: EncodeOptions) -> Any:
@@ -284,8 +269,8 @@ def _tried(idea: Idea, options: EncodeOptions) -> Any:
     return SimpleNamespace(settings={"step": options.step}, encode=encode, decode=meshes.__getitem__, parts=parts)
 
 
-def _draft(prepared: Prepared, idea: Idea, options: EncodeOptions) -> Draft:
-    spectral = InBlocks(prepared, options, overrides=_overrides(idea))
+def _draft(prepared: Prepared, idea: Idea | Overrides, options: EncodeOptions) -> Draft:
+    spectral = InBlocks(prepared, options, overrides=_overrides(idea) if isinstance(idea, Idea) else idea)
     return spectral.base(spectral.first_step).draft
 
 

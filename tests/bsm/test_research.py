@@ -6,8 +6,10 @@ import pytest
 import bsm
 from bsm import research
 from bsm.evaluation.sample import knot
+from tests.shapes import patch, torus
 
 MESH = knot(2000)
+PARTS = patch(20, 15), torus(20, 15), torus(15, 20), torus(24, 9)
 
 
 def eigenvectors(site, width):
@@ -107,20 +109,35 @@ def test_curves_are_measured_beside_ours():
         research.curves(MESH, {"ours": research.Idea()})
 
 
-@pytest.mark.parametrize("norm", [research.frobenius, research.mean_residual])
-def test_algorithm_2_brings_each_block_between_its_thresholds_by_one_column_an_iteration(norm):
-    mesh, (lowest, highest) = knot(2000), (0.02, 0.05)
-    found = research.dynamic(mesh, (lowest, highest), first=10, norm=norm, block_size=200, threads=1)
-    assert len(found) == 10
-    size = 10
-    for basis, residual, iterations in found:
-        assert lowest <= norm(residual) <= highest
-        assert abs(basis.shape[1] - size) <= iterations - 1
-        assert np.allclose(basis.T @ basis, np.eye(basis.shape[1]), atol=1e-4)
-        size = basis.shape[1]
-    assert found[0].iterations > 1
+def test_parts_are_decoded_one_after_the_other_as_they_were_encoded():
+    """A part of another size begins anew, and after one of its size a part takes one iteration from its basis."""
+    pytest.importorskip("zstandard", reason="needs zstandard (extra paper)")
+    encoder, decoder, streams = research.PartCoder(), research.PartCoder(), []
+    for mesh in PARTS:
+        data, expected = encoder.encode(mesh)
+        decoded = decoder.decode(data)
+        assert np.array_equal(decoded.positions, expected.positions)
+        assert np.array_equal(decoded.faces, expected.faces)
+        edges = np.linalg.norm(np.diff(mesh.positions[mesh.faces[:, :2]], axis=1), axis=2).mean()
+        assert bsm.compare(mesh, decoded).rms <= 0.31 * edges
+        streams.append(data)
+    alone = [research.PartCoder().encode(mesh).data for mesh in PARTS]
+    assert alone[0] == streams[0] and alone[1] != streams[1] and alone[3] == streams[3]
+    for others in ([], [streams[0], streams[3]], streams[:2]):
+        decoder = research.PartCoder()
+        for data in others:
+            decoder.decode(data)
+        with pytest.raises(bsm.CorruptError, match="does not follow"):
+            decoder.decode(streams[1])
 
 
-def test_algorithm_2_ends_where_a_band_is_too_narrow():
-    found = research.dynamic(knot(500), (0.04999, 0.05), first=5, most=30, block_size=200, threads=1)
-    assert max(block.iterations for block in found) == 30
+def test_what_is_no_part_is_refused():
+    pytest.importorskip("zstandard", reason="needs zstandard (extra paper)")
+    data, _ = research.PartCoder().encode(PARTS[0])
+    others = (bsm.encode(MESH, preset="paper"), research.MARK + bsm.encode(MESH), data[len(research.MARK) :], data[:-9])
+    changed = (data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :] for at in range(0, len(data), 5))
+    for other in (*others, *changed, b""):
+        with pytest.raises(bsm.BsmError):
+            research.PartCoder().decode(other)
+    with pytest.raises(bsm.LimitError):
+        research.PartCoder(limits="service", keep=1.0).encode(patch(60, 60))

@@ -1,10 +1,8 @@
 """What `tools.replicate` does not measure: `python -m tools.measure WHAT ...`, and `WHAT --help` for what it asks.
 
 attributes  what attributes take, against Draco's
-bench       speed of dictionaries against exact solvers
 speed       what encoding and decoding take, over Draco's and a file of figures; of MESHes, decoding by bsmdec
 fields      colors and fields that change in moving meshes, against zstd and Draco frame by frame
-same        whether another checkout writes the same bytes
 denoising   how denoising does on noise of known cause, beside Taubin's filter
 house       how large the repository is, beside its limits
 """
@@ -16,9 +14,7 @@ from tools.command import dispatch
 COMMANDS = {
     "attributes": "attributes:main",
     "fields": "fields:main",
-    "bench": "bench:main",
     "speed": "speed:main",
-    "same": "same:main",
     "denoising": "denoising:main",
     "house": "house:main",
 }

@@ -56,7 +56,7 @@ class Moving:
     name: str
     origin: Source | str | Path
 
-    def frames(self) -> tuple[Positions, Faces]:
+    def frames(self, most: int = FRAMES) -> tuple[Positions, Faces]:
         """Frames of shape (T, n, 3), and faces."""
         if isinstance(self.origin, Source):
             mesh = self.origin.mesh()
@@ -66,7 +66,7 @@ class Moving:
             positions, faces = arrays["positions"], arrays["faces"]
         else:
             positions, faces = MADE[self.origin]()
-        return positions[:FRAMES].astype(np.float64), TriangleMesh(positions[0], faces).faces
+        return positions[:most].astype(np.float64), TriangleMesh(positions[0], faces).faces
 
 
 def sequences(sources: Sequence[Source], own: Path | None, quick: bool) -> list[Moving]:

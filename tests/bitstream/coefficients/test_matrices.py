@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from bsm import OptionError
+from bsm import CorruptError, OptionError
 from bsm.bitstream.coefficients.adaptive import points_of_levels
 from bsm.bitstream.coefficients.matrices import PRICED, make_level_bank, price_levels
-from bsm.bitstream.coefficients.packed import compress, pack_coefficients
+from bsm.bitstream.coefficients.packed import compress, pack_coefficients, unpack_coefficients
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, write_gop_body
 from tools.payloads import encode_levels
 
@@ -74,8 +74,11 @@ def test_packed_known_bytes():
     assert pack_coefficients(np.array([5, 3, 6, 0]), 3).hex() == "af00"
 
 
-def test_packing_refuses_what_does_not_fit():
+def test_packing_comes_back_and_unpacking_refuses_what_does_not_fit():
     assert len(compress(bytes(1000))) < 20 and compress(b"abc") == b"abc"
-    for values, bits in [([8], 3), ([-1], 3), ([0.5], 3), ([0], 0), ([0], 33)]:
-        with pytest.raises(OptionError):
-            pack_coefficients(np.array(values), bits)
+    for values in (np.arange(8), np.zeros(999, np.int64)):
+        packed = pack_coefficients(values, 3)
+        assert np.array_equal(unpack_coefficients(packed, 3, len(values)), values)
+        for data in (packed[:-1], packed + b"0", compress(bytes(1 << 20)), b""):
+            with pytest.raises(CorruptError):
+                unpack_coefficients(data, 3, len(values))

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tools.replicate.fetch import Source
-from tools.replicate.paper import coherence, compression, denoising, dynamic, iterations, segments
+from tools.replicate.paper import coherence, compression, denoising, dynamic, iterations, segments, trajectories
 from tools.replicate.paper.models import Study
+from tools.replicate.paper.parts import parts
 from tools.replicate.rates import Row
 
 TABLES: dict[str, Callable[[Study], Iterator[Row]]] = {
@@ -30,6 +31,7 @@ TABLES: dict[str, Callable[[Study], Iterator[Row]]] = {
         segments.edge_effect,
         segments.number_of_segments,
         segments.overlap,
+        parts,
         coherence.coherence,
         denoising.times,
         denoising.large,
@@ -37,6 +39,7 @@ TABLES: dict[str, Callable[[Study], Iterator[Row]]] = {
         denoising.rivals,
         denoising.fewer_iterations,
         denoising.coarse_to_fine,
+        trajectories.temporal_basis,
     )
 }
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from bsm import research
 from bsm.codec.basis.orthogonal_iteration import DynamicSize, cosine_columns
 from bsm.codec.blocks.overlap import Block
 from tools.replicate.paper.dictionaries import Cut, Floats, iterated
@@ -23,7 +22,8 @@ POWER, MOST = 2, 150
 CODEC, LIKE_TEXT, LITERAL = "the codec's rule", "Algorithm 2", "Algorithm 2, equation 6"
 BANDS, FACTORS = (0.9, 0.6), (0.9, 1.0, 1.1)
 """eps_l over eps_h; and mean errors at which the largest change of c is taken, over that of one c."""
-Norm = Callable[[Floats], float]
+Norm = Callable[..., Any]
+"""Of a residual, shape (n, 3)."""
 
 
 class Track(NamedTuple):
@@ -68,13 +68,40 @@ def fixed_size(cut: Cut, values: Floats) -> Track:
     return Track(np.array([u.shape[1] for u in bases], float), errors, np.ones(len(bases)), seconds, bases)
 
 
+def mean_residual(residual: Floats) -> float:
+    """The norm of equation 6, that of the sum over x, y and z; that over all numbers is `np.linalg.norm`."""
+    return float(np.linalg.norm(residual.sum(axis=1)))
+
+
+def sized(
+    basis: Floats, positions: Floats, iterate: Callable[[Floats], Floats], norm: Norm, low: float, high: float
+) -> tuple[Floats, Floats, int]:
+    """U of a block by Algorithm 2 as its text describes it, the residual, and iterations, from U of the block before.
+
+    While the norm of the residual is above eps_h, the residual becomes one more column (equation 7); while it is below
+    eps_l, the last column leaves. A decoder does not know the residual: this gives no stream.
+    """
+    for count in range(1, MOST + 1):
+        basis = iterate(basis)
+        residual = positions - basis @ (basis.T @ positions)
+        error = norm(residual)
+        if error > high and basis.shape[1] < len(basis) and count < MOST:
+            column = residual.sum(axis=1, keepdims=True)
+            basis = np.hstack([basis, column / (np.linalg.norm(column) or 1.0)])
+        elif error < low and basis.shape[1] > 1 and count < MOST:
+            basis = basis[:, :-1]
+        else:
+            break
+    return basis, residual, count
+
+
 def algorithm_2(cut: Cut, values: Floats, norm: Norm, band: float, high: float) -> Track:
     """One iteration for each change of c by one; the residual of the sum is the new column."""
     basis, found, bases, watch = cut.exact[0], [], [], Watch(POWER)
     for block, exact in zip(cut.blocks, cut.exact, strict=True):
         start = basis if len(basis) == block.size else exact
-        iterate, eps = partial(watch.iterated, block), (band * high, high)
-        basis, rest, count = research.algorithm_2(start, values[block.vertices], iterate, eps, norm=norm, most=MOST)
+        iterate = partial(watch.iterated, block)
+        basis, rest, count = sized(start, values[block.vertices], iterate, norm, band * high, high)
         found.append((basis.shape[1], np.square(rest).sum(), count))
         bases.append(basis)
     sizes, errors, counts = np.array(found, float).T
@@ -133,8 +160,8 @@ def dynamic(study: Study) -> Iterator[Row]:
     for band in BANDS:
         runs: dict[str, Callable[[float], Track]] = {
             CODEC: partial(codec_rule, cut, values, band),
-            LIKE_TEXT: partial(algorithm_2, cut, values, research.frobenius, band),
-            LITERAL: partial(algorithm_2, cut, values, research.mean_residual, band),
+            LIKE_TEXT: partial(algorithm_2, cut, values, np.linalg.norm, band),
+            LITERAL: partial(algorithm_2, cut, values, mean_residual, band),
         }
         for name, run in runs.items():
             first = wanted * (0.6 if name == LITERAL else 1.0)

@@ -1,0 +1,109 @@
+"""A temporal basis that is followed from GOP to GOP by orthogonal iterations, beside the codec's eigenvectors.
+
+After A. Lalos, A. Vasilakis, A. Dimas, K. Moustakas, "Adaptive compression of animated meshes by exploiting orthogonal
+iterations" (2017), and G. Arvanitis, A. Lalos, K. Moustakas, "Fast spatio-temporal compression of dynamic 3D meshes".
+The codec makes and codes the rest of a GOP. It sends each basis, so its decoder needs nothing else.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+
+import bsm
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
+from bsm.codec.sequence import gop, temporal
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.targets import compare_sequences
+from tools.replicate.ablation import Tool
+from tools.replicate.motion import Moving, sequences
+from tools.replicate.paper.dictionaries import Floats
+from tools.replicate.paper.iterations import householder, span
+from tools.replicate.paper.models import Study
+from tools.replicate.paper.published import Line, printed
+from tools.replicate.rates import Row
+
+POWERS = {"eigh": 0, "OI, A": 1, "OI, A^2": 2}
+LENGTHS, STEP, MOST = (8, 48), 0.002, 144
+"""Frames of a GOP, the step of all frames, and the largest number of frames of a sequence that are taken."""
+exactly = np.linalg.eigh
+
+
+class Followed:
+    """In place of `eigh`: each covariance A takes one iteration of A^z from the basis before, of as many rows."""
+
+    def __init__(self, power: int) -> None:
+        self._power, self._basis, self._kept, self.seconds = power, np.empty((0, 0)), 0, 0.0
+
+    def __call__(self, covariance: Floats) -> tuple[Floats, Floats]:
+        """Energies, rising, and their columns; those that are left out are below what the codec keeps."""
+        begin = time.thread_time()
+        follows = self._power and len(self._basis) == len(covariance)
+        energies, basis = self._iterated(covariance) if follows else exactly(covariance)
+        order = np.argsort(energies)
+        energies, basis = energies[order], basis[:, order]
+        self._basis, self._kept = basis[:, ::-1], int(np.count_nonzero(energies > least_energy(len(covariance))))
+        self.seconds += time.thread_time() - begin
+        return energies, basis
+
+    def _iterated(self, covariance: Floats) -> tuple[Floats, Floats]:
+        rows, width = len(covariance), self._kept + self._kept // 4 + 8
+        while True:
+            width = min(width, rows)
+            columns = np.hstack([self._basis, cosine_columns(rows, width)])[:, :width]
+            for _ in range(self._power):
+                columns = covariance @ columns
+            columns = householder(columns)
+            energies = (columns * (covariance @ columns)).sum(axis=0)
+            if width == rows or energies[-1] < least_energy(rows):
+                return energies, columns
+            width *= 2
+
+
+def least_energy(rows: int) -> float:
+    """The energy below which the codec leaves a component out."""
+    return temporal.WORTH * rows * STEP**2
+
+
+def measured(moving: Moving, length: int, power: int) -> tuple[float, ...]:
+    """Bytes, KG error in percent, seconds of a thread for bases, and for the whole encoder."""
+    frames, faces = moving.frames(MOST)
+    encoder = SequenceEncoder(faces, SequenceOptions(threads=1, gop=length, step=STEP), len(frames))
+    followed, begin = Followed(power), time.thread_time()
+    uncut = gop.LearntGop, "lengths", lambda self, places: [len(places)]
+    with Tool({}, [(np.linalg, "eigh", followed), uncut]).left_out():
+        data = b"".join(encoder.chunks(frames))
+    seconds = time.thread_time() - begin
+    decoded, coded = bsm.decode_sequence(data, threads=1)
+    return len(data), compare_sequences(frames[:, encoder.vertex_order], decoded, coded).kg, followed.seconds, seconds
+
+
+def temporal_basis(study: Study) -> Iterator[Row]:
+    """Bytes, error and time of sequences with either basis."""
+    rows, more, slower = list[Line](), list[float](), list[float]()
+    share = 0.0
+    for moving in sequences([], study.folder, quick=False)[-1 if study.quick else -4 :]:
+        for length in LENGTHS:
+            if 2 * length > min(MOST, len(moving.frames(MOST)[0])):
+                continue
+            exact, *others = (measured(moving, length, power) for power in POWERS.values())
+            rows += [
+                (f"{moving.name}, GOPs of {length}, {name}", own, ())
+                for name, own in zip(POWERS, (exact, *others), strict=True)
+            ]
+            more += [100 * (own[0] / exact[0] - 1.0) for own in others]
+            slower += [own[2] / exact[2] for own in others]
+            share = max(share, 100 * exact[2] / exact[3])
+    yield printed(
+        "The paper, 7.3: a temporal basis that follows from GOP to GOP",
+        ("bytes", "KG, %", "s for bases", "s to encode"),
+        rows,
+        "Trajectories' covariance A: eigh for each GOP, or one orthogonal iteration of A or A^2 from the basis of the "
+        "GOP before (the first by eigh). The codec quantizes and sends either basis, and codes the rest; one step, no "
+        f"cuts. Seconds of one thread. OI takes {span(more)} % more bytes and {span(slower)} times the time of eigh, "
+        f"which is at most {share:.1f} % of encoding.",
+        numbers={"more": span(more), "slower": span(slower), "share": f"{share:.1f}"},
+    )
