@@ -21,9 +21,7 @@ def filter_normals(geometry: FaceGeometry, guide: Floats, near: Lists, sigma_s: 
 
 
 def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
-    """Guidance normal of each face: the mean normal of the most consistent patch that holds the face. A patch is a face
-    with all faces that share a vertex with it; it is consistent if its normals lie close together and its differences
-    are spread over many inner edges instead of one crease."""
+    """Guidance normal of each face: the mean normal of the flattest patch, a face with its neighbors, that holds it."""
     _, areas, normals = geometry
     steps = pair_distances(normals, topology.pairs)
     scores, means, guide = np.empty_like(areas), np.empty_like(normals), np.empty_like(normals)

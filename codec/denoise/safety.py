@@ -26,8 +26,7 @@ FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
 
 def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> tuple[Mask, str]:
-    """Compare the movement in each window with the noise there: which vertices may take the result, and why it may not
-    stand as a whole, or nothing."""
+    """Return which vertices may take the result, by its movement in each window, and why it may not as a whole."""
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
     if finding.kind == "cells":

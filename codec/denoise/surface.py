@@ -91,8 +91,7 @@ class Topology:
 
 
 def surroundings(positions: Positions, topology: Topology, radius: float) -> Lists:
-    """Faces that are reached from each face, within a radius in mean distances of adjacent centroids; of crowds every
-    second, third, ... face."""
+    """Faces within a radius, in mean distances of adjacent centroids, of each face; of crowds only every n-th face."""
     most = int(CROWDED * radius**2)
     points = face_geometry(positions, topology.faces).centroids
     radius, count = radius * mean_centroid_distance(points, topology.pairs), len(points)

@@ -25,8 +25,7 @@ class TemporalFilter:
         self._copies = np.bincount(np.concatenate(self._blocks), minlength=n)
 
     def __call__(self, frames: Positions) -> tuple[Positions, float, float]:
-        """Frames of shape (T, n, 3), at least `FEWEST_FRAMES`, without noise; the deviation of that, and the share of
-        it that remains."""
+        """At least `FEWEST_FRAMES` frames, (T, n, 3), without noise; its deviation, and the share that remains."""
         count, n, _ = frames.shape
 
         def trajectories(index: int) -> Floats:

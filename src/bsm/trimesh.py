@@ -22,6 +22,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
+from bsm.files.formats.appearance import Material, Texture, appearance, in_gltf
 from bsm.files.formats.polygons import Array
 from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
 from bsm.libraries import as_mesh, with_warnings
@@ -129,11 +130,10 @@ def _flat(values: Array) -> Array:
     return values[:, 0] if values.shape[1] == 1 else values
 
 
-def _material(words: formats.Material, metadata: Metadata) -> Any:
-    images, known = formats.images_in(metadata), formats.gltf_values(words)
-    for name in set(formats.GLTF_TEXTURES) & known.keys():
-        known[name] = _opened(images.get(known[name], ("", b""))[1])
-    return _library.visual.material.PBRMaterial(**{name: value for name, value in known.items() if value is not None})
+def _material(words: Material, metadata: Metadata) -> Any:
+    images, known = formats.images_in(metadata), in_gltf(appearance(words))
+    known |= {n: _opened(images.get(v.image, ("", b""))[1]) for n, v in known.items() if isinstance(v, Texture)}
+    return _library.visual.material.PBRMaterial(**known)
 
 
 def _opened(data: bytes) -> Any:

@@ -113,9 +113,7 @@ class Evidence:
         return np.asarray(self.along[chosen][scale > 0.0] / scale[scale > 0.0])
 
     def measures(self, windows: Mask) -> Floats:
-        """Return what rules weigh, in the order of `MEASURES`: the level and whiteness (logarithms), how far the broad
-        frequencies are from those of such noise, how uneven fine and broad levels are, how irregular the triangles
-        are (a logarithm), and the lack of windows."""
+        """Return what rules weigh, in the order of `MEASURES`; level, whiteness and irregularity are logarithms."""
         fine, broad = self.levels[windows], self.broad[windows]
         broader = np.log(max(np.median(broad / np.maximum(fine, 1e-9)), 1e-9))
         level, whiteness = np.log(np.maximum([self.level(windows), self.whiteness(windows)], 1e-9))

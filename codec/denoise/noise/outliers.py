@@ -43,8 +43,7 @@ REFINEMENTS = 30
 
 
 def put_outliers_back(positions: Positions, probe: Probe, finding: Finding) -> Positions:
-    """Put back vertices far outside their neighbors, noise or not, then those that stand out of a mesh without noise;
-    all others stay as they are, bit for bit."""
+    """Put back vertices far outside their neighbors and, in a mesh without noise, those that stand out; no others."""
     back = put_strays_back(positions, probe)
     noisy = (finding if back is positions else find_noise(back, probe)).noisy
     return back if noisy else _peeled(back, probe)

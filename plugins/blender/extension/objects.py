@@ -20,7 +20,8 @@ from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.metadata import gltf_values, images_in, kind_of_image, materials_in
+from bsm.files.formats.appearance import Appearance, appearance
+from bsm.files.formats.metadata import images_in, kind_of_image, materials_in
 from bsm.files.formats.polygons import Array, unused_name
 from bsm.files.inspection import inspect_stream
 from bsm.files.motion.caches import write_cache
@@ -50,7 +51,7 @@ def data_of(mesh: TriangleMesh, name: str) -> Any:
         _add(made, attribute)
     known = materials_in(mesh.metadata)
     for number in range(max(known) + 1 if known else 0):
-        made.materials.append(_material(gltf_values(known.get(number, {})), mesh.metadata, number))
+        made.materials.append(_material(appearance(known.get(number, {})), mesh.metadata, number))
     return made
 
 
@@ -92,17 +93,17 @@ def _add_color(made: Any, name: str, values: Array, domain: str) -> None:
         made.color_attributes.render_color_index = made.color_attributes.find(layer.name)
 
 
-def _material(words: dict[str, Any], metadata: Metadata, number: int) -> Any:
-    made = bpy.data.materials.new(str(words.get("name") or f"material {number}"))
+def _material(look: Appearance, metadata: Metadata, number: int) -> Any:
+    made = bpy.data.materials.new(look.name or f"material {number}")
     made.use_nodes = True
     shader = next(node for node in made.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    if color := words.get("baseColorFactor"):
-        shader.inputs["Base Color"].default_value = (*color[:3], 1.0)
-        shader.inputs["Alpha"].default_value = color[3]
-    for name, socket in (("metallicFactor", "Metallic"), ("roughnessFactor", "Roughness")):
-        if name in words:
-            shader.inputs[socket].default_value = words[name]
-    data = images_in(metadata).get(words.get("baseColorTexture", -1), ("", b""))[1]
+    if look.says("color") or look.says("opacity"):
+        shader.inputs["Base Color"].default_value = (*look.color, 1.0)
+        shader.inputs["Alpha"].default_value = look.opacity
+    for name in ("metallic", "roughness"):
+        if look.says(name):
+            shader.inputs[name.capitalize()].default_value = getattr(look, name)
+    data = images_in(metadata).get(look.color_texture.image if look.color_texture else -1, ("", b""))[1]
     if kind := kind_of_image(data):
         node = made.node_tree.nodes.new("ShaderNodeTexImage")
         name = f"{made.name}.{kind}"
@@ -213,8 +214,7 @@ Progress = Callable[[int, int], None]
 def import_file(
     path: str, *, frame_start: int | None = None, set_scene: bool = True, up: str = "", progress: Progress | None = None
 ) -> list[Any]:
-    """Import a stream; the objects that were made, selected, the first of them active; `up` ("y", "z") is the axis that
-    points up in it, where it does not say so itself."""
+    """Import a stream; the objects, selected, the first active; `up` ("y", "z") is its axis, where it says none."""
     header, chunks = peek_header(read_chunks(path))
     name = Path(path).stem
     if header is None or not header.gop_frames:

@@ -1,6 +1,5 @@
 """Units, axes and colors of meshes, as the table of formats has them: readers name them, and writers obey."""
 
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -61,19 +60,17 @@ _WORD = 65535.0
 
 def to_linear(shares: Array) -> Doubles:
     """Return the linear values of colors in sRGB; a fourth column is an opacity, which stays."""
-    return _curved(shares, lambda c: np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4))
+    found = np.array(shares, np.float64)
+    c = found[..., :3]
+    found[..., :3] = np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4)
+    return found
 
 
 def to_srgb(shares: Array) -> Doubles:
     """Return linear colors in sRGB; a fourth column is an opacity, which stays."""
-    return _curved(
-        shares, lambda c: np.where(c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055)
-    )
-
-
-def _curved(shares: Array, curve: Callable[[Doubles], Doubles]) -> Doubles:
     found = np.array(shares, np.float64)
-    found[..., :3] = curve(found[..., :3])
+    c = found[..., :3]
+    found[..., :3] = np.where(c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055)
     return found
 
 
@@ -106,8 +103,3 @@ def shares_of(colors: Array) -> Doubles:
     """Return floats as they are, and whole numbers as shares of their largest one."""
     found: Doubles = colors / np.float64(1 if colors.dtype.kind == "f" else np.iinfo(colors.dtype).max)
     return found
-
-
-def converted(words: Iterable[float], *, linear: bool) -> str:
-    """Return the color of a material, and its opacity, as linear values, or those as sRGB."""
-    return " ".join(f"{number:.6g}" for number in (to_linear if linear else to_srgb)(np.array([*words])).tolist())

@@ -41,9 +41,7 @@ class Terminated(SystemExit):
 def open_output(
     path: str | os.PathLike[str], *, overwrite: bool = False, follow: bool | str = True
 ) -> Iterator[BinaryIO]:
-    """Open a file for writing whose name appears only when the `with` block has ended well. `follow` is for names that
-    the user gave: the target of a symbolic link is replaced, and devices are written to. If the user gave only a
-    folder, it is that: links below it are not followed."""
+    """Open a file whose name appears when the `with` block has ended well; `follow`: links and devices are meant."""
     if os.fspath(path) == "-":
         piped = pipes.standard_output()
         yield piped

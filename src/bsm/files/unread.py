@@ -21,10 +21,7 @@ def rows_of(file_format: str) -> dict[str, str]:
 
 
 class Taken:
-    """The names that a reader takes: a row of words for each owner, and the row "" for all of them.
-
-    A word is a name, the beginning of names, which ends with : or _, or a name with the value that changes nothing.
-    """
+    """The names that a reader takes, for each owner: whole, by their beginning (: or _ ends it), or name=value."""
 
     def __init__(self, rows: Mapping[str, str]) -> None:
         self._rows = {owner: {*f"{words} {rows.get('', '')}".split()} for owner, words in {"": "", **rows}.items()}

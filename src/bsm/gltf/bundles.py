@@ -11,13 +11,12 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
+from bsm.codec.geometry.graph import components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate, group_rows, weld
 from bsm.codec.static.encoder import Encoder
@@ -302,9 +301,7 @@ def _why_left(document: gltf.Document, mesh: Tree, primitive: Tree) -> str | Non
 def error_of(positions: Array, decoded: TriangleMesh) -> tuple[float, float]:
     """The largest error of a vertex, and the largest as a share of the diagonal of its component."""
     errors = np.linalg.norm(decoded.positions - positions, axis=1)
-    edges = decoded.faces[:, [0, 1, 1, 2]].reshape(-1, 2)
-    graph = coo_array((np.ones(len(edges), np.int8), edges.T), shape=(len(errors),) * 2)
-    labels = connected_components(graph, directed=False)[1]
+    labels = components(graph_of_faces(decoded.faces, len(errors)))
     order = np.argsort(labels, kind="stable")
     starts = np.searchsorted(labels[order], np.arange(labels.max() + 1))
     low, high = (way.reduceat(positions[order], starts, axis=0) for way in (np.minimum, np.maximum))

@@ -16,7 +16,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files import conventions, table
 from bsm.files.formats import polygons as shapes
-from bsm.files.formats.metadata import Material, Value, described
+from bsm.files.formats.appearance import Material
+from bsm.files.formats.metadata import Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
 from bsm.files.room import Doubles, Ints, as_format_error, require_count
 from bsm.gltf.coding import INSTANCING, MATTE, STRENGTH, TRIANGLES, TRIANGULAR, Array, Tree
@@ -464,7 +465,7 @@ class Scene:
         found: list[shapes.Column] = []
         for name, index in given.items():
             kind, _, number = name.partition("_")
-            if not is_read(name) or kind in ("POSITION", "NORMAL"):
+            if not name.startswith(("TEXCOORD_", "COLOR_", "_")):
                 continue
             values: Any = self._document.numbers(index, whole=kind == "COLOR")
             if len(values) != count or values.shape[1] > 4:
@@ -488,11 +489,6 @@ def _color(values: Array, name: str, notes: list[str]) -> shapes.Column:
         notes.append(f"parts whose {name} has values above 1, kept as linear numbers and not as a color")
         return shapes.Column(name, shapes.compact(values))
     return shapes.Column(name, conventions.srgb_colors(values), semantic="color")
-
-
-def is_read(name: str) -> bool:
-    """Whether a scene at rest has a column of an attribute of glTF."""
-    return name in ("POSITION", "NORMAL") or name.startswith(("TEXCOORD_", "COLOR_", "_"))
 
 
 # --------------------------------------------------------------------------------------------------------------- frames
@@ -657,13 +653,9 @@ def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:
 
 def _materials(document: Document, used: list[int], transparent: bool) -> tuple[dict[int, Material], dict[str, Value]]:
     """Materials by place, in glTF's words, and their images as metadata; what glTF draws opaque says so."""
-    words: dict[int, Material] = {}
-    numbers: dict[str, int] = {}
-    images: dict[str, Value] = {}
-    taken = 0
+    words, numbers, images, taken = dict[int, Material](), dict[str, int](), dict[str, Value](), 0
     for place, index in enumerate(used):
-        found: Material = {}
-        words[place] = found
+        found = words.setdefault(place, {})
         tree = document.item("materials", index) if index >= 0 else {}
         factor = tree.get("pbrMetallicRoughness", {}).get("baseColorFactor", [1.0] * 4)
         if "alphaMode" not in tree and (transparent or factor[3] < 1):
@@ -689,10 +681,8 @@ def _materials(document: Document, used: list[int], transparent: bool) -> tuple[
                     if moved := value.get("extensions", {}).get(TRANSFORM):  # counts from above, and MTL from below
                         (across, up), (right, down) = moved.get("scale", (1, 1)), moved.get("offset", (0, 0))
                         found[f"{name}.options"] = f"-s {across:.9g} {up:.9g} 1 -o {right:.9g} {1 - up - down:.9g} 0"
-            elif isinstance(value, bool):
-                found[name] = int(value)
             elif isinstance(value, str | int | float):
-                found[name] = value
+                found[name] = int(value) if isinstance(value, bool) else value
             elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
                 found[name] = " ".join(f"{item * (shine if name == 'emissiveFactor' else 1):.6g}" for item in value)
     return words, images

@@ -20,6 +20,7 @@ from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_with_origin
 from bsm.files import conventions
 from bsm.files.formats import metadata as formats
+from bsm.files.formats.appearance import Material, Texture, appearance, as_numbers, held_by, in_gltf, lost, within
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
@@ -104,49 +105,41 @@ class _Scene(Growing):
             self.primitives.append((primitive, own[used]))
         written |= {f"part.{number}.name" for number in names}
         rest = {name: value for name, value in mesh.metadata.items() if name not in written}
-        extras = {name: value for name, value in rest.items() if isinstance(value, str) or formats.as_numbers(value)}
+        extras = {name: value for name, value in rest.items() if isinstance(value, str) or as_numbers(value)}
         self.tree["scenes"][0] |= {"extras": extras} if extras else {}
         # Extras come back, but no other program looks for a material there.
         unseen = [name for name in rest if name not in extras or name.startswith("material.")]
         self.left_out += formats.left_out(mesh, [*held, material, part], unseen)
 
     def _material(
-        self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
+        self, number: int, words: Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
-        found: Tree = {}
-        surface: Tree = {}
-        for name, value in formats.gltf_values(words).items():
-            if name in formats.GLTF_TEXTURES:
-                if (texture := self._texture(*images.get(value, ("", b"")))) is None:
+        look, beyond = within(appearance(words))
+        self.left_out += tuple(f"{name} beyond 0 to 1 of material {words.get('name', number)}" for name in beyond)
+        found, surface, absent = Tree(), Tree(), list[Texture]()
+        for name, value in in_gltf(look).items():
+            if isinstance(value, Texture):
+                if (texture := self._texture(*images.get(value.image, ("", b"")))) is None:
+                    absent.append(value)
                     continue
-                written |= {f"image.{value}.data", f"image.{value}.name"}
-                value = {"index": texture, **self._moved(words, name, f"material.{number}", written)}
-            elif isinstance(value, float | list) and (most := np.max(value)) > 1 and name == "emissiveFactor":
-                found["extensions"] = {STRENGTH: {"emissiveStrength": float(most)}}
-                value = np.divide(value, most).tolist()
+                written |= {f"image.{value.image}.data", f"image.{value.image}.name"}
+                value = {"index": texture, **self._moved(value)}
+            elif name == "emissiveFactor" and (most := max(value)) > 1:
+                found["extensions"] = {STRENGTH: {"emissiveStrength": most}}
+                value = [number / most for number in value]
                 self.use(STRENGTH, required=False)
-            if isinstance(value, float | list) and not 0 <= np.min(value) <= np.max(value) <= 1:
-                self.left_out += (f"{name} beyond 0 to 1 of material {words.get('name', number)}",)
-                value = np.clip(value, 0.0, 1.0).tolist()
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
-        cut_out = {"map_d"} if formats.is_cut_out(words) else set()
-        unsaid = set() if "metallicRoughnessTexture" in surface else {"map_Pr"}
-        cut_out |= {"map_Pm"} if words.get("map_Pm") == words.get("map_Pr") else set()
-        cut_out |= {"d", "Tr"} if formats.opacity_of(words) == 1 else set()
-        said = (n for n in words if n in cut_out or (n not in unsaid and formats.gltf_values({n: words[n]})))
-        written |= {f"material.{number}.{name}" for name in said}
+        held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
+        written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(look, words, held)}}
         return self.add("materials", found) if found else None
 
-    def _moved(self, words: formats.Material, name: str, place: str, written: set[str]) -> Tree:
-        """Return the extension by which a texture is moved and scaled, as options of MTL do; they count from below."""
-        key = next((key for key in words if formats.as_gltf({key: words[key]}).get(name) is not None), "")
-        found = formats.scale_and_offset(str(words.get(options := f"{key}.options", "")))
-        if found is None:
+    def _moved(self, texture: Texture) -> Tree:
+        """Return the extension by which a texture is moved and scaled; it counts from above."""
+        if texture == Texture(texture.image):
             return {}
-        (across, up), (right, above) = found
-        written.add(f"{place}.{options}")
+        (across, up), (right, above) = texture.scale, texture.offset
         self.use(TRANSFORM, required=False)
         return {"extensions": {TRANSFORM: {"scale": [across, up], "offset": [right, 1 - up - above]}}}
 
@@ -226,10 +219,7 @@ def _unit(vectors: Doubles) -> Doubles:
 
 @contextmanager
 def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> Iterator[FrameWriter]:
-    """Write a GLB in which each frame is a morph target; yields what takes frame after frame. Between frames the
-    weights of two targets cross, which interpolates positions and vertex colors linearly. Where faces change, other
-    meshes replace the previous ones, by their scale. Nothing but the first frame of a run is kept in memory; the
-    targets wait in a file until their number is known."""
+    """Write a GLB in which each frame is a morph target; where faces change, meshes take turns, by their scale."""
     with tempfile.TemporaryFile() as spool:
         moving = _Moving(spool)
 

@@ -279,8 +279,7 @@ class Tiles:
         return data
 
     def decoded(self, shard: Facts, tile: Tile) -> tuple[Table, Faces]:
-        """Vertices, shape (n, 3 and more): places on the grid, and the bits of what else they have; and faces, shape
-        (m, 3)."""
+        """The vertices on the grid, shape (n, 3 and more), with the bits of what else they have; and faces, (m, 3)."""
         name = f"{inside(self.path, shard['file'])}, tile {tile.name}"
         with about(name):
             mesh = split_by_attributes(decode_whole(iter([self.data(shard, tile)]), self.limits))

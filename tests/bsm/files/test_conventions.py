@@ -11,7 +11,8 @@ from bsm import Attribute, FormatError, MeshError, TriangleMesh, read_mesh
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.cli import main
 from bsm.files.conventions import placement, unit_named
-from bsm.files.formats.metadata import as_gltf, as_mtl, in_words, scale_and_offset
+from bsm.files.formats.appearance import Texture, appearance, in_mtl
+from bsm.files.formats.metadata import in_words
 from bsm.files.formats.polygons import Column, Part, joined_parts
 from bsm.files.mesh import write_mesh, written_mesh
 from bsm.gltf.coding import MATTE
@@ -89,26 +90,24 @@ def test_a_unit_that_is_unknown_is_kept_and_changes_no_size():
     [
         ({"Kd": "0 1 0", "d": "0.3"}, 0.3, "BLEND"),
         ({"Tr": "0.7"}, 0.3, "BLEND"),
-        ({"Kd": "0 1 0"}, 1.0, None),
-        ({"map_Kd": 0, "map_d": 0}, None, "BLEND"),
-        ({"Kd": "1 1 1", "map_d": 0}, 1.0, None),
+        ({"Kd": "0 1 0"}, 1.0, "OPAQUE"),
+        ({"map_Kd": 0, "map_d": 0}, 1.0, "BLEND"),
+        ({"Kd": "1 1 1", "map_d": 0}, 1.0, "OPAQUE"),
         ({"baseColorFactor": "1 1 1 0.5", "alphaMode": "OPAQUE"}, 0.5, "OPAQUE"),
     ],
 )
 def test_opacity_acts(words, opacity, mode):
-    found = as_gltf(words)
-    assert found.get("alphaMode") == mode
-    if opacity is not None:
-        assert float(found["baseColorFactor"].split()[3]) == pytest.approx(opacity)
+    look = appearance(words)
+    assert (look.mode, look.opacity) == (mode, pytest.approx(opacity))
 
 
 def test_colors_of_materials_are_linear_in_gltf_and_srgb_in_mtl():
-    words = as_gltf({"Kd": "0.501961 0 1", "Ke": "0.501961 0 0"})
-    assert words["baseColorFactor"].split()[0] == words["emissiveFactor"].split()[0] == "0.215861"
-    again = as_mtl(words)
-    assert float(again["Kd"].split()[0]) == float(again["Ke"].split()[0]) == pytest.approx(0.501961, abs=2e-6)
-    assert "d" not in as_mtl({"baseColorFactor": "1 1 1 0.5", "alphaMode": "OPAQUE"})
-    assert as_mtl({"baseColorFactor": "1 1 1 0.5"})["d"] == "0.5"
+    look = appearance({"Kd": "0.501961 0 1", "Ke": "0.501961 0 0"})
+    assert look.color[0] == look.emission[0] == 0.215861
+    again = in_mtl({"baseColorFactor": "0.215861 0 1 1", "emissiveFactor": "0.215861 0 0"})
+    assert again == {"Kd": "0.501961 0 1", "Ke": "0.501961 0 0"}
+    assert "d" not in in_mtl({"baseColorFactor": "1 1 1 0.5", "alphaMode": "OPAQUE"})
+    assert in_mtl({"baseColorFactor": "1 1 1 0.5"})["d"] == "0.5"
 
 
 @pytest.mark.parametrize(
@@ -119,7 +118,7 @@ def test_colors_of_materials_are_linear_in_gltf_and_srgb_in_mtl():
         ({"map_Pr": 0}, 0.0, True),
         ({"map_Pr": 0, "map_Pm": 0}, 1.0, True),
         ({"map_Pr": 0, "Pm": "0.5"}, 0.5, False),
-        ({"map_Pr": 0, "map_Pm": 1}, 1.0, False),
+        ({"map_Pr": 0, "map_Pm": 1}, 0.0, False),
     ],
 )
 def test_materials_of_mtl_are_no_metals_and_maps_of_roughness_act(words, metal, painted):
@@ -127,7 +126,7 @@ def test_materials_of_mtl_are_no_metals_and_maps_of_roughness_act(words, metal, 
     metadata |= {f"image.{number}.data": png() + bytes(number) for number in range(2)}
     written = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], (), metadata), "glb")
     surface = tree_of(written.data)["materials"][0]["pbrMetallicRoughness"]
-    assert surface["metallicFactor"] == metal and ("metallicRoughnessTexture" in surface) == painted
+    assert surface.get("metallicFactor", 1.0) == metal and ("metallicRoughnessTexture" in surface) == painted
     assert any("map_Pr" in name for name in written.left_out) == ("map_Pr" in words and not painted)
 
 
@@ -170,9 +169,9 @@ def test_vertices_that_are_transparent_blend():
 
 
 def test_options_of_images_and_words_for_what_is_lost():
-    assert (
-        scale_and_offset("-s 2 3 1 -o 0.5 0.25") == ((2.0, 3.0), (0.5, 0.25)) and scale_and_offset("-clamp on") is None
-    )
+    moved = {"map_Kd": 0, "map_Kd.options": "-s 2 3 1 -o 0.5 0.25"}
+    assert appearance(moved).color_texture == Texture(0, (2.0, 3.0), (0.5, 0.25))
+    assert "map_Kd.options" not in appearance({**moved, "map_Kd.options": "-clamp on"}).said
     metadata = {"material.0.name": "Glass", "material.0.d": "0.3", "material.1.d": "0.5", "image.0.name": "oak.png"}
     assert in_words([*metadata], metadata) == [
         "the image oak.png",

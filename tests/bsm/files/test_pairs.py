@@ -8,7 +8,8 @@ import pytest
 
 from bsm import Attribute, TriangleMesh, read_mesh
 from bsm.files.conventions import placement, shares_of, to_linear
-from bsm.files.formats.metadata import as_gltf, materials_in
+from bsm.files.formats.appearance import appearance
+from bsm.files.formats.metadata import materials_in
 from bsm.files.mesh import write_mesh
 from bsm.files.table import WRITTEN_FORMATS
 
@@ -61,7 +62,7 @@ def meaning(mesh):
             del found["opacity"]
     if of_faces is not None and (materials := materials_in(mesh.metadata)):
         numbers = of_faces.values.ravel()[order].tolist()
-        found["material"] = np.array([as_gltf(materials[n])["baseColorFactor"].split() for n in numbers], float)
+        found["material"] = np.array([[*(look := appearance(materials[n])).color, look.opacity] for n in numbers])
     return found
 
 

@@ -15,15 +15,16 @@ from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.conventions import unit_named
-from bsm.files.formats.metadata import Beside, Material, Value, described, kind_of_image
+from bsm.files.formats.appearance import Material
+from bsm.files.formats.metadata import Beside, Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
 from bsm.files.room import Doubles, Ints, as_library_error, in_words
 from bsm.files.unread import Taken, rows_of
 
 _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "COLOR": "color"}
 _MOST_ERRORS = 8  # of pycollada that notes name
-_COLORS = {"diffuse": "Kd", "ambient": "Ka", "specular": "Ks", "emission": "Ke"}
-_NUMBERS = {"shininess": "Ns", "index_of_refraction": "Ni"}
+_NUMBERS = {"diffuse": "Kd", "ambient": "Ka", "specular": "Ks", "emission": "Ke", "shininess": "Ns"}
+_NUMBERS["index_of_refraction"] = "Ni"
 _IMAGES = {"diffuse": "map_Kd", "ambient": "map_Ka", "specular": "map_Ks", "emission": "map_Ke", "bumpmap": "map_Bump"}
 _IMAGES["transparent"] = "map_d"
 """Properties of effects, and what libraries of OBJ call them."""
@@ -55,9 +56,7 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
 
 
 def _prepared(data: bytes) -> tuple[bytes, list[str]]:
-    """Return a document as pycollada can read it, and the names that are not taken. Elements without corners, and
-    lines, would make it leave out a whole geometry. A polygon with holes gets all corners in one element, which says
-    where its rings end."""
+    """Return a document without what pycollada cannot read, holes of polygons marked, and the names not taken."""
     root, changed = ElementTree.fromstring(data), False
     left = _TAKEN.left(_TAKEN.in_xml(data))
     for mesh in [element for element in root.iter() if _tag(element) == "mesh"]:
@@ -135,7 +134,7 @@ class _Nodes:
     def _words(self, material: Any, others: set[str]) -> Material:
         """A material in the words of libraries of OBJ, which are those of COLLADA."""
         effect, found = material.effect, dict[str, Any](name=str(material.name or material.id))
-        for given, word in (_COLORS | _NUMBERS).items():
+        for given, word in _NUMBERS.items():
             value = getattr(effect, given)
             if isinstance(value, tuple | list):
                 found[word] = " ".join(f"{number:.6g}" for number in value[:3])
@@ -148,13 +147,12 @@ class _Nodes:
                 ways = ((_tag(one), str(one.text).strip()) for one in value.sampler.xmlnode.iter())
                 self.absent |= {f"{name} {way} of textures": None for name, way in ways if way in _WAYS}
                 self.absent |= {"the texcoord set of textures": None} if value.texcoord in others else {}
-                if isinstance(image, bytes) and kind_of_image(image):
-                    found[word] = number = self._numbers.setdefault(name, len(self._numbers))
-                    self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
-                else:
-                    self.absent[
-                        f"the image {name[:80]} ({image if isinstance(image, str) else 'its format is not known'})"
-                    ] = None
+                why = image if isinstance(image, str) else "" if kind_of_image(image) else "its format is not known"
+                if why:
+                    self.absent[f"the image {name[:80]} ({why})"] = None
+                    continue
+                found[word] = number = self._numbers.setdefault(name, len(self._numbers))
+                self.images |= {f"image.{number}.name": name, f"image.{number}.data": image}
         if (opacity := _opacity(effect)) != 1:
             found["d"] = opacity
         return found | ({"doubleSided": 1} if effect.double_sided else {})

@@ -7,12 +7,12 @@ the file's name is "image.0.name", its bytes are "image.0.data". Which face has 
 """
 
 import json
-import math
 import os
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import count
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -24,34 +24,15 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.files.conventions import converted, shares_of
+from bsm.files.conventions import shares_of
+from bsm.files.formats.appearance import Material, appearance, held_by, is_black_beside_image, lost, one_line, parse_mtl
 from bsm.files.pipes import file_beside
-from bsm.files.room import continued, plain_text
 
 Value: TypeAlias = "str | int | float | bytes"
-Material: TypeAlias = dict[str, "str | int | float"]
 
 _ENTRY = re.compile(r"(material|image)\.(\d{1,9})\.(.+)", re.DOTALL)
 _NAMES = re.compile(r"(.+?)\.(?:names|\d{1,9}\.name)")
-_MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl")
-_MTL_COLORS = ("Ka", "Kd", "Ks", "Ke", "Tf")
-_MTL = (
-    "Ka Kd Ks Ke Tf Ns Ni d Tr illum Pr Pm Ps Pc Pcr aniso anisor sharpness bump disp decal norm refl "
-    "map_Ka map_Kd map_Ks map_Ke map_Ns map_Pr map_Pm map_Ps map_d map_Bump"
-)
-_OF_MTL = {word.lower(): word for word in _MTL.split()}
-"""Words of MTL as most files write them, by those in lower case."""
-_MTL_OPTIONS = re.compile(
-    r"((?:-(?:type|colorspace)\s+\w+\s+|-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)",
-    re.IGNORECASE,
-)
 _NAMED_APART = 16  # names that have an entry each; there can be 256 in all
-_TO_GLTF = {"map_Kd": "baseColorTexture", "map_Ke": "emissiveTexture", "Ke": "emissiveFactor"}
-_TO_GLTF |= {"norm": "normalTexture", "map_Bump": "normalTexture", "Pm": "metallicFactor", "Pr": "roughnessFactor"}
-GLTF_TEXTURES = ("baseColorTexture", "normalTexture", "emissiveTexture", "occlusionTexture", "metallicRoughnessTexture")
-_GLTF_NUMBERS = {"baseColorFactor": 4, "emissiveFactor": 3, "metallicFactor": 1, "roughnessFactor": 1, "alphaCutoff": 1}
-_ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
-_TO_MTL = {theirs: ours for ours, theirs in reversed(_TO_GLTF.items())}
 _SIGNATURES = {
     b"\x89PNG\r\n\x1a\n": "png",
     b"\xff\xd8\xff": "jpg",
@@ -85,10 +66,6 @@ def kind_of_image(data: bytes) -> str | None:
     """Return the suffix of an image by its first bytes; None for unknown formats."""
     found = next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
     return found or ("tga" if _TGA.match(data) else None)
-
-
-def refers_to_image(parameter: str) -> bool:
-    return parameter.endswith("Texture") or _MTL_IMAGES.fullmatch(parameter) is not None
 
 
 def named(names: Sequence[str], what: str) -> dict[str, str]:
@@ -138,188 +115,25 @@ def described(materials: Mapping[int, Material]) -> dict[str, Value]:
     return {f"material.{n}.{name}": value for n, material in materials.items() for name, value in material.items()}
 
 
-# ------------------------------------------------------------------------------------------------------- MTL and glTF
-
-
-def as_gltf(material: Material) -> Material:
-    """A material in the words of glTF, as far as they go: linear colors, and an alphaMode where it is transparent."""
-    renamed: Material = {}
-    for name, value in material.items():
-        if name in _TO_GLTF or not _is_mtl(name):
-            numbers = as_numbers(value) if name == "Ke" else []
-            renamed.setdefault(_TO_GLTF.get(name, name), converted(numbers, linear=True) if numbers else value)
-    metal, rough = (material.get(name) for name in ("map_Pm", "map_Pr"))
-    if rough is not None and (metal == rough or (metal is None and not any(as_numbers(material.get("Pm", 0))))):
-        renamed.setdefault("metallicRoughnessTexture", rough)  # gray: green is the roughness, blue counts as metal
-    if any(_is_mtl(name) for name in material):  # glTF takes what says nothing for a metal, and as black where it glows
-        renamed.setdefault("metallicFactor", 0.0 if metal is None else 1.0)
-        if not any(as_numbers(renamed.get("emissiveFactor"))) and "map_Ke" in material:
-            renamed["emissiveFactor"] = "1 1 1"
-    color, opacity = as_numbers(material.get("Kd", "")), opacity_of(material)
-    if len(color) == 3 or opacity < 1:
-        color = color if len(color) == 3 and not _is_black_beside_image(material) else [1.0] * 3
-        renamed.setdefault("baseColorFactor", converted([*color, opacity], linear=True))
-    factor = as_numbers(renamed.get("baseColorFactor", ""))
-    if (len(factor) == 4 and factor[3] < 1) or is_cut_out(material):
-        renamed.setdefault("alphaMode", "BLEND")
-    return renamed
-
-
-def _is_black_beside_image(material: Material) -> bool:
-    """Whether a color is black only because an image has the colors, as some programs write."""
-    return "map_Kd" in material and as_numbers(material.get("Kd")) == [0.0] * 3
-
-
-def opacity_of(material: Material) -> float:
-    """Return the opacity in the words of MTL: d, or else 1 - Tr."""
-    for name, begin, sign in (("d", 0.0, 1.0), ("Tr", 1.0, -1.0)):
-        if len(numbers := as_numbers(str(material.get(name, "")).removeprefix("-halo"))) == 1:
-            return min(max(begin + sign * numbers[0], 0.0), 1.0)
-    return 1.0
-
-
-def scale_and_offset(options: str) -> tuple[tuple[float, float], tuple[float, float]] | None:
-    """Return the scale and the offset, across and up, of an image in MTL; None: its options are others, or none."""
-    found = {"s": (1.0, 1.0), "o": (0.0, 0.0)}
-    words = re.split(r"\s*(?<!\S)-(?=[a-z])", options)
-    for name, *given in (word.split() for word in words if word.strip()):
-        numbers = as_numbers(" ".join(given))
-        if name not in found or not numbers:
-            return None
-        found[name] = numbers[0], numbers[1] if len(numbers) > 1 else found[name][1]
-    return (found["s"], found["o"]) if words != [""] else None
-
-
-def is_cut_out(material: Material) -> bool:
-    """Return whether the image of the color also holds the opacity."""
-    return "map_d" in material and material["map_d"] == material.get("map_Kd")
-
-
-def gltf_values(material: Material) -> dict[str, Any]:
-    """What glTF can say of a material, as it says it; textures are the numbers of their images."""
-    found: dict[str, Any] = {}
-    for name, value in as_gltf(material).items():
-        numbers = as_numbers(value)
-        if name in GLTF_TEXTURES and isinstance(value, int):
-            found[name] = value
-        elif len(numbers) == _GLTF_NUMBERS.get(name):
-            found[name] = numbers if len(numbers) > 1 else numbers[0]
-        elif name == "doubleSided":
-            found[name] = bool(value)
-        elif name == "name" or (name == "alphaMode" and value in _ALPHA_MODES):
-            found[name] = str(value)
-    return found
-
-
-def as_numbers(value: object) -> list[float]:
-    try:
-        found = [float(word) for word in str(value).split()]
-    except ValueError:
-        return []
-    return found if all(map(math.isfinite, found)) else []
-
-
-def as_mtl(material: Material) -> Material:
-    """A material in the words of MTL, as far as they go, with colors in sRGB."""
-    words = {name: name.partition(".") for name in material}
-    renamed: Material = {
-        f"{_TO_MTL.get(keyword, keyword)}{dot}{options}": material[name]
-        for name, (keyword, dot, options) in words.items()
-    }
-    color, glow = (as_numbers(material.get(name, "")) for name in ("baseColorFactor", "emissiveFactor"))
-    renamed.pop("baseColorFactor", None)
-    mode = material.get("alphaMode")
-    if len(color) in (3, 4):
-        renamed.setdefault("Kd", converted(color[:3], linear=False))
-        if len(color) == 4 and color[3] != 1 and mode in (None, "BLEND"):
-            renamed.setdefault("d", f"{color[3]:.6g}")
-    if len(glow) == 3 and "Ke" not in material:
-        renamed["Ke"] = converted(glow, linear=False)
-    if mode in ("BLEND", "MASK") and "map_Kd" in renamed:
-        renamed.setdefault("map_d", renamed["map_Kd"])
-    return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
-
-
-def _is_mtl(name: str) -> bool:
-    return name in _OF_MTL.values() or _MTL_IMAGES.fullmatch(name.removesuffix(".options")) is not None
-
-
-def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
-    """Return the materials of a library by name; `images` numbers the files of their images."""
-    materials: dict[str, Material] = {}
-    current: Material = {}
-    for line in continued(plain_text(data)).splitlines():
-        words = line.split(None, 1)
-        if len(words) < 2 or words[0].startswith(b"#"):
-            if [word.lower() for word in words] == [b"newmtl"]:
-                current = materials.setdefault("", {})
-            continue
-        keyword, rest = text_of(words[0]), re.sub(r"\s#(\s.*)?$", "", text_of(words[1]))
-        keyword = _OF_MTL.get(keyword.lower(), keyword)
-        if keyword.lower() == "newmtl":
-            current = materials.setdefault(rest, {})
-        elif _MTL_IMAGES.fullmatch(keyword):
-            match = _MTL_OPTIONS.fullmatch(rest)
-            options, name = (match[1].strip(), match[2]) if match else ("", rest)
-            name = re.sub(r'^"(.+)"$', r"\1", name)
-            current[keyword] = images.setdefault(name, len(images))
-            if options:
-                current[f"{keyword}.options"] = options
-        elif value := rest.partition("#")[0].strip():
-            numbers = value.replace(",", " ").split()  # one number is a gray
-            value = " ".join(numbers * 3 if len(numbers) == 1 else numbers) if keyword in _MTL_COLORS else value
-            current[keyword] = value
-    return materials
-
-
-def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]) -> bytes:
-    lines: list[str] = []
-    for number, material in materials.items():
-        lines.append(f"newmtl {names[number]}")
-        statements = as_mtl(material)
-        for keyword, value in statements.items():
-            if refers_to_image(keyword):
-                options = statements.get(f"{keyword}.options")
-                name = images.get(value) if isinstance(value, int) else None
-                lines += [" ".join(filter(None, [keyword, str(options or ""), name]))] if name else []
-            elif keyword != "name" and not keyword.endswith(".options"):
-                lines.append(f"{keyword} {value}")
-    return "".join(one_line(line) + "\n" for line in lines).encode()
-
-
-def text_of(data: bytes) -> str:
-    """Return a name in UTF-8, or else in Latin-1, which maps different bytes to different names."""
-    try:
-        return data.strip().decode()
-    except UnicodeDecodeError:
-        return data.strip().decode("latin-1")
-
-
-def one_line(text: str) -> str:
-    """Text without what would end a line or hide in it."""
-    return re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", " ", text)
-
-
 # --------------------------------------------------------------------------------------------------- the files beside
 
 
 def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dict[str, Value], list[str]]:
     """Return metadata with the contents of the files that they name, and notes on those that `read` has not."""
-    found = dict(metadata)
-    notes: list[str] = []
-    libraries: list[bytes] = []
+    found, notes, images = dict(metadata), list[str](), dict[str, int]()
+    libraries: list[dict[str, Material]] = []
     folders: dict[str, str] = {}
     for line in str(found.get("mtllib", "")).split("\n"):
         whole = read(line)
         for name in [line] if isinstance(whole, bytes) or len(line.split()) < 2 else line.split():
             if isinstance(library := read(name), bytes):
-                libraries.append(library)
-                within = name.replace("\\", "/").rpartition("/")[0]
-                parse_mtl(library, images := dict[str, int]())
-                folders |= dict.fromkeys(images, within) if within else {}
+                known, within = {*images}, name.replace("\\", "/").rpartition("/")[0]
+                libraries.append(parse_mtl(library, images))
+                folders |= dict.fromkeys(images.keys() - known, within) if within else {}
             elif name:
                 notes.append(f"the materials in {name} were left out: {library}")
     notes += _add_libraries(found, libraries)
+    found |= {f"image.{number}.name": name for name, number in images.items()}
     for key in [key for key in found if key.startswith("image.") and key.endswith(".name")]:
         name, place = str(found[key]), key.removesuffix("name") + "data"
         if place in found:
@@ -335,22 +149,16 @@ def fetched(metadata: Metadata, read: Callable[[str], bytes | str]) -> tuple[dic
     return found, notes
 
 
-def _add_libraries(found: dict[str, Value], libraries: Collection[bytes]) -> list[str]:
+def _add_libraries(found: dict[str, Value], libraries: Sequence[Mapping[str, Material]]) -> list[str]:
     """Add the materials of libraries, the first of each name, those that faces name first; return notes."""
-    images: dict[str, int] = {}
     numbers = {str(material.get("name", "")): number for number, material in materials_in(found).items()}
-    materials: dict[str, Material] = {}
-    for library in libraries:
-        materials = {**parse_mtl(library, images), **materials}
+    materials = {name: material for library in reversed(libraries) for name, material in library.items()}
     absent = [name for name in numbers if name and name not in materials] if libraries else []
-    black = [name for name, material in materials.items() if _is_black_beside_image(material)]
-    free = max(numbers.values(), default=-1) + 1
+    black = [name for name, material in materials.items() if is_black_beside_image(material)]
+    free = count(max(numbers.values(), default=-1) + 1)
     for name, material in materials.items():
-        if name not in numbers:
-            numbers[name] = free
-            free += 1
+        numbers[name] = numbers[name] if name in numbers else next(free)
         found |= described({numbers[name]: {"name": name, **material}})
-    found |= {f"image.{number}.name": name for name, number in images.items()}
     notes = {"no library has these materials": absent, "black beside an image, which other formats get white": black}
     return [f"{note}: {', '.join(names[:_MOST_NAMED])}" for note, names in notes.items() if names]
 
@@ -487,9 +295,10 @@ class Written:
     beside: Mapping[str, bytes] = field(default_factory=dict)
 
 
-def unseen(metadata: Metadata) -> list[str]:
-    """The names of all words of materials but their names: formats without materials show nothing of them."""
-    return [name for name in metadata if name.startswith("material.") and not name.endswith((".name", ".names"))]
+def unsaid(metadata: Metadata, kind: str) -> list[str]:
+    """The names of the words of materials that say more than a format holds."""
+    left = {number: lost(appearance(words), words, held_by(kind)) for number, words in materials_in(metadata).items()}
+    return [f"material.{number}.{word}" for number, words in left.items() for word in words]
 
 
 def left_out(mesh: TriangleMesh, held: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
+from bsm.files.formats.appearance import is_mtl, one_line, text_of, write_mtl
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
 from bsm.files.room import Doubles, Ints, Rows, as_integers, continued, point_row, require_count, text_table
 
@@ -68,7 +69,7 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
             notes += note
     states, names = _states(lines, is_face)
     metadata: dict[str, materials.Value] = {**names}
-    libraries = dict.fromkeys(materials.text_of(library) for library in lines.of(b"mtllib"))
+    libraries = dict.fromkeys(text_of(library) for library in lines.of(b"mtllib"))
     metadata |= {"mtllib": "\n".join(libraries)} if libraries else {}
     remarks = (text.decode(errors="replace") for text in re.findall(rb"^#([^\r\n]*)", data, re.M))
     metadata |= materials.parse_remarks(remarks)
@@ -152,7 +153,7 @@ def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]
     columns: list[Column] = []
     metadata: dict[str, str] = {}
     for what, keyword in STATES.items():
-        names = ["", *map(materials.text_of, lines.of(keyword.encode()))]
+        names = ["", *map(text_of, lines.of(keyword.encode()))]
         column, known = grouped(what, names, np.cumsum(lines.are(keyword.encode()), dtype=np.int64)[is_face])
         columns += column
         metadata |= known
@@ -170,19 +171,19 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     numbers = {what: materials.face_numbers(mesh, what) for what in STATES}
     names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
     library = materials.Library(mesh, stem)
+    unsaid = [name for name in materials.unsaid(mesh.metadata, "MTL") if not is_mtl(name.split(".", 2)[2])]
     said = {n: m for n, m in library.materials.items() if m.keys() - {"name"}}
-    mtl = materials.write_mtl(said, names["material"], library.images)
+    mtl = write_mtl(said, names["material"], library.images)
     libraries = str(mesh.metadata.get("mtllib", "")).split("\n")
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
         libraries = [f"{stem}.mtl"]
-        every = [(n, key, value) for n, m in library.materials.items() for key, value in m.items()]
-        library.written |= {f"material.{n}.{key}" for n, key, value in every if materials.as_mtl({key: value})}
+        library.written |= {f"material.{n}.{word}" for n, m in library.materials.items() for word in m} - {*unsaid}
     library.written |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
     library.written |= {f"{what}.names" for what in STATES if names[what]}
     lines, omitted = materials.remarks(mesh.metadata, library.written | {"mtllib"})
     parts = [*(f"# {line}\n" for line in lines)]
-    parts += [f"mtllib {materials.one_line(name)}\n" for name in libraries if name]
+    parts += [f"mtllib {one_line(name)}\n" for name in libraries if name]
     parts.append(_points(mesh, color))
     indices = [mesh.faces]
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
@@ -206,7 +207,7 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     held = (color, texcoord, normal, *numbers.values())
     called = {f"{what}.{number}.name": name for what in STATES for number, name in names[what].items()}
     renamed = [key for key, name in called.items() if mesh.metadata.get(key, name) != name]
-    lost = materials.left_out(mesh, held, (*omitted, *renamed))
+    lost = materials.left_out(mesh, held, (*dict.fromkeys((*omitted, *unsaid)), *renamed))
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return materials.Written("".join(parts).encode(), lost, library.beside)
@@ -228,16 +229,14 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
     """Return the names of the materials (groups, ...) of the faces, by number; empty if none are known."""
     names = materials.names_in(mesh.metadata, what)
     used = [0] if attribute is None else np.unique(attribute.values).tolist()
-    if what == "material":  # a library may hold some that no face has
-        used = list(dict.fromkeys([*used, *materials.materials_in(mesh.metadata)]))
-    known = {number: names.get(number) for number in used}
-    has = what == "material" and materials.materials_in(mesh.metadata)
+    has = materials.materials_in(mesh.metadata) if what == "material" else {}  # a library may hold some of no face
+    known = {number: names.get(number) for number in (*used, *has)}
     if attribute is None and not any(known.values()) and not has:
         return {}
     found: dict[int, str] = {}
     taken: dict[str, int] = {}
     for number, name in known.items():
-        text = unique = materials.one_line(str(f"{what}_{number}" if name is None else name))[:_MOST_NAME]
+        text = unique = one_line(str(f"{what}_{number}" if name is None else name))[:_MOST_NAME]
         while unique in taken:
             taken[text] += 1
             unique = f"{text}_{taken[text]}"

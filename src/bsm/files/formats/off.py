@@ -9,7 +9,7 @@ from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, unseen
+from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, unsaid
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
 from bsm.files.room import Doubles, Ints, Rows, point_row, require_count, require_lines, text_table, without_comments
 
@@ -94,7 +94,7 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
     faces = "".join(map(("3 {} {} {}" + face).format, *columns))
     held = (normal, color, texcoord, of_faces)
-    lost = left_out(mesh, held, {*omitted, *unseen(mesh.metadata)})
+    lost = left_out(mesh, held, dict.fromkeys((*omitted, *unsaid(mesh.metadata, "OFF"))))
     return Written((head + counts).encode() + points + faces.encode(), lost)
 
 

@@ -14,6 +14,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
+from bsm.files.formats.appearance import appearance, one_line, refers_to_image
 from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
 from bsm.files.room import Ints, Rows, as_integers, ranges, require_count, require_lines, single_suffices
 
@@ -80,7 +81,7 @@ class Header:
             if own:
                 found.setdefault(keyword, "\n".join(own))
         entries = [item for material in formats.materials_in(found).values() for item in material.items()]
-        shown = {value for name, value in entries if formats.refers_to_image(name)}
+        shown = {value for name, value in entries if refers_to_image(name)}
         numbers = {name: number for number, (name, _) in formats.images_in(found).items()}
         for number, name in ((numbers.get(name, place), name) for place, name in enumerate(images)):
             found[f"image.{number}.name"] = name
@@ -365,18 +366,17 @@ _MOST_TEXT = 1 << 13  # characters of a comment; readers look for the end of a h
 
 
 def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
-    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double. Values of
-    corners are values of vertices where the corners of each have the same, and else lists of the faces."""
+    """The binary PLY of a mesh; values of corners are those of vertices where all corners of each have the same."""
     library = formats.Library(mesh, stem)
-    words = [word for material in library.materials.values() for word in material.items()]
-    first = {number for name, number in words if name in ("map_Kd", "baseColorTexture")}  # which most readers show
+    shown = (appearance(words).color_texture for words in library.materials.values())
+    first = {texture.image for texture in shown if texture}  # which most readers show
     order = dict(sorted(library.images.items(), key=lambda image: image[0] not in first))
     images = [f"{IMAGE} {name}" for name in order.values()]
     if [*order] != [*range(len(order))]:
         images += formats.remarks({f"image.{number}.name": name for number, name in order.items()})[0]
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
     texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
-    free = [f"{word} {formats.one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
+    free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
     comments, omitted = formats.remarks(mesh.metadata, library.written | texts.keys())
     single = np.float32 if single_suffices(mesh.positions) else np.float64
     columns: dict[str, list[tuple[str, Array]]] = {
@@ -400,8 +400,8 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
         lines += [f"element {element} {len(rows)}", *properties]
         body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
-    own = [name for name in formats.unseen(mesh.metadata) if not name.endswith(("map_Kd", "baseColorTexture"))]
-    lost = formats.left_out(mesh, mesh.attributes, {*omitted, *own})
+    own = formats.unsaid(mesh.metadata, "PLY")
+    lost = formats.left_out(mesh, mesh.attributes, dict.fromkeys((*omitted, *own)))
     return formats.Written(header.encode() + b"".join(body), lost, library.beside)
 
 

@@ -71,9 +71,7 @@ def attributes_of(
 
 
 def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
-    """Return the concatenated columns of parts, and notes. Columns of one name become one where no value changes:
-    colors get an opacity of 1, texture coordinates a third number of 0, and values of vertices are also values of
-    corners. Columns of other widths stay apart."""
+    """Return the columns of parts, joined where no value changes (an opacity of 1, a third number of 0), and notes."""
     by_name: list[dict[str, list[Column]]] = [{} for _ in parts]
     for part, named_so in zip(parts, by_name, strict=True):
         for column in part.columns:
@@ -375,9 +373,7 @@ class Part:
 
 
 def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limits: Limits, received: int) -> Polygons:
-    """Join the parts of a scene, and say which faces are of which part, if there are several, and material. `counts`
-    are the vertices and triangles of each, which are checked before any part is made. Values that some parts have and
-    others do not are zero there (white, for colors)."""
+    """Join the parts of a scene; `counts`, the vertices and triangles of each, are checked before a part is made."""
     vertices, triangles = (sum(count[place] for count in counts) for place in range(2))
     require_count("vertices", vertices, limits)
     require_count("faces", triangles, limits)

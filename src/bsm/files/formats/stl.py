@@ -9,7 +9,8 @@ from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.files.formats.metadata import Written, face_numbers, left_out, named, text_of
+from bsm.files.formats.appearance import text_of
+from bsm.files.formats.metadata import Written, face_numbers, left_out, named
 from bsm.files.formats.polygons import Column, Polygons
 from bsm.files.room import NO_DOUBLES, Doubles, Rows, require_count, single_suffices
 from bsm.files.table import other_kind

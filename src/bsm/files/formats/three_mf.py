@@ -19,6 +19,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
+from bsm.files.formats.appearance import Material, appearance, held_by, lost, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
@@ -82,7 +83,7 @@ class _Model:
         }
         self._made: dict[int, Part] = {}
         self._materials: dict[tuple[int, int], int] = {}
-        self._words: dict[int, formats.Material] = {}
+        self._words: dict[int, Material] = {}
         self._images: dict[str, formats.Value] = {}
         self._left: dict[str, None] = {}
         self.files = set[str]()
@@ -101,7 +102,10 @@ class _Model:
         counts = [((mesh := self._objects[n]).GetVertexCount(), mesh.GetTriangleCount()) for n, *_ in shown]
         parts = (self._part(number, name).placed(matrix) for number, matrix, name in shown)
         found = joined_parts(parts, counts, self._limits, size)
-        metadata: dict[str, formats.Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())], **self._about()}
+        group = self._model.GetMetaDataGroup()
+        said = [group.GetMetaData(i) for i in range(group.GetMetaDataCount())]
+        metadata: dict[str, formats.Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())]}
+        metadata |= {str(entry.GetName()): str(entry.GetValue()) for entry in said}
         known = any(self._words.values())
         metadata |= {**(formats.described(self._words) if known else {}), **self._images, **found.metadata}
         return replace(found, dropped=tuple(self._left), metadata=metadata)
@@ -174,7 +178,7 @@ class _Model:
         columns = [Column(name, table, "corner", name, at.reshape(-1)) for name, (table, at) in tables.items()]
         return columns, materials
 
-    def _number(self, key: tuple[int, int], words: formats.Material) -> int:
+    def _number(self, key: tuple[int, int], words: Material) -> int:
         number = self._materials.setdefault(key, len(self._materials))
         self._words.setdefault(number, words)
         return number
@@ -194,12 +198,8 @@ class _Model:
         self._images |= {f"image.{image}.name": name, f"image.{image}.data": data}
         return self._number((owner, -1), {"name": name, "map_Kd": image})
 
-    def _about(self) -> dict[str, formats.Value]:
-        group = self._model.GetMetaDataGroup()
-        return {str((e := group.GetMetaData(i)).GetName()): str(e.GetValue()) for i in range(group.GetMetaDataCount())}
 
-
-def _material(group: Any, place: int) -> formats.Material:
+def _material(group: Any, place: int) -> Material:
     color = group.GetDisplayColor(place)
     shares = [f"{byte / 255:.6g}" for byte in (color.Red, color.Green, color.Blue, color.Alpha)]
     opaque = color.Alpha == 255
@@ -262,7 +262,7 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     )
 
 
-def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mapping[int, formats.Material]) -> set[str]:
+def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mapping[int, Material]) -> set[str]:
     """Give each triangle the color of its material; return the metadata that this holds."""
     used, where = np.unique(numbers, return_inverse=True)
     group, held = model.AddBaseMaterialGroup(), set()
@@ -270,11 +270,12 @@ def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mappin
     places = np.full(len(used), usual, np.uint32)
     for place in np.flatnonzero(np.isin(used, [*materials])).tolist():
         number, words = int(used[place]), materials[int(used[place])]
-        color = formats.as_numbers(formats.as_gltf(words).get("baseColorFactor", "1 1 1 1"))
-        shares = conventions.to_srgb(np.array(color if len(color) == 4 else [1.0] * 4)).clip(0, 1)
+        look, beyond = within(appearance(words))
+        shares = conventions.to_srgb(np.array([*look.color, look.opacity]))
         rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
         places[place] = group.AddMaterial(str(words.get("name") or f"material {number}"), rgba)
-        held |= {f"material.{number}.{name}" for name in ("name", "Kd", "d", "baseColorFactor") if name in words}
+        left = lost(look, words, held_by("3MF") - {*beyond})
+        held |= {f"material.{number}.{word}" for word in words if word not in left}
     of = places[where]
     given = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
     given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), of[:, None]

@@ -20,7 +20,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.metadata import Written, first, in_words, plain_fields, unseen
+from bsm.files.formats.metadata import Written, first, in_words, plain_fields, unsaid
 from bsm.files.formats.polygons import Array, Column, Polygons, named_column
 from bsm.files.room import AS_NUMBERS, TAG, Ints, require_count, require_inflated, single_suffices
 
@@ -293,7 +293,7 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
         f"<Polys>{array('connectivity', mesh.faces.reshape(-1).astype(np.int64))}{array('offsets', ends)}</Polys>\n"
         '</Piece></PolyData>\n<AppendedData encoding="raw">_'
     )
-    lost = tuple(in_words(unseen(mesh.metadata), mesh.metadata))
+    lost = tuple(in_words(unsaid(mesh.metadata, "VTP"), mesh.metadata))
     return Written(b"".join((text.encode(), *blocks, b"</AppendedData></VTKFile>\n")), lost)
 
 

@@ -11,7 +11,8 @@ import numpy as np
 from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
-from bsm.files.formats.metadata import Material, Value, described, kind_of_image
+from bsm.files.formats.appearance import Material
+from bsm.files.formats.metadata import Value, described, kind_of_image
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
 from bsm.files.room import Doubles
 
@@ -153,10 +154,8 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
             if data not in images:
                 images.append(data)
             found[name] = images.index(data)
-        elif isinstance(value, bool | np.bool_):
-            found[name] = int(value)
-        elif isinstance(value, str | int | float):
-            found[name] = value
+        elif isinstance(value, str | int | float | np.bool_):
+            found[name] = int(value) if isinstance(value, bool | np.bool_) else value
         elif isinstance(value, np.ndarray | list | tuple) and np.asarray(value).dtype.kind in "iuf":
             numbers = np.asarray(value).reshape(-1)
             if numbers.dtype == np.uint8:

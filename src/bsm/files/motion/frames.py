@@ -16,7 +16,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.conventions import TIME_VALUE
-from bsm.files.formats.metadata import as_numbers
+from bsm.files.formats.appearance import as_numbers
 from bsm.files.table import RATE, START, STEP, TIMES
 
 USUAL_RATE = 24.0  # frames per second of a sequence that does not say; pages play it as fast

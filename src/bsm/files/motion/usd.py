@@ -8,7 +8,7 @@ import shutil
 import sys
 import tempfile
 import zipfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cached_property
@@ -25,6 +25,7 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, empty_frame, is_empty
 from bsm.files import conventions, table
+from bsm.files.formats import appearance as looks
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
@@ -34,18 +35,14 @@ from bsm.lengths import metres
 
 _COORDINATES = "st"  # what texture coordinates are called
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
-_INPUTS = {
-    "diffuseColor": ("Color3f", "baseColorFactor", "baseColorTexture"),
-    "emissiveColor": ("Color3f", "emissiveFactor", "emissiveTexture"),
-    "normal": ("Normal3f", "", "normalTexture"),
-    "occlusion": ("Float", "", "occlusionTexture"),
-    "metallic": ("Float", "metallicFactor", ""),
-    "roughness": ("Float", "roughnessFactor", ""),
-    "opacityThreshold": ("Float", "alphaCutoff", ""),
+_KINDS = {"diffuseColor": "Color3f", "emissiveColor": "Color3f", "normal": "Normal3f"}  # others are Float
+_INPUTS: Mapping[str, tuple[Any, ...]] = {
+    name: (_KINDS.get(name, "Float"), *map({f.endswith("_texture"): f for f in fields}.get, (False, True)))
+    for name, fields in looks.fields_of("USD").items()
+    if name not in ("prim", "opacity")
 }
-"""The kind of an input of a surface, and what glTF calls its number and its texture."""
-_USUAL = {"diffuseColor": [1.0] * 4, "emissiveColor": [0.0] * 3}
-_DEFAULTS = {"diffuseColor": [0.18] * 3, "metallic": [0.0], "roughness": [0.5]}
+"""The kind of an input of a surface, and the fields of an appearance that are its number and its texture."""
+_USUAL = {"diffuseColor": [0.18] * 3, "metallic": [0.0], "roughness": [0.5]}
 _TAKEN = rows_of("usd")
 _NO_TIME = float("nan")  # as usd-core has it
 _MOST_SETS = 1 << 12  # of the faces of parts: each is a prim
@@ -119,36 +116,35 @@ class Materials:
         words = (self._words(material) if material else {}) | ({"doubleSided": 1} if double else {})
         return self._known.setdefault(tuple(words.items()), len(self._known))
 
-    def _words(self, material: Any) -> formats.Material:
-        words: formats.Material = {"name": str(material.GetPrim().GetName())}
+    def _words(self, material: Any) -> looks.Material:
+        called = str(material.GetPrim().GetName())
         surface = material.ComputeSurfaceSource()[0]
         if not surface or surface.GetIdAttr().Get() != _SURFACE:
-            return words
-        sizes = {name: 3 if kind == "Color3f" else 1 for name, (kind, _, _) in _INPUTS.items()}
-        values = {name: self._value(surface, name, size) or _DEFAULTS.get(name) for name, size in sizes.items()}
+            return {"name": called}
+        look: dict[str, Any] = {}
         self._unsaid |= {f"texture of {name}" for name in ("metallic", "roughness") if self._texture(surface, name)}
-        for name, (_, _, painted) in _INPUTS.items():
-            texture = self._texture(surface, name) if painted else None
-            if texture is None:
-                continue
-            image = texture.GetInput("file").Get() if texture.GetInput("file") else None
-            if image is not None and image.path:
-                inside, folder = str(image.resolvedPath).rpartition("["), Path(self._path).resolve().parent
-                path = inside[2].rstrip("]") if inside[1] else os.path.relpath(inside[2] or folder / image.path, folder)
-                words[painted] = self._images.setdefault(path, len(self._images))
-            space = texture.GetInput("sourceColorSpace")
-            if space and space.Get() not in ("auto", "sRGB" if name in ("diffuseColor", "emissiveColor") else "raw"):
-                self._unsaid.add(f"sourceColorSpace of {_TEXTURE}")
-            if name in ("diffuseColor", "emissiveColor"):
-                values[name] = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
-        usual = (("opacity", 1.0), ("opacityThreshold", 0.0))
-        opacity, cut = (self._value(surface, name, 1) or [value] for name, value in usual)
-        if color := values["diffuseColor"]:
-            color += opacity
-        if cut[0] > 0 or opacity[0] < 1 or self._texture(surface, "opacity") is not None:
-            words["alphaMode"] = "MASK" if cut[0] > 0 else "BLEND"
-        found = {known: (values[name], _USUAL.get(name)) for name, (_, known, _) in _INPUTS.items() if known}
-        return words | {known: _text(value) for known, (value, usual) in found.items() if value and value != usual}
+        for name, (kind, number, painted) in _INPUTS.items():
+            value = self._value(surface, name, 3 if kind == "Color3f" else 1) or _USUAL.get(name)
+            if texture := self._texture(surface, name) if painted else None:
+                image = texture.GetInput("file").Get() if texture.GetInput("file") else None
+                if image is not None and image.path:
+                    _, packed, inside = str(image.resolvedPath).rpartition("[")
+                    folder = Path(self._path).resolve().parent
+                    path = inside.rstrip("]") if packed else os.path.relpath(inside or folder / image.path, folder)
+                    look[painted] = looks.Texture(self._images.setdefault(path, len(self._images)))
+                space = texture.GetInput("sourceColorSpace")
+                if space and space.Get() not in ("auto", "sRGB" if kind == "Color3f" else "raw"):
+                    self._unsaid.add(f"sourceColorSpace of {_TEXTURE}")
+                value = (self._value(texture, "scale", 4) or [1.0] * 4)[:3]
+            if number and value:
+                look[number] = tuple(value) if kind == "Color3f" else value[0]
+        opacity, cut = (self._value(surface, "opacity", 1) or [1.0])[0], look.get("cutoff", 0.0)
+        if cut > 0 or opacity < 1 or self._texture(surface, "opacity") is not None:
+            look["mode"] = "MASK" if cut > 0 else "BLEND"
+        said = {"": ("metallic", "roughness", *(name for name in look if name == "cutoff"))}
+        given = looks.in_gltf(looks.Appearance(called, **look, opacity=opacity, said=said))
+        given = {word: value.image if isinstance(value, looks.Texture) else value for word, value in given.items()}
+        return {word: value if isinstance(value, int | str) else looks.as_text(value) for word, value in given.items()}
 
     def _texture(self, shader: Any, name: str) -> Any:
         """The texture that an input takes its value from, if it takes it from one."""
@@ -176,10 +172,6 @@ def _packed(package: zipfile.ZipFile, name: str, most: int) -> bytes | str:
     return "it is not in the package"
 
 
-def _text(numbers: Iterable[float]) -> str:
-    return " ".join(f"{number:.6g}" for number in numbers)
-
-
 # ---------------------------------------------------------------------------------------------------------------- out
 
 
@@ -202,14 +194,9 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         place = mesh.GetPath().AppendChild(name)
         place = mesh.GetPath().AppendChild(f"{name}_{number}") if stage.GetPrimAtPath(place) else place
         bound[number] = shade.Material.Define(stage, place)
-        shaded = _write_surface(pxr, bound[number], formats.gltf_values(known), files)
-        written |= {
-            f"material.{number}.{key}"
-            for key in known
-            if key == "name" or set(formats.as_gltf({key: known[key]})) & shaded
-        }
-        if {"Kd", "d"} & known.keys() and "baseColorFactor" in shaded:
-            written |= {f"material.{number}.{key}" for key in ("Kd", "d")}
+        look, beyond = looks.within(looks.appearance(known))
+        held = _write_surface(pxr, bound[number], look, files) - {*beyond}
+        written |= {f"material.{number}.{word}" for word in known.keys() - {*looks.lost(look, known, held)}}
     bind_materials(pxr, mesh, shown, bound)
     return bound, written
 
@@ -248,9 +235,9 @@ def _subset(pxr: Any, mesh: Any, name: str, family: str, numbers: Attribute, num
     return subset
 
 
-def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Mapping[int, str]) -> set[str]:
-    """Write the words of glTF for which USD has an input, and return these."""
-    types, stage, written = pxr.Sdf.ValueTypeNames, material.GetPrim().GetStage(), {"name"}
+def _write_surface(pxr: Any, material: Any, look: looks.Appearance, images: Mapping[int, str]) -> set[str]:
+    """Write the fields of an appearance for which USD has an input, and return these."""
+    types, stage, held = pxr.Sdf.ValueTypeNames, material.GetPrim().GetStage(), looks.held_by("USD")
 
     def shader(name: str, kind: str) -> Any:
         made = pxr.UsdShade.Shader.Define(stage, material.GetPath().AppendChild(name))
@@ -259,24 +246,19 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
 
     surface = shader("surface", _SURFACE)
     material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
-    factor, mode = words.get("baseColorFactor"), words.get("alphaMode", "OPAQUE")
-    written.add("alphaMode")
-    if factor is not None and factor[3] < 1.0 and mode != "OPAQUE":
-        surface.CreateInput("opacity", types.Float).Set(factor[3])
-    words = {"metallicFactor": 1.0, "roughnessFactor": 1.0, **words}  # which are others where nothing is said
-    if mode == "MASK" and "alphaCutoff" not in words:
-        surface.CreateInput("opacityThreshold", types.Float).Set(0.5)
-    for name, (kind, known, painted) in _INPUTS.items():
-        image = images.get(words.get(painted, -1))
-        value: Any = words.get(known, [1.0] * 3 if name == "diffuseColor" and image is None else None)
-        if value is None and image is None:
-            continue
-        given = surface.CreateInput(name, getattr(types, kind))
+    if look.opacity < 1.0 and look.mode != "OPAQUE":
+        surface.CreateInput("opacity", types.Float).Set(look.opacity)
+    needed = {*_USUAL, *(["opacityThreshold"] if look.mode == "MASK" else [])}  # which are others where nothing is said
+    for name, (kind, number, painted) in _INPUTS.items():
+        shown = getattr(look, painted) if painted else None
+        value, image = getattr(look, number) if number else None, images.get(shown.image) if shown else None
         if image is None:
-            given.Set(pxr.Gf.Vec3f(*value[:3]) if kind == "Color3f" else value)
-            written.add(known)
+            held.discard(painted)
+            if number and (name in needed or look.says(number)):
+                surface.CreateInput(name, getattr(types, kind)).Set(
+                    pxr.Gf.Vec3f(*(value or ())) if kind == "Color3f" else value
+                )
             continue
-        written.add(painted)
         reader = shader("coordinates", _READER)
         reader.CreateInput("varname", types.String).Set(_COORDINATES)
         texture = shader(f"{name}_texture", _TEXTURE)
@@ -284,19 +266,19 @@ def _write_surface(pxr: Any, material: Any, words: Mapping[str, Any], images: Ma
         texture.CreateInput("st", types.Float2).ConnectToSource(reader.ConnectableAPI(), "result")
         for side in ("wrapS", "wrapT"):
             texture.CreateInput(side, types.Token).Set("repeat")
-        if name == "diffuseColor" and factor is not None:
-            texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(*factor[:3], 1.0))
-            written.add(known)
+        opacity = look.opacity if name == "diffuseColor" and look.mode != "OPAQUE" else 1.0
+        if isinstance(value, tuple) and (*value, opacity) != (1.0,) * 4:
+            texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(*value, opacity))
         if name == "normal":
             texture.CreateInput("scale", types.Float4).Set(pxr.Gf.Vec4f(2.0, 2.0, 2.0, 1.0))
             texture.CreateInput("bias", types.Float4).Set(pxr.Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
         if name in ("normal", "occlusion"):
             texture.CreateInput("sourceColorSpace", types.Token).Set("raw")
-        given.ConnectToSource(texture.ConnectableAPI(), "r" if kind == "Float" else "rgb")
-        if name == "diffuseColor" and mode != "OPAQUE":
-            texture.GetInput("scale").Set(pxr.Gf.Vec4f(*factor)) if factor is not None else None
+        made = surface.CreateInput(name, getattr(types, kind))
+        made.ConnectToSource(texture.ConnectableAPI(), "r" if kind == "Float" else "rgb")
+        if name == "diffuseColor" and look.mode != "OPAQUE":
             surface.CreateInput("opacity", types.Float).ConnectToSource(texture.ConnectableAPI(), "a")
-    return written
+    return held
 
 
 MOST_PRIMS, MOST_NAMED = 1 << 16, 12
