@@ -814,7 +814,7 @@ def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
     [
         ("newmtl A # the body\nkd 0.5\nKD 1,0,0\n", {"Kd": "1 0 0"}),
         ('NEWMTL A\nKd 0.5\nmap_kd "T X.PNG"\n', {"Kd": "0.5 0.5 0.5", "map_Kd": 0}),
-        ("newmtl A\nmap_Kd t.tga\n", {"map_Kd": 0}),
+        ("newmtl A\nmap_Kd 't.tga'\n", {"map_Kd": 0}),
     ],
 )
 def test_libraries_as_people_write_them(mtl, words, tmp_path):
@@ -837,6 +837,10 @@ def test_factors_stay_in_range_and_far_meshes_go_by_a_node(tmp_path):
     assert again.positions == pytest.approx(positions, abs=1e-6)
     assert again.metadata["material.0.emissiveFactor"] == "223.826 223.826 223.826"
     assert again.metadata["material.0.baseColorFactor"] == "1 0 0 1"
+    metadata = {"material.0.baseColorFactor": "2 -1 0 1", "material.0.roughnessFactor": 7.0}
+    left = write_mesh(tmp_path / "b.obj", TriangleMesh(SQUARE, [[0, 1, 2]], (), metadata))
+    assert left == ("baseColorFactor, roughnessFactor of material 0",)
+    assert (tmp_path / "b.mtl").read_text().splitlines()[1:] == ["Kd 1 0 0", "Pr 1"]
 
 
 def test_the_first_image_of_a_ply_has_the_color(tmp_path):

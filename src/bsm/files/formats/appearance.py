@@ -182,7 +182,7 @@ def in_gltf(look: Appearance) -> dict[str, Any]:
 
 def in_mtl(words: Material) -> Material:
     """Return a material in the words of MTL: those that it has, and those for fields that the words of glTF say."""
-    look = appearance(words)
+    look, _ = within(appearance(words))
     found: Material = {word: value for word, value in words.items() if is_mtl(word) or word == "name"}
     fields = {name for word, names in look.said.items() if not is_mtl(word) for name in names}
     fields -= {*chain.from_iterable(_MTL.get(word, ()) for word in found)}
@@ -211,7 +211,7 @@ def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
             current = materials.setdefault(rest, {})
         elif rest and MTL_IMAGES.fullmatch(keyword):
             options, name = _MTL_OPTIONS.findall(rest)[0]
-            name = re.sub(r'^"(.+)"$', r"\1", name)
+            name = re.sub(r"^([\"'])(.+)\1$", r"\2", name)
             current[keyword] = images.setdefault(name, len(images))
             current |= {f"{keyword}.options": options.strip()} if options else {}
         elif (value := rest.partition("#")[0].strip()) and not keyword.startswith("#"):
@@ -253,6 +253,12 @@ def lost(look: Appearance, words: Collection[str], held: Collection[str]) -> lis
     usual = {name for name in vars(USUAL) if getattr(look, name) == getattr(USUAL, name)}
     usual |= {"mode"} if look.mode == "BLEND" and look.opacity < 1 else set()
     return [word for word in words if not {*look.said.get(word, ("",))} <= {*held, *usual}]
+
+
+def lost_in(kind: str, words: Material) -> list[str]:
+    """Return the words that a format has no place for, or whose numbers are beyond its range."""
+    look = appearance(words)
+    return lost(look, words, held_by(kind).difference(within(look)[1]))
 
 
 def as_text(value: Any) -> str:

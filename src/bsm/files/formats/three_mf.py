@@ -19,7 +19,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
-from bsm.files.formats.appearance import Material, appearance, held_by, lost, within
+from bsm.files.formats.appearance import Material, appearance, lost_in, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
@@ -270,11 +270,11 @@ def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mappin
     places = np.full(len(used), usual, np.uint32)
     for place in np.flatnonzero(np.isin(used, [*materials])).tolist():
         number, words = int(used[place]), materials[int(used[place])]
-        look, beyond = within(appearance(words))
+        look, _ = within(appearance(words))
         shares = conventions.to_srgb(np.array([*look.color, look.opacity]))
         rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
         places[place] = group.AddMaterial(str(words.get("name") or f"material {number}"), rgba)
-        left = lost(look, words, held_by("3MF") - {*beyond})
+        left = lost_in("3MF", words)
         held |= {f"material.{number}.{word}" for word in words if word not in left}
     of = places[where]
     given = np.zeros(len(numbers), np.dtype(library.TriangleProperties))

@@ -194,9 +194,9 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         place = mesh.GetPath().AppendChild(name)
         place = mesh.GetPath().AppendChild(f"{name}_{number}") if stage.GetPrimAtPath(place) else place
         bound[number] = shade.Material.Define(stage, place)
-        look, beyond = looks.within(looks.appearance(known))
-        held = _write_surface(pxr, bound[number], look, files) - {*beyond}
-        written |= {f"material.{number}.{word}" for word in known.keys() - {*looks.lost(look, known, held)}}
+        look, beyond = looks.within(given := looks.appearance(known))
+        held = _write_surface(pxr, bound[number], look, files).difference(beyond)
+        written |= {f"material.{number}.{word}" for word in known.keys() - {*looks.lost(given, known, held)}}
     bind_materials(pxr, mesh, shown, bound)
     return bound, written
 
