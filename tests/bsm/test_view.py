@@ -10,12 +10,16 @@ import re
 import select
 import shutil
 import socket
+import stat
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import urllib.error
+import urllib.parse
 import urllib.request
+import webbrowser
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -34,7 +38,7 @@ from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.files.sequence import open_sequence
 from bsm.viewer.contents import DRACO_BITS, DRACO_LEVEL, Content, Shown, compared, uploaded
-from bsm.viewer.page import MOST_BYTES, UPLOAD, Arrival, PageServer, Ranged, Tiled, written_to
+from bsm.viewer.page import MOST_BYTES, UPLOAD, Arrival, PageServer, Ranged, Tiled, in_browser, written_to
 from tests.motion import bending
 from tests.shapes import curved, torus
 from tests.streams import all_events, frame_ends, moving_events_of
@@ -239,6 +243,19 @@ def test_a_file_that_is_begun_again_has_ended(tmp_path):
     assert next(chunks) == b"gh"
     path.write_bytes(b"ab")
     assert list(chunks) == []
+
+
+def test_command_line_of_the_browser_has_no_token(tmp_path, monkeypatch):
+    (folder := tmp_path / os.fsdecode(b"a b#?%20\"\xff")).mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    asked: list[str] = []
+    monkeypatch.setattr(webbrowser, "open", asked.append)
+    with in_browser("http://127.0.0.1:1/token/"):
+        (file,) = folder.iterdir()
+        assert stat.S_IMODE(file.stat().st_mode) == 0o600 and "token" not in asked[0]
+        assert urllib.parse.unquote_to_bytes(asked[0]) == b"file://" + os.fsencode(file)
+        assert 'url=http://127.0.0.1:1/token/"' in file.read_text()
+    assert not list(folder.iterdir())
 
 
 @pytest.mark.parametrize("more", [("--save", "page.html"), ("--original", "ball.ply"), ("--follow",)])

@@ -3,7 +3,7 @@
 import argparse
 import itertools
 import json
-import webbrowser
+from contextlib import nullcontext
 from pathlib import Path
 from threading import Thread
 
@@ -16,7 +16,7 @@ from bsm.files.pipes import about, read_chunks
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.shards import is_tiles, open_tiles
 from bsm.viewer.contents import NO_STREAM, PRESETS, Content, against, alone, given_at, made
-from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, page_with, site_with, written_to
+from bsm.viewer.page import Arrival, PageServer, Ranged, Tiled, in_browser, page_with, site_with, written_to
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -60,11 +60,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
         return 0
     with PageServer(served, args.port) as server:
         print(server.address, flush=True)
-        if not args.no_open:
-            webbrowser.open(server.address)
         console.note("press Ctrl-C to stop")
         try:
-            server.serve_forever()
+            with nullcontext() if args.no_open else in_browser(server.address):
+                server.serve_forever()
         except KeyboardInterrupt:
             console.note("stopped")
     return 0

@@ -10,15 +10,17 @@ import re
 import secrets
 import select
 import socket
+import tempfile
 import time
+import webbrowser
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import closing, suppress
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from threading import Condition, Lock
 from typing import Any, BinaryIO
 from urllib.parse import parse_qs, urlsplit
@@ -240,6 +242,19 @@ def _page(entries: list[dict[str, Any]], script: str) -> str:
     # No text inside a script may look like its end tag.
     inside = json.dumps(entries).replace("<", "\\u003c")
     return _built("page.html").decode().replace(f"{_SLOT}[]", _SLOT + inside, 1).replace(_SCRIPT, script, 1)
+
+
+@contextmanager
+def in_browser(address: str) -> Iterator[None]:
+    """Show an address in the browser, by a file that leads there: other users see the command line of a browser."""
+    number, name = tempfile.mkstemp(".html", "bsm-")
+    os.close(number)
+    try:
+        Path(name).write_text(f'<meta http-equiv="refresh" content="0; url={address}"><a href="{address}">bsm view</a>')
+        webbrowser.open(Path(name).as_uri())
+        yield
+    finally:
+        Path(name).unlink(missing_ok=True)
 
 
 class PageServer(ThreadingHTTPServer):
