@@ -173,6 +173,11 @@ double granted_work(const Context *context) {
     return lesser(limits->work + limits->work_per_vertex * vertices, limits->most_work);
 }
 
+double work_left(const Context *context) {
+    const Spent *spent = &context->spent;
+    return lesser(lesser(context->limits.most_work - spent->spent, granted_work(context) - spent->owed), 1e18);
+}
+
 /* Work to come, and the bytes that ask for it (M 14.3, M 14.9). */
 bool charge(Context *context, double work, double received) {
     const bsmdec_limits *limits = &context->limits;

@@ -138,4 +138,5 @@ bool fits_memory(Context *context, double memory);
 bool charge_ledger(Context *context, const Ledger *ledger, int first, int end);
 /* Bytes for which there is room. */
 double memory_left(const Context *context);
+double work_left(const Context *context);
 bool within_memory(Context *context, double memory, int64_t vertices, double received);

@@ -31,6 +31,7 @@ INLINE double floats_work(double n, double span) { return 400 * n + 4 * span; }
 INLINE double chunk_work(double bytes, double values) { return 8e4 + 800 * bytes + 2 * values; }
 /* What twins add to a grid, with so many images (V 17). */
 INLINE double twins_work(double n, double images) { return (1500 + 200 * images) * n; }
+static const double LOOK_WORK = 100; /* at a place that no cache has */
 INLINE double twins_bytes(double n, double images) { return (4 * images + 41) * n + (1 << 20); }
 INLINE double layer_work(double n, double m, double axes) { return n * (400 + 230 * axes) + 130 * m; }
 static const double VALUE_MODEL_BYTES = 4.0 * (6 * 512 * 66 + 7 * (32 + 2 * 512)),

@@ -102,8 +102,8 @@ static bool accept_block(bsmdec *decoder, const Packet *packet) {
 static bool ensure_grid(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (mesh->has_grid) return true;
-    mesh->has_grid = begin_grid(&mesh->grid, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena,
-        &decoder->scratch);
+    mesh->has_grid = begin_grid(&mesh->grid, NULL, &decoder->context, &mesh->header, const_ints2(mesh->faces),
+        &mesh->arena, &decoder->scratch);
     return mesh->has_grid && announce(decoder);
 }
 

@@ -63,7 +63,7 @@ bool begin_positions(CodedField *field, const GridField *like, Context *context,
     memcpy(header->center, origin, sizeof header->center);
     memcpy(header->grid, largest, sizeof header->grid);
     ConstInts2 faces = const_ints2(field->faces);
-    if (!begin_grid_like(&field->grid, like, context, header, faces, &field->arena, &field->scratch)) return false;
+    if (!begin_grid(&field->grid, like, context, header, faces, &field->arena, &field->scratch)) return false;
     if (exact != NULL) memcpy(field->grid.positions.data, exact, (size_t)(3 * given.rows) * sizeof(double));
     for (int64_t i = 0; i < TRANSFORM_ROW * field->grid.transforms.rows; i++)
         field->grid.transforms.data[i] = transforms[i];

@@ -17,7 +17,7 @@ static void code(bsmdec *decoder, const State *start) {
     const Header *header = &decoder->mesh.header;
     Arena arena = arena_of(context), scratch = arena_of(context);
     State end;
-    if (!begin_grid(&grid, context, header, source->faces, &arena, &scratch)) abort();
+    if (!begin_grid(&grid, NULL, context, header, source->faces, &arena, &scratch)) abort();
     memcpy(grid.values.data, source->values.data, (size_t)(3 * header->vertices) * sizeof(int32_t));
     memcpy(grid.transforms.data, source->transforms.data,
         (size_t)(source->transforms.rows * TRANSFORM_ROW) * sizeof(int32_t));

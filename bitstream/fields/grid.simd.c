@@ -308,8 +308,7 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
             if (!code_axis(&w->coder, &w->model, g, v, step, &p, &hits, &first_gap)) return false;
     }
     pass_on(&w->corners, &g->values, &g->sums, v);
-    if (g->twins) remember_twins(g->twins, &g->values, &p.around, v);
-    return true;
+    return !g->twins || remember_twins(g->twins, &g->values, &p.around, v);
 }
 
 int64_t ISA(code_grid)(Coder given, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {

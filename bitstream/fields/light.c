@@ -202,8 +202,7 @@ OFTEN static bool code_vertex(void *work, int64_t v) {
         dot += normal * (FINE * value - p.guess[j]);
         used += normal * normal;
     }
-    if (is_lean(g)) remember_twins(t, &g->values, &around, (int32_t)v);
-    return true;
+    return !is_lean(g) || remember_twins(t, &g->values, &around, (int32_t)v);
 }
 
 int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int64_t count) {

@@ -178,7 +178,7 @@ KERNEL void move_back(const Twins *t, const int32_t *x, int32_t place[AXES][MOST
 }
 
 /* The nearest known vertex whose twin by `image` is not known yet, within REACH of a place (1/16); -1: none. */
-static int32_t nearest_free(const Twins *t, const int32_t *x, int32_t image, const int32_t *place) {
+static int32_t nearest_free(Twins *t, const int32_t *x, int32_t image, const int32_t *place) {
     int32_t first[AXES], last[AXES], best = -1;
     uint32_t least_square = REACH * REACH;
     for (int j = 0; j < AXES; j++) {
@@ -190,7 +190,8 @@ static int32_t nearest_free(const Twins *t, const int32_t *x, int32_t image, con
             for (int32_t c = first[2]; c <= last[2]; c++) {
                 uint32_t chain = chain_of(a, b, c, t->head_bits);
                 int32_t u = t->head[chain];
-                for (int visits = 0; u >= 0 && visits < MOST_VISITS; visits++, u = t->next[u]) {
+                t->looks--;
+                for (int visits = 0; u >= 0 && visits < MOST_VISITS; visits++, u = t->next[u], t->looks--) {
                     uint32_t square = 0;
                     bool near = true;
                     for (int j = 0; j < AXES; j++) {
@@ -513,7 +514,7 @@ static void look_up(Twins *t, const Ints2 *values, int32_t v) {
     }
 }
 
-void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t v) {
+bool remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t v) {
     const int32_t *x = values->data + AXES * (int64_t)v;
     for (int i = 0; i < t->candidates; i++) {
         const Candidate *c = t->candidate + i;
@@ -542,6 +543,7 @@ void remember_twins(Twins *t, const Ints2 *values, const Around *around, int32_t
         remember_flap(t, f, place, false);
         remember_flap(t, f, place, true);
     }
+    return t->looks >= 0;
 }
 
 void start_learnt(const ValueModel *model, Longs2 learners) {

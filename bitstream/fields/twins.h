@@ -56,6 +56,7 @@ typedef struct Twins {
     uint32_t *has;        /* n: by which images each vertex has a twin */
     uint64_t *near;       /* a bit for each cell of space from which a known vertex is within reach, and others */
     int32_t turn;         /* the image that was looked up last */
+    int64_t looks;        /* at cells and known vertices that are still granted */
     Echo *echo;           /* MOST_ECHOES */
     int32_t *echo_head;   /* ECHO_HEADS */
     /* What is foretold of the vertex at hand. */
@@ -106,5 +107,5 @@ INLINE int32_t certainty(const Twins *t, const Candidate *c) {
     int32_t level = (trust >= ONE / 5) + (trust >= ONE / 2) + (trust >= ONE / 5 * 4);
     return (((int32_t)least(c->support, 3) * 2 + c->same_degree) * 4 + level) * 3 + state;
 }
-/* Learn from a vertex, which is known now. */
-void remember_twins(Twins *twins, const Ints2 *values, const Around *around, int32_t v);
+/* Learn from a vertex, which is known now; false: more looks were needed than are granted. */
+bool remember_twins(Twins *twins, const Ints2 *values, const Around *around, int32_t v);

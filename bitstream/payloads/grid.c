@@ -8,23 +8,17 @@ enum { AXES = 3, SUM_LEARNERS = 48, SIZE_LEARNERS = 12, FLOAT_SLOTS = 27 };
 
 /* Of the largest axis. */
 static int32_t most_of(const Header *header) {
-    int32_t most = 0;
-    for (int j = 0; j < AXES; j++) most = header->grid[j] > most ? header->grid[j] : most;
-    return most;
+    return (int32_t)largest(largest(header->grid[0], header->grid[1]), header->grid[2]);
 }
 
 static bool charge_grid(Context *context, const Header *header) {
     double n = (double)header->vertices, m = (double)header->faces, span = most_of(header);
-    bool light = method_of(header) == LIGHT;
-    if (!reserve(context, grid_memory(n, m), 0) || !charge(context, light ? light_work(n, m) : grid_work(n, m), 0)
-        || !WITHIN(context, field_bytes, grid_field_bytes(n, m)))
+    double images = 2 * transforms_of(header), bytes = is_congruent(header) ? twins_bytes(n, images) : 0;
+    double work = method_of(header) == LIGHT ? light_work(n, m) : grid_work(n, m);
+    if (is_congruent(header)) work += twins_work(n, images);
+    if (!reserve(context, grid_memory(n, m) + bytes, 0) || !charge(context, work, 0)
+        || !WITHIN(context, field_bytes, grid_field_bytes(n, m) + bytes))
         return false;
-    if (is_congruent(header)) {
-        double images = 2 * transforms_of(header), bytes = twins_bytes(n, images);
-        if (!reserve(context, bytes, 0) || !charge(context, twins_work(n, images), 0)
-            || !WITHIN(context, field_bytes, grid_field_bytes(n, m) + bytes))
-            return false;
-    }
     return method_of(header) != EXACT_FLOATS
         || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
 }
@@ -106,8 +100,8 @@ static bool code_twins(GridField *field, Coder coder) {
     return true;
 }
 
-bool begin_grid_like(GridField *field, const GridField *like, Context *context, const Header *header,
-    ConstInts2 faces, Arena *arena, Arena *scratch) {
+bool begin_grid(GridField *field, const GridField *like, Context *context, const Header *header, ConstInts2 faces,
+    Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     *field = (GridField){.context = context, .header = header, .faces = faces};
     if (like != NULL) field->corners = like->corners, field->order = like->order;
@@ -122,20 +116,18 @@ bool begin_grid_like(GridField *field, const GridField *like, Context *context, 
     return begin_full(field, like, arena, scratch) && (method_of(header) != EXACT_FLOATS || begin_floats(field, arena));
 }
 
-bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
-    Arena *scratch) {
-    return begin_grid_like(field, NULL, context, header, faces, arena, scratch);
-}
-
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload) {
     Coding coding;
     if (!begin_coding(field->context, payload, &coding)
         || (first == 0 && field->twins != NULL && !code_twins(field, coding.coder)))
         return false;
+    int64_t looks = (int64_t)(work_left(field->context) / LOOK_WORK);
+    if (field->twins != NULL) field->twins->looks = looks;
     int64_t done = method_of(field->header) == LIGHT
         ? code_light(coding.coder, field->corners, field->light, first, count)
         : code_grid(coding.coder, field->model, field->corners, field->grid, first, count);
-    return check_chunk_done(&coding, done, count);
+    return (field->twins == NULL || charge(field->context, LOOK_WORK * (double)(looks - field->twins->looks), 0))
+        && check_chunk_done(&coding, done, count);
 }
 
 /* V 18. */

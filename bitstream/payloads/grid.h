@@ -31,11 +31,9 @@ INLINE int64_t number_of_float(double value) {
     return bits >> 31 ? (int64_t)INT32_MAX - (int64_t)bits : (int64_t)bits;
 }
 
-/* Begin in full as another on the same faces, of which it has the corners; NULL: of its own. */
-bool begin_grid_like(GridField *field, const GridField *like, Context *context, const Header *header,
-    ConstInts2 faces, Arena *arena, Arena *scratch);
-bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
-    Arena *scratch);
+/* Begin, in full as another on the same faces, of which it has the corners; NULL: on its own. */
+bool begin_grid(GridField *field, const GridField *like, Context *context, const Header *header, ConstInts2 faces,
+    Arena *arena, Arena *scratch);
 bool code_grid_values(GridField *field, int64_t first, int64_t count, Span payload);
 bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch);
 bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch);

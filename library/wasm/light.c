@@ -54,7 +54,7 @@ const int32_t *light_faces(const uint8_t *payload, size_t size) {
 /* Positions of all vertices up to `count` from `first` on; NULL if something is wrong. */
 const double *light_positions(const uint8_t *payload, size_t size, int first, int count) {
     bool begun = field.context != NULL
-        || begin_grid(&field, &context, &header, const_ints2(faces), &arena, &scratch);
+        || begin_grid(&field, NULL, &context, &header, const_ints2(faces), &arena, &scratch);
     bool done = begun && decode_grid(&field, first, count, (Span){payload, (int64_t)size}, &scratch);
     release_all(&scratch);
     return done ? field.positions.data : NULL;

@@ -246,12 +246,12 @@ def test_a_file_that_is_begun_again_has_ended(tmp_path):
 
 
 def test_command_line_of_the_browser_has_no_token(tmp_path, monkeypatch):
-    (folder := tmp_path / os.fsdecode(b"a b#?%20\"\xff")).mkdir()
+    (folder := tmp_path / os.fsdecode(b'a b#?%20"\xff')).mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     asked: list[str] = []
     monkeypatch.setattr(webbrowser, "open", asked.append)
     with in_browser("http://127.0.0.1:1/token/"):
-        (file,) = folder.iterdir()
+        (file,) = folder.glob("*/*")
         assert stat.S_IMODE(file.stat().st_mode) == 0o600 and "token" not in asked[0]
         assert urllib.parse.unquote_to_bytes(asked[0]) == b"file://" + os.fsencode(file)
         assert 'url=http://127.0.0.1:1/token/"' in file.read_text()

@@ -1,6 +1,7 @@
 """A few bombs that are quickly made; `python -m tools.attack bombs` and `charges` measure all of them."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ from bsm import CorruptError, Decoder, LimitError, Limits
 from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, fields_of
 from bsm.bitstream.container.wire import FrameType
 from tools.attack.bombs import THINGS, YARDSTICK, things
-from tools.attack.streams import BOMBS
+from tools.attack.streams import BOMBS, _apart, ring
 from tools.attack.taken import decode_all, taken_by, warm_up
 from tools.attack.walk import bases, cases
 
@@ -44,20 +45,19 @@ def test_what_asks_for_too_much_is_refused(name):
     assert about in taken.outcome
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "members",
-        "tiny",
-        "copies",
-        "grid-chunks",
-        "congruent-chunks",
-        "light-chunks",
-        "light-hubs",
-        "layers-chunks",
-        "gop-still",
-    ],
-)
+def test_looks_all_over_memory_are_charged_vertex_by_vertex():
+    stream = _apart(ring(64, 64), 6)
+    most = decode_all(stream, "events", Limits.wide()).work
+    assert most > 4096 * 25_000  # twice what everything else costs
+    for work, outcome in ((most, "decoded"), (most - 1, "LimitError: most_work"), (most / 2, "LimitError: most_work")):
+        taken = decode_all(stream, "events", replace(Limits.wide(), most_work=work))
+        assert taken.outcome.startswith(outcome) and taken.work < work + 32 * 8 * 9 * 100
+
+
+ALLOWED = "members tiny copies grid-chunks congruent-chunks light-chunks light-hubs layers-chunks gop-still"
+
+
+@pytest.mark.parametrize("name", ALLOWED.split())
 def test_what_is_allowed_is_paid_for(name):
     stream = BOMBS[name]()
     taken, limits = decode_all(stream, "events", Limits()), Limits()

@@ -14,6 +14,7 @@ from bsm import Limits
 from bsm.files.isolation import lack
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.files.table import MESH_FORMATS
+from tools.attack.calls import recorded
 from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth
 from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up, written
@@ -30,6 +31,19 @@ def test_the_walk_visits_every_format_that_is_read_here():
     assert {*MESH_FORMATS, *SEQUENCES_READ} - suffixes <= {"gltf", "usd", "usda", "usdc", "usdz"}
     names = {case.name.partition(",")[0] for case in numbers()}
     assert set(samples()) <= names
+
+
+def test_the_recorder_follows_processes_from_their_filter_to_their_end():
+    lines = """7 openat(AT_FDCWD, "a") = 3
+        7 prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, 0x1) = 0
+        7 clone(child_stack=0x7f <unfinished ...>
+        8 wait4(7, <unfinished ...>
+        7 <... clone resumed>) = 9
+        9 mkdir("b") = -1 (errno 3083)
+        9 +++ exited with 0 +++
+        9 socket(AF_UNIX) = 4"""
+    calls, refused = recorded(line.strip() for line in lines.splitlines())
+    assert calls == {"clone": 1, "mkdir": 1} and refused == {"mkdir": 1}
 
 
 @linux

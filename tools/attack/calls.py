@@ -20,7 +20,7 @@ from pathlib import Path
 from bsm.files import isolation
 
 _TABLE = Path(isolation.__file__).with_name("calls.csv")
-_LINE = re.compile(r"(\d+) +(\w+)\((.*)")
+_LINE = re.compile(r"(\d+) +(?:(\w+)\(|<\.\.\. (\w+) resumed>|\+\+\+)(.*)")
 _CLOSES = "PR_SET_SECCOMP"
 
 
@@ -30,11 +30,13 @@ def recorded(lines: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
     for line in lines:
         if not (found := _LINE.match(line)):
             continue
-        process, name, rest = found.groups()
-        if process in closed:
-            calls[name] += 1
-            refused[name] += "(errno 3" in rest
-            if name == "clone" and (thread := re.search(r"= (\d+)$", rest)):
+        process, begun, ended, rest = found.groups()
+        if process in closed and not (begun or ended):
+            closed.remove(process)  # it is over, and its number is given to others
+        elif process in closed:
+            calls.update([begun] if begun else [])
+            refused[begun or ended] += "(errno 3" in rest
+            if "clone" in (begun, ended) and (thread := re.search(r"= (\d+)$", rest)):
                 closed.add(thread[1])
         elif _CLOSES in rest:
             closed.add(process)
@@ -49,7 +51,7 @@ def main() -> int:
     args = parser.parse_args()
     attack = [sys.executable, "-m", "tools.attack", "readers", "--limits", "service"]
     with tempfile.NamedTemporaryFile("r", errors="replace") as log:
-        record = ["strace", "-f", "-qq", "-e", "signal=none", "-o", log.name]
+        record = ["strace", "-f", "-q", "-e", "signal=none", "-o", log.name]
         # Exit code 1: under the recorder, some files take longer than they may.
         subprocess.run([*record, *attack, "--every", str(args.every), "--bytes", str(args.bytes)], check=False)
         calls, refused = recorded(log)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import cache
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -152,20 +151,18 @@ STAYING = np.array([[48, 0, *[1 << 3] * 3, *[12] * 3]] * 16, np.int32)
 """Transforms that leave everything where it is."""
 
 
-def _apart(shape: tuple[Any, ...]) -> bytes:
-    """Images that are sought among all vertices that eight cells around each have, and never found.
+def _apart(shape: tuple[Any, ...], side: int) -> bytes:
+    """Images that are sought all over memory, among all vertices that eight of `side`^3 cells have, and never found.
 
-    One vertex in 20 is in the middle of such a cell, the others are where all transforms lead to a corner of eight.
+    The vertices of the first half fill the cells but for their corners, which those of the others have for images.
     """
-    coded, largest = _coded(*shape), (300, 300, 300)
-    size = len(coded.vertex_order)
-    numbers, middles = np.random.default_rng(1), np.array(list(product((8, 24), repeat=3)))
-    values = numbers.integers(104, 106, (size, 3))
-    chosen = numbers.permutation(size)[: size // 20]
-    values[chosen] = np.resize(np.concatenate([middles, middles + 176]), (len(chosen), 3))
-    shifts = np.array(list(product((87, 88), (87, 88, 89), (87, 88, 89)))[:16])
+    coded, largest = _coded(*shape), (16 * side,) * 3
+    size, numbers = len(coded.vertex_order), np.random.default_rng(1)
+    values = 16 * numbers.integers(0, side, (size, 3)) + numbers.integers(2, 15, (size, 3))
+    values[size // 2 :] = [32, 16, 16] * (numbers.integers(side // 4, side // 2, (size - size // 2, 3)) // [2, 1, 1])
+    shifts = [[32 * (place % 4) + 16, 16 * (place // 4), 0] for place in range(16)]
     rows = np.zeros((16, 8), np.int32)
-    rows[:, 5:] = shifts + largest
+    rows[:, 5:] = np.array(shifts) + largest
     counts = [min(1 << 15, size - first) for first in range(0, size, 1 << 15)]
     return stream_of(gridded(coded, values.astype(np.int32), counts, rows, grid=largest))
 
@@ -499,7 +496,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "grid": lambda: _grid(ring(1024, 1024), 1 << 15),  # a grid of a million vertices
     "grid-chunks": lambda: _grid(ring(100, 100), 1),  # a grid, vertex by vertex
     "congruent": lambda: _grid(ring(1024, 1024), 1 << 15, transforms=STAYING),  # images of everything
-    "congruent-apart": lambda: _apart(ring(512, 512)),  # images that are sought everywhere
+    "congruent-apart": lambda: _apart(ring(400, 400), 25),  # images that are sought everywhere
     "congruent-chunks": lambda: _grid(ring(100, 100), 1, transforms=STAYING),
     "light": lambda: _grid(ring(1024, 1024), 1 << 15, light=1),  # the small model on a million vertices
     "light-chunks": lambda: _grid(ring(100, 100), 1, light=1),  # the same, vertex by vertex

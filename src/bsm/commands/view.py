@@ -3,7 +3,7 @@
 import argparse
 import itertools
 import json
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from threading import Thread
 
@@ -49,10 +49,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.note(f"{args.save}: open it in a browser")
     if args.static:
         for name, data in site_with([content for content in served if not isinstance(content, Arrival)]).items():
-            Path(args.static, name).parent.mkdir(parents=True, exist_ok=True)
-            write_output(
-                Path(args.static, name), data if isinstance(data, bytes) else data.whole(), overwrite=args.force
-            )
+            file = Path(args.static, name)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            write_output(file, data if isinstance(data, bytes) else data.whole(), overwrite=args.force)
         ranges = ", which must send ranges of files for tiles, as nginx does" if any(map(is_tiles, args.inputs)) else ""
         example = "" if ranges else f", for example: python -m http.server -d {args.static}"
         console.note(f"{args.static}: a page for any web server{ranges}{example}")
@@ -61,11 +60,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     with PageServer(served, args.port) as server:
         print(server.address, flush=True)
         console.note("press Ctrl-C to stop")
-        try:
-            with nullcontext() if args.no_open else in_browser(server.address):
-                server.serve_forever()
-        except KeyboardInterrupt:
-            console.note("stopped")
+        with suppress(KeyboardInterrupt), nullcontext() if args.no_open else in_browser(server.address):
+            server.serve_forever()
+        console.note("stopped")
     return 0
 
 

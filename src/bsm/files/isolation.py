@@ -45,9 +45,7 @@ from bsm.files.table import FORMATS, MESH_FORMATS
 _COMMAND = "from bsm.files.isolation import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
 _KIND = struct.Struct("<32sI")  # a format, and seconds, as they are sent
-_END = struct.Struct(
-    "<iQd4096s"
-)  # a status, the most memory, seconds of processor time, and last words, that come back
+_END = struct.Struct("<iQd4096s")  # a status, the most memory, processor seconds, and last words, that come back
 _HEAD = struct.Struct("<QQ")  # the bytes of a question in shared memory, and those of a file after it
 _ROOM = 1 << 24  # bytes of shared memory besides the bytes that are given and those that come back
 _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
@@ -85,9 +83,8 @@ def frames_isolated(
     """Read all frames of a sequence in a process of its own; errors as of `open_sequence`."""
     asked = _asked(given, file_format, kind) if isinstance(given, Input) else {"names": list(given)}
     beside = os.path.abspath(wanted.mesh) if wanted and wanted.mesh else None
-    more = {"sequence": True, "wanted": {**asdict(wanted), "mesh": beside} if wanted else None, "beside": beside}
-    asked = {"format": file_format, **asked, **more}
-    found: Frames | None = _read_there(asked, limits, kind)
+    asked |= {"sequence": True, "wanted": wanted and {**asdict(wanted), "mesh": beside}, "beside": beside}
+    found: Frames | None = _read_there({"format": file_format, **asked}, limits, kind)
     return found
 
 
@@ -361,12 +358,8 @@ def _filter(own: int) -> Iterator[tuple[int, int, int, int]]:
             asked = ((equal, 0, 1, one) for one in _QUESTIONS[name])
             steps = [arguments[1], *itertools.chain.from_iterable((one, allowed) for one in asked), call]
         yield from ((equal, 0, len(steps), number), *steps)
-    yield from (
-        (equal, 0, 1, _CLONE3),
-        (end, 0, 0, failed + _NOT_KNOWN),
-        (add, 0, 0, failed + _REFUSED),
-        (end_so, 0, 0, 0),
-    )
+    yield from ((equal, 0, 1, _CLONE3), (end, 0, 0, failed + _NOT_KNOWN))
+    yield from ((add, 0, 0, failed + _REFUSED), (end_so, 0, 0, 0))
 
 
 @cache

@@ -195,8 +195,7 @@ def embedded(_: str, data: bytes) -> dict[str, str]:
 
 def script(place: Place, *more: str) -> str:
     """Return the module of the page with the addresses of the full kernels, and of `more` smaller ones or scripts."""
-    names = {"kernels": "kernels.wasm"} | {PurePath(it).stem: it for it in more}
-    kernels = {key: place(f"/{name}", _built(name)) for key, name in names.items()}
+    kernels = {PurePath(name).stem: place(f"/{name}", _built(name)) for name in ("kernels.wasm", *more)}
     return f"const KERNELS={json.dumps(kernels)};{_built('viewer.js').decode()}"
 
 
@@ -247,14 +246,12 @@ def _page(entries: list[dict[str, Any]], script: str) -> str:
 @contextmanager
 def in_browser(address: str) -> Iterator[None]:
     """Show an address in the browser, by a file that leads there: other users see the command line of a browser."""
-    number, name = tempfile.mkstemp(".html", "bsm-")
-    os.close(number)
-    try:
-        Path(name).write_text(f'<meta http-equiv="refresh" content="0; url={address}"><a href="{address}">bsm view</a>')
-        webbrowser.open(Path(name).as_uri())
+    with tempfile.TemporaryDirectory(prefix="bsm-") as folder:
+        page = Path(folder, "view.html")
+        page.touch(0o600)
+        page.write_text(f'<meta http-equiv="refresh" content="0; url={address}"><a href="{address}">bsm view</a>')
+        webbrowser.open(page.as_uri())
         yield
-    finally:
-        Path(name).unlink(missing_ok=True)
 
 
 class PageServer(ThreadingHTTPServer):
@@ -313,9 +310,8 @@ class _Handler(BaseHTTPRequestHandler):
         token, _, path = self.path.removeprefix("/").partition("/")
         self.path = f"/{path}"
         # With another name for this machine, a page of someone else looks for its servers.
-        if self.headers.get("Host") == self.server.host and secrets.compare_digest(
-            token.encode(), self.server.token.encode()
-        ):
+        knows = secrets.compare_digest(token.encode(), self.server.token.encode())
+        if knows and self.headers.get("Host") == self.server.host:
             return True
         self.send_error(HTTPStatus.FORBIDDEN, explain="Open the whole address that bsm view printed.")
         return False

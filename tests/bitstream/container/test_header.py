@@ -55,19 +55,10 @@ def legal_value(name):
     return st.lists(number, min_size=least, max_size=most).map(tuple)
 
 
-NOT_ALONE = (
-    "blocks",
-    "block_size",
-    "coefficients",
-    "refinement",
-    "grid",
-    "lattice",
-    "corner",
-    "light",
-    "sequence",
-    "run",
+NOT_ALONE = {
+    *("blocks", "block_size", "coefficients", "refinement", "grid", "lattice", "corner", "light", "sequence", "run"),
     "paper",
-)
+}
 PAPERS = st.builds(
     Paper,
     bits=st.integers(0, 32),

@@ -208,7 +208,6 @@ TEXTS = {
 def test_texts_take_what_is_granted_or_are_refused(name):
     kind, piece = TEXTS[name]
     data = piece * max(1, 500_000 // len(piece))
-
     granted = SMALL.memory_for(data.count(b"\n") // 3, len(data))
     refused = LimitError, MeshError, TruncatedError, CorruptError, ValueError
     with memory_below(granted + 4 * MIB), pytest.raises(refused):
