@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.geometry.metrics import distances_to_surface
+from bsm.codec.geometry.metrics import distances_to_surface, face_normals
 from bsm.commands import tile as command
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.gltf.coding import EXTENSION
@@ -258,6 +258,8 @@ def test_a_tileset_says_where_tiles_are_and_how_far_off(mesh, folder, tmp_path):
         center, half = box[0], np.diag(box[1:])
         assert node["geometricError"] <= above
         drawn = read_mesh(str(output.parent / node["content"]["uri"])).mesh
+        (normal,) = drawn.attributes
+        assert (normal.values[drawn.faces] @ face_normals(drawn.positions, drawn.faces)[..., None] > 0).mean() > 0.9
         turned = drawn.positions @ [(1, 0, 0), (0, 0, 1), (0, -1, 0)] + here  # glTF has y upwards, 3D Tiles z
         assert (np.abs(turned - here - center) <= half + 1e-6).all()
         seen += 1
@@ -288,7 +290,8 @@ def test_contents_that_are_compressed(folder, tmp_path):
         primitive = next(plain.primitives())
         corners = plain.array(primitive["indices"]).reshape(-1, 3).astype(np.int32)
         positions = plain.array(primitive["attributes"]["POSITION"]).astype(float)
-        assert same(bsm.decode(coded.view(stream)), bsm.TriangleMesh(positions, corners))
+        assert same(decoded := bsm.decode(coded.view(stream)), bsm.TriangleMesh(positions, corners))
+        assert "NORMAL" in {attribute.name for attribute in decoded.attributes} & primitive["attributes"].keys()
 
 
 def test_borders_stay_and_what_is_no_surface_is_left_alone():

@@ -104,20 +104,20 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
         return int(failed[0]["exit"])
     done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
     write_unfinished(args.output, args.input)
-    manifest = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
-    taken, given = size_of(args.input), sum(shard["size"] for shard in manifest["shards"])
+    manifest, given = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
+    remove_made(work)
+    if args.tileset:
+        given += write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
+    came = came_to(size_of(args.input), given)
     console.note(
         f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
-        f"{counted(levels=len(manifest['levels']))}, on a grid of {plan.lattice.cell:g}, {came_to(taken, given)}"
+        f"{counted(levels=len(manifest['levels']))}, on a grid of {plan.lattice.cell:g}, {came}"
     )
     if joined := sum(facts.get("joined", 0) for facts in done):
         console.note(
             f"vertices that share a grid point with another and are joined: {joined} "
             f"(fewer with --grid-cell {plan.lattice.cell / 2:g})"
         )
-    remove_made(work)
-    if args.tileset:
-        write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
     if args.json:
         print_json(manifest)
     return 0

@@ -35,7 +35,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         if args.box or args.level is not None or args.error is not None:
             raise OptionError(f"{TILESET} contains all tiles; leave out --box, --level and --error")
         folder = args.output[: -len(TILESET)].rstrip("/") or "."
-        return write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
+        write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
+        return
     if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):
         refuse_terminal(args.output)
         chosen = tiles.chosen(args.error or 0.0, level=args.level)

@@ -263,7 +263,7 @@ class _Moving(_Scene):
         self.painted: Attribute | None = None  # of the last frame
 
     def begin(self, first: TriangleMesh, stem: str) -> None:
-        normals = _vertex_normals(first.positions, first.faces)
+        normals = vertex_normals(first.positions, first.faces)
         kept = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
         normal = Attribute("normal", normals.astype(np.float32), "vertex", "normal")
         begin = len(self.tree.get("nodes", ()))
@@ -290,7 +290,7 @@ class _Moving(_Scene):
                 f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "
                 "take fewer with --frames A:B, or write USD"
             )
-        now = (frame, _vertex_normals(frame, run.faces), *self._painted(mesh))
+        now = (frame, vertex_normals(frame, run.faces), *self._painted(mesh))
         with np.errstate(over="ignore"):
             deltas = [(values - first).astype(np.float32) for values, first in zip(now, run.first, strict=True)]
         if not all(np.isfinite(delta).all() for delta in deltas):
@@ -335,7 +335,7 @@ class _Moving(_Scene):
             self.add("animations", {"name": "frames", "samplers": samplers, "channels": channels})
 
 
-def _vertex_normals(positions: Positions, faces: Faces) -> Doubles:
+def vertex_normals(positions: Positions, faces: Faces) -> Doubles:
     """The mean of the normals of a vertex' faces, shape (n, 3); a vertex without any looks up."""
     normals = face_normals(positions, faces)
     sums = [np.bincount(faces.reshape(-1), np.repeat(axis, 3), minlength=len(positions)) for axis in normals.T]

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError, counted
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.files.conventions import placement
@@ -21,7 +22,7 @@ from bsm.files.output import by_its_own_name, open_output, write_output
 from bsm.files.pipes import inside, is_url
 from bsm.gltf.compress import compress
 from bsm.gltf.document import Document
-from bsm.gltf.write import write_glb
+from bsm.gltf.write import vertex_normals, write_glb
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Ints
 from bsm.tiles.making import keys_of
@@ -31,6 +32,7 @@ from bsm.tiles.shards import Table, Tiles
 
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
+_NORMALS = "6bits"  # near those that decoders predict, so that they take a bit or two
 CONTENTS = ("bsm", "plain")
 CONTENT_HELP = "GLBs of a tileset: bsm (default, small), or plain, for programs without our decoder"
 
@@ -98,30 +100,34 @@ def write_joined(
     return {"vertices": vertices, "faces": total}
 
 
-def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> None:
-    """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB."""
+def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> int:
+    """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB with normals; return their bytes."""
     known = {tile.name: (shard, tile) for shard, tile in tiles.all()}
     below: dict[str, set[str]] = {}
     size = 0
     ends: dict[str, npt.NDArray[np.int64]] = {}  # of a node and all below it
     for name, (_, tile) in known.items():
         own = np.array([tile.low, tile.high], np.int64)
-        for size in range(1, len(name) + 1):
-            low, high = ends.get(name[:size], own)
-            ends[name[:size]] = np.array([np.minimum(low, own[0]), np.maximum(high, own[1])])
-            below.setdefault(name[: size - 1], set()).add(name[:size])
+        for above in (name[:end] for end in range(1, len(name) + 1)):
+            low, high = ends.get(above, own)
+            ends[above] = np.array([np.minimum(low, own[0]), np.maximum(high, own[1])])
+            below.setdefault(above[:-1], set()).add(above)
     if not is_url(folder):
         os.makedirs(contents := os.path.join(folder, _CONTENT), exist_ok=True)
         if os.path.islink(contents):
             raise OptionError(f"{contents} is a symbolic link; remove it")
+    sent = {} if "normal" in tiles.kinds else {"NORMAL": _NORMALS}
+    options = {"grid_cell": tiles.lattice.cell, "effort": "quick", "attributes": sent}
     with console.progress("writing") as progress:
         for number, (name, (shard, tile)) in enumerate(known.items(), 1):
             table, faces = tiles.decoded(shard, tile)
-            moved = ((table[:, :3] - ends[name][0]) * tiles.lattice.cell).astype(np.float32)
-            mesh = TriangleMesh(moved.astype(np.float64), faces, tiles.attributes(table), {"up": "z"})
+            moved = ((table[:, :3] - ends[name][0]) * tiles.lattice.cell).astype(np.float32).astype(np.float64)
+            shown, normals = tiles.attributes(table), vertex_normals(moved, faces).astype(np.float32)
+            shown += (Attribute("normal", normals, "vertex", "normal"),) if sent else ()
+            mesh = TriangleMesh(moved, faces, shown, {"up": "z"})
             data = write_glb(mesh, name).data
             if content == "bsm":
-                data = compress(Document(data), {"grid_cell": tiles.lattice.cell, "effort": "quick"}).data
+                data = compress(Document(data), options).data
             write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
             size += len(data)
             progress(number, len(known))
@@ -143,8 +149,10 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     moved[:3, :3], moved[:3, 3] = placed.matrix, placed.matrix @ tiles.lattice.positions(ends["r"][0])
     root["transform"] = moved.T.ravel().tolist()
     tree = {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}
-    write_output(inside(folder, TILESET), json.dumps(tree).encode() + b"\n", overwrite=overwrite, follow=False)
+    data = json.dumps(tree).encode() + b"\n"
+    write_output(inside(folder, TILESET), data, overwrite=overwrite, follow=False)
     console.note(f"{inside(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
+    return size + len(data)
 
 
 def _read(file: BinaryIO, rows: int, columns: int) -> Table:

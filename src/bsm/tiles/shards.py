@@ -56,8 +56,8 @@ def is_unfinished(folder: str) -> bool | None:
         raise FormatError(f"{name} exists and is not a tile manifest; choose another folder or delete it") from error
 
 
-def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:
-    """Write tiles in their order, and the manifest when all else is there."""
+def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> tuple[Facts, int]:
+    """Write tiles in their order, and the manifest when all else is there; return it, and all bytes."""
     shards, tiles, waiting = list[Facts](), list[Tile](), list(reversed(done))
     while waiting:
         shard, held = _write_shard(folder, f"{len(shards):05}.tiles", waiting, overwrite)
@@ -86,7 +86,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
     }
     text = json.dumps(manifest, indent=1).encode() + b"\n"
     write_output(inside(folder, MANIFEST), text, overwrite=True, follow=False)
-    return manifest
+    return manifest, sum(shard["size"] for shard in shards) + len(text)
 
 
 def _write_shard(folder: str, name: str, waiting: list[Facts], overwrite: bool) -> tuple[Facts, list[Tile]]:
