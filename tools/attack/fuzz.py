@@ -27,7 +27,7 @@ except ImportError:
     raise SystemExit("fuzzing needs atheris, of the extra fuzz: pip install '.[fuzz]'") from None
 
 from tools.attack.mutate import mutate_stream
-from tools.attack.targets import MESH_FILE, SLOW, TARGETS, VECTORS, Finding, Target, run, seeds
+from tools.attack.targets import MESH_FILE, SLOW, TARGETS, Finding, Target, run, seeds
 from tools.copies import refuse_other_kernels
 
 ROOT = Path(__file__).parents[2]
@@ -87,7 +87,7 @@ def attack(name: str, seconds: float, corpus: Path, sources: Path) -> Outcome:
     kept, findings = corpus / name, corpus / f"{name}-findings"
     for folder in (kept, findings):
         folder.mkdir(parents=True, exist_ok=True)
-    for number, data in enumerate(seeds(name, VECTORS)):
+    for number, data in enumerate(seeds(name)):
         (kept / f"seed-{number:03}").write_bytes(data)
     before = set(findings.iterdir())
     command = [
@@ -154,7 +154,7 @@ def work() -> None:
     refuse_other_kernels()
     name = sys.argv[1]
     target = TARGETS[name]
-    for data in seeds(name, VECTORS):  # loads what is imported late
+    for data in seeds(name):  # loads what is imported late
         run(target, data)
     instrument()
 

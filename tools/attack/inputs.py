@@ -18,31 +18,15 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import TARGETS, Target
-from tools.attack.mutate import mutate_stream
-from tools.attack.sweep import mutate
 from tools.gridded import random_grid
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
-from tools.vectors.store import FOLDER
 
-SEED_BYTES = 4096
-"""Larger vectors are not mutated: they probe size, and cost time."""
 ATTRIBUTES = 0.25
 """Share of meshes that have one, and of those that have another."""
 SEQUENCES = 0.25
 """Share of sequences among random streams."""
 MOVING = 0.3
 """Share of sequences with an attribute that changes."""
-
-
-def vector_seeds() -> list[bytes]:
-    """The vectors, those that are to be refused too."""
-    return [path.read_bytes() for path in sorted(FOLDER.parent.glob("*/*.bsm")) if path.stat().st_size < SEED_BYTES]
-
-
-def mutant(random: Random, seeds: list[bytes]) -> bytes:
-    """A stream with something changed behind checksums that are right again."""
-    seed = random.choice(seeds)
-    return mutate_stream(seed, 1 << 16, random.randrange(1 << 30), lambda part, size: mutate(random, part)[:size])
 
 
 def random_stream(random: Random) -> bytes:

@@ -16,13 +16,14 @@ from random import Random
 
 import numpy as np
 
-from bsm import BsmError
+from bsm.bitstream import errors
+from bsm.bitstream.errors import BsmError
 from tools.attack.decoding import is_sequence, piecewise, whole
-from tools.attack.inputs import mutant, vector_seeds
-from tools.attack.tally import Outcome
+from tools.attack.sweep import mutant
+from tools.attack.tally import Outcome, Tally
+from tools.attack.targets import vector_seeds
 from tools.bsmdec import Decoded, decode, of_sequence, released
 from tools.bsmenc import library
-from tools.vectors.store import Arrays
 
 STATUS = {
     "FormatError": 3,
@@ -34,49 +35,29 @@ STATUS = {
 }
 
 
-def difference(found: Decoded, stream: bytes, *, exact: bool) -> str | None:
-    """What the library makes of a stream beside what Python makes of it; None: the same."""
-    return unlike(found, whole(stream), in_sequence=is_sequence(stream), exact=exact)
-
-
-def unlike(found: Decoded, outcome: Outcome, *, in_sequence: bool, exact: bool) -> str | None:
-    """Return how what the library makes of a stream differs from an outcome in Python; None: not at all."""
-    if isinstance(outcome, BsmError):
-        expected = STATUS[type(outcome).__name__]
-        return None if found.status == expected else f"{found.status} {found.message!r}, expected {expected} {outcome}"
+def outcome_of(found: Decoded, stream: bytes) -> Outcome:
+    """What the library makes of a stream, its errors translated."""
     if found.status:
-        return f"{found.status} {found.message!r}, expected a mesh"
-    positions, faces, attributes = outcome
-    arrays: Arrays = {"positions": positions, "faces": faces, **attributes}
-    have = of_sequence(found) if in_sequence else found.arrays
-    if set(arrays) != set(have):
-        return f"{sorted(have)}, expected {sorted(arrays)}"
-    for name, expected_values in arrays.items():
-        own = have[name]
-        if own.shape != expected_values.shape or not _alike(own, expected_values, exact=exact):
-            return f"{name} differs"
-    return None
+        kind: type[BsmError] = getattr(errors, next(name for name, code in STATUS.items() if code == found.status))
+        return kind(found.message)
+    arrays = of_sequence(found) if is_sequence(stream) else dict(found.arrays)
+    return arrays.pop("positions", np.zeros((0, 3))), arrays.pop("faces", np.zeros((0, 3), np.int32)), arrays
 
 
 def loss_difference(found: Decoded, stream: bytes, *, exact: bool) -> str | None:
     """What a tolerant decoder tells beside what Python's tells: an error, how many losses, other frames."""
-    outcome, losses = piecewise(stream, Random(0), tolerant=True)
-    expected = STATUS[type(outcome).__name__] if isinstance(outcome, BsmError) else 0
-    if found.status != expected or (not expected and found.losses != losses):
-        return f"{found.status} {found.message!r} and {found.losses} losses, expected {expected} and {losses}"
-    if isinstance(outcome, BsmError) or not is_sequence(stream):
+    expected, losses = piecewise(stream, Random(0), tolerant=True)
+    outcome = outcome_of(found, stream)
+    if isinstance(outcome, BsmError) or isinstance(expected, BsmError):
+        return Tally().hold(stream, outcome, expected)
+    if found.losses != losses:
+        return f"{found.losses} losses, expected {losses}"
+    if not is_sequence(stream):
         return None
     if losses:
-        outcome = (*outcome[:2], {name: values for name, values in outcome[2].items() if name == "runs"})
-        found.arrays.clear()
-    return unlike(found, outcome, in_sequence=True, exact=exact)
-
-
-def _alike(attribute: np.ndarray, other: np.ndarray, *, exact: bool) -> bool:
-    if exact or attribute.dtype.kind != "f":
-        return np.array_equal(attribute, other)
-    size = float(np.abs(other).max(initial=1.0))
-    return bool(np.allclose(attribute, other, rtol=1e-5, atol=1e-5 * size))
+        kept = ({name: values for name, values in each[2].items() if name == "runs"} for each in (outcome, expected))
+        outcome, expected = ((*each[:2], some) for each, some in zip((outcome, expected), kept, strict=True))
+    return Tally().hold(stream, outcome, expected, exact)
 
 
 def compare(
@@ -98,7 +79,7 @@ def compare(
             if wrong := loss_difference(lax, stream, exact=exact):
                 found.append(f"mutant {number}: tolerantly {wrong}")
                 Path(tempfile.gettempdir(), f"mutant-{seed}-{number}.bsm").write_bytes(stream)
-        if wrong := difference(decoded, stream, exact=exact):
+        if wrong := Tally().hold(stream, outcome_of(decoded, stream), whole(stream), exact):
             found.append(f"mutant {number}: {wrong}")
             Path(tempfile.gettempdir(), f"mutant-{seed}-{number}.bsm").write_bytes(stream)
     return tally, found

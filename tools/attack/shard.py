@@ -24,14 +24,15 @@ import numpy as np
 
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError
-from tools.attack.decoding import is_sequence, piecewise, whole
+from tools.attack.decoding import piecewise, whole
 from tools.attack.encodes import random_streams, stored
-from tools.attack.inputs import mutant, random_stream, unencoded_stream, vector_seeds
-from tools.attack.library import STATUS
+from tools.attack.inputs import random_stream, unencoded_stream
+from tools.attack.library import outcome_of
 from tools.attack.places import Place, environments, processors
+from tools.attack.sweep import mutant
 from tools.attack.tally import Outcome, Tally
-from tools.attack.targets import LIMITS
-from tools.bsmdec import decode, of_sequence, released
+from tools.attack.targets import LIMITS, vector_seeds
+from tools.bsmdec import decode, released
 from tools.web_constants import limits_there
 
 WEB = Path(__file__).parents[2] / "web"
@@ -239,13 +240,7 @@ def not_finite(outcome: Outcome, tolerant: bool) -> str | None:
 
 def by_release(stream: bytes) -> Outcome:
     """By the decoder of release 1.0, its errors translated."""
-    found = decode(released(), stream)
-    if found.status:
-        names = {status: name for name, status in STATUS.items()}
-        kind: type[BsmError] = getattr(errors, names[found.status])
-        return kind(found.message)
-    arrays = of_sequence(found) if is_sequence(stream) else dict(found.arrays)
-    return arrays.pop("positions"), arrays.pop("faces"), arrays
+    return outcome_of(decode(released(), stream), stream)
 
 
 SUITES: dict[str, Callable[[Shard, int, int], None]] = {

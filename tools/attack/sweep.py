@@ -21,7 +21,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from tools.attack.mutate import mutate_stream
-from tools.attack.targets import MESH_FILE, TARGETS, VECTORS, run, seeds
+from tools.attack.targets import MESH_FILE, TARGETS, run, seeds
 from tools.copies import refuse_other_kernels
 
 Ints = npt.NDArray[np.int32]
@@ -46,19 +46,14 @@ def main() -> int:
 def attack(name: str, seconds: float) -> int:
     """Try every seed, then mutations of them for some seconds; return the number of inputs."""
     random = Random(name)
-    found = seeds(name, VECTORS)
+    found = seeds(name)
     count = 0
     begin = time.monotonic()
     for data in found:
         run(TARGETS[name], data)
         count += 1
     while time.monotonic() - begin < seconds:
-        data = random.choice(found)
-        if name != MESH_FILE:
-            data = mutate_stream(data, 65535, random.randrange(1 << 30), lambda part, size: mutate(random, part)[:size])
-        else:
-            data = mutate(random, data)
-        run(TARGETS[name], data)
+        run(TARGETS[name], mutate(random, random.choice(found)) if name == MESH_FILE else mutant(random, found))
         count += 1
     return count
 
@@ -78,6 +73,12 @@ def mutate(random: Random, data: bytes) -> bytes:
         elif place < len(changed):
             changed[place] = random.randrange(256)
     return bytes(changed)
+
+
+def mutant(random: Random, seeds: list[bytes]) -> bytes:
+    """A stream with something changed behind checksums that are right again."""
+    seed = random.choice(seeds)
+    return mutate_stream(seed, 1 << 16, random.randrange(1 << 30), lambda part, size: mutate(random, part)[:size])
 
 
 def _bad_faces() -> Iterator[Ints]:

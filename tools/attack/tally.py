@@ -56,11 +56,8 @@ class Tally:
                 type(outcome).__name__.removesuffix("Error").lower() if isinstance(outcome, BsmError) else "decoded"
                 for outcome in (found, expected)
             ]
-            return (
-                None
-                if outcomes[0] == outcomes[1]
-                else f"{outcomes[0]} instead of {outcomes[1]}: {found if outcomes[0] != 'decoded' else expected}"
-            )
+            said = "; ".join(str(outcome) for outcome in (found, expected) if isinstance(outcome, BsmError))
+            return None if outcomes[0] == outcomes[1] else f"{outcomes[0]} instead of {outcomes[1]}: {said}"
         if not np.array_equal(found[1], expected[1]):
             return "the faces differ"
         if found[0].shape != expected[0].shape:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +15,10 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.decoding import Decoder, SequenceDecoder, decode
 from bsm.codec.events import END_OF_STREAM, BlockEvent, FrameEvent
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.table import MESH_FORMATS
+from tools.vectors.good_attributes import charts, colors, groups, with_attributes
+from tools.vectors.meshes import patch
 
 Target = Callable[[bytes], None]
 
@@ -63,32 +66,26 @@ def stream(data: bytes) -> None:
 
 def stream_threads(data: bytes) -> None:
     """A whole static stream by events, on two threads."""
-    with Decoder(LIMITS, threads=2) as decoder:
-        _events(decoder, data)
+    _events(Decoder(LIMITS, threads=2), data)
 
 
 def damaged(data: bytes) -> None:
     """A static stream in tolerant mode."""
-    with Decoder(LIMITS, threads=1, tolerant=True) as decoder:
-        _events(decoder, data)
-
-
-def _events(decoder: Decoder, data: bytes) -> None:
-    decoder.receive_data(data)
-    decoder.receive_eof()
-    while (event := decoder.next_event()) is not END_OF_STREAM:
-        if isinstance(event, BlockEvent):
-            _expect(bool(np.isfinite(event.positions).all()), "positions that are not finite")
+    _events(Decoder(LIMITS, threads=1, tolerant=True), data)
 
 
 def sequence(data: bytes) -> None:
-    """A whole sequence; the first byte says whether in tolerant mode, and from which frame on."""
-    decoder = SequenceDecoder(LIMITS, threads=1, tolerant=len(data) % 2 == 1)
-    decoder.receive_data(data)
-    decoder.receive_eof()
-    while (event := decoder.next_event()) is not END_OF_STREAM:
-        if isinstance(event, FrameEvent):
-            _expect(bool(np.isfinite(event.positions).all()), "positions that are not finite")
+    """A whole sequence, in tolerant mode if its length is odd."""
+    _events(SequenceDecoder(LIMITS, threads=1, tolerant=len(data) % 2 == 1), data)
+
+
+def _events(decoder: Decoder | SequenceDecoder, data: bytes) -> None:
+    with decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            if isinstance(event, BlockEvent | FrameEvent):
+                _expect(bool(np.isfinite(event.positions).all()), "positions that are not finite")
 
 
 def mesh_file(data: bytes) -> None:
@@ -108,31 +105,22 @@ TARGETS: dict[str, Target] = {
 MESH_FILE = "mesh_file"
 """The target that takes no streams; the others are given mutations that keep checksums right."""
 LARGEST_SEED = 4096
+"""Larger vectors are not mutated: they probe size, and cost time."""
 SLOW = ("stream", "stream_threads", "damaged", "sequence", "mesh_file")
 
 
-def seeds(name: str, vectors: Path) -> list[bytes]:
+def seeds(name: str) -> list[bytes]:
     """Return the inputs that a target starts from: streams, or mesh files after a byte for their format."""
     if name == MESH_FILE:
-        return _mesh_seeds()
-    return [path.read_bytes() for path in sorted(vectors.glob("*/*.bsm")) if path.stat().st_size < LARGEST_SEED]
+        mesh = with_attributes(patch(4, 3), colors, charts, groups)
+        mesh = replace(mesh, metadata={"name": "patch", "material.1.Kd": "1 0 0"})
+        return [bytes([k]) + written_mesh(mesh, kind).data for k, kind in enumerate(MESH_FORMATS)]
+    return vector_seeds()
 
 
-def _mesh_seeds() -> list[bytes]:
-    from bsm.codec.geometry.attributes import Attribute
-    from bsm.codec.geometry.mesh import TriangleMesh
-    from bsm.files.mesh import written_mesh
-    from tools.vectors.meshes import patch
-
-    bare = patch(4, 3)
-    vertices, faces = len(bare.positions), len(bare.faces)
-    attributes = (
-        Attribute("color", np.arange(3 * vertices, dtype=np.uint8).reshape(-1, 3), semantic="color"),
-        Attribute("texcoord", np.arange(6 * faces, dtype=np.float32).reshape(-1, 2), "corner", "texcoord"),
-        Attribute("material", np.arange(faces) % 2, "face"),
-    )
-    mesh = TriangleMesh(bare.positions, bare.faces, attributes, {"name": "patch", "material.1.Kd": "1 0 0"})
-    return [bytes([k]) + written_mesh(mesh, kind).data for k, kind in enumerate(MESH_FORMATS)]
+def vector_seeds() -> list[bytes]:
+    """The vectors, those that are to be refused too."""
+    return [path.read_bytes() for path in sorted(VECTORS.glob("*/*.bsm")) if path.stat().st_size < LARGEST_SEED]
 
 
 def run(target: Target, data: bytes) -> None:
