@@ -32,13 +32,13 @@ import numpy as np
 
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
-from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
 from tools.attack.taken import Taken, bounds, taken_by_each
+from tools.vectors.good_attributes import charts, colors, groups, with_attributes
 from tools.vectors.meshes import torus
 
 HUGE_WORDS = (b"2147483647", b"999999999999999999", b"9" * 400, b"-1", b"1e300")
@@ -76,19 +76,7 @@ class Case:
 
 def _mesh() -> TriangleMesh:
     """A small mesh with something of everything."""
-    bare = torus(3, 3)
-    vertices, faces = len(bare.positions), len(bare.faces)
-    corners = np.arange(3 * faces, dtype=np.int32).reshape(-1, 3) % 5
-    return TriangleMesh(
-        bare.positions,
-        bare.faces,
-        (
-            Attribute("color", np.full((vertices, 3), 7, np.uint8), semantic="color"),
-            Attribute("texcoord", np.linspace(0, 1, 10, dtype=np.float32).reshape(5, 2), "corner", "texcoord", corners),
-            Attribute("material", np.arange(faces, dtype=np.int32)[:, None] % 2, "face"),
-        ),
-        {"unit": "mm"},
-    )
+    return replace(with_attributes(torus(3, 3), colors, charts, groups), metadata={"unit": "mm"})
 
 
 def _written(kind: str) -> bytes:

@@ -2,14 +2,13 @@
 
     python -m tools.release                   all of it, into dist/
     python -m tools.release --only sdist npm  parts of it
-    python -m tools.release --twice           made two times, which must give the same bytes
     python -m tools.release --tests tests     with the whole test suite from each wheel, README's second command
 
-Needs the extra `release`, Linux on x86-64, Python 3.11 and a later one, npm, cargo, CMake and pkg-config. Nothing is
+Needs the extra `release`, Linux on x86-64, Python 3.11 and a later one, npm, cargo and CMake. Nothing is
 published. Checks: versions agree; the source distribution builds where there is nothing but Python and a compiler;
 wheels hold one name and no sources, are what auditwheel calls manylinux, satisfy twine, and run both commands of README
-where no compiler is; npm takes the package, and Node decodes with it; the C archive decodes by one command, by CMake
-and by pkg-config; the DLL for Windows decodes all vectors to the same bits, where Wine is installed (apt: wine64);
+where no compiler is; npm takes the package, and Node decodes with it; the C archive decodes by one command and
+installed by CMake; the DLL for Windows decodes all vectors to the same bits, where Wine is installed (apt: wine64);
 cargo builds the crate that it packed. With them go a list of what a wheel brings along (SBOM,
 CycloneDX), and digests.
 """
@@ -47,7 +46,6 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "dist", help="folder (default: dist)")
     parser.add_argument("--only", nargs="+", choices=PARTS, default=PARTS, help="parts of it (default: all)")
     parser.add_argument("--tests", nargs="+", default=["tests/bsm/test_api.py"], help="tests to run from the wheels")
-    parser.add_argument("--twice", action="store_true", help="make all of it again, and compare")
     args = parser.parse_args()
     version = check_versions(ROOT)
     output = args.output.resolve()
@@ -62,19 +60,10 @@ def main() -> None:
     (output / "NOTES.md").write_text(notes(ROOT, version))
     for path in made:
         print(f"{path.stat().st_size / 1e6:7.2f} MB  {path.name}")
-    if args.twice:
-        with tempfile.TemporaryDirectory() as folder:
-            again = make(Path(folder), version, commit, args.only, None)
-            differ = [first.name for first, second in zip(made, again, strict=True) if digest(first) != digest(second)]
-        if differ:
-            raise SystemExit(f"made again, {', '.join(differ)} is not the same")
-        print(f"made again: {len(made)} files, the same bytes")
 
 
-def make(
-    output: Path, version: str, commit: Sequence[str], only: Sequence[str], tests: Sequence[str] | None
-) -> list[Path]:
-    """Make the parts, of a commit and in its time, and try the wheels unless `tests` is None."""
+def make(output: Path, version: str, commit: Sequence[str], only: Sequence[str], tests: Sequence[str]) -> list[Path]:
+    """Make the parts, of a commit and in its time, and try the wheels."""
     name, os.environ["SOURCE_DATE_EPOCH"] = commit
     with tempfile.TemporaryDirectory() as folder:
         sources = exported(name, Path(folder))
@@ -91,10 +80,10 @@ def make(
         if made:
             subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *made], check=True)
         if "wheels" in only:
-            for number, python in found.items() if tests is not None else ():
+            for number, python in found.items():
                 say(f"trying Python {number[0]}.{number[1]}")
                 wheel = next(path for path in made if fits(path, number))
-                try_wheel(wheel, python, sources, list(tests or ()))
+                try_wheel(wheel, python, sources, list(tests))
                 try_newcomer(wheel, (sources / "docs/install.md").read_text(), sources / STREAM, python)
             made.append(make_list(made[1], builders[0], output))
         if "npm" in only:
