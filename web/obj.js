@@ -2,7 +2,7 @@
 /** Reads a BSM stream and writes OBJ: npx bsm-decoder mesh.bsm > mesh.obj; or a sequence, as a folder of OBJ, as PC2, MDD or NPZ: npx bsm-decoder horse.bsm horse.npz */
 import { closeSync, existsSync, mkdirSync, openSync, readFileSync, writeSync } from "node:fs";
 import { join } from "node:path";
-import { crc32 } from "node:zlib";
+import zlib from "node:zlib";
 import { Decoder, END_OF_STREAM, loadKernels, NEED_DATA } from "bsm-decoder";
 
 const [path, target = "", ...more] = process.argv.slice(2);
@@ -72,7 +72,7 @@ function npzOf(arrays) {
         const title = Buffer.from(`${name}.npy`);
         const common = Buffer.alloc(26);
         [20, 0, 0, 0, 33].forEach((number, i) => common.writeUInt16LE(number, 2 * i)); // of version 2.0, stored, of 1980
-        [crc32(data), data.length, data.length].forEach((number, i) => common.writeUInt32LE(number, 10 + 4 * i));
+        [zlib.crc32(data), data.length, data.length].forEach((number, i) => common.writeUInt32LE(number, 10 + 4 * i));
         common.writeUInt16LE(title.length, 22);
         files.push(Buffer.from("PK\x03\x04", "latin1"), common, title, data);
         const place = Buffer.alloc(14);
