@@ -14,10 +14,18 @@ const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #0f
 const PATIENCE = 120_000;
 
 const LEAST_PANEL = 120; // pixels
+const [PHONE, FINGER] = [1000, 44]; // pixels: what is narrower is touched, and what is touched is not lower
 
 async function middleOf(page, name) {
     const { x, y, width, height } = await page.locator(`[name=${name}]`).boundingBox();
     return [x + width / 2, y + height / 2];
+}
+
+/** What can be touched and is lower than a finger. */
+function lowOnes(finger) {
+    const controls = [...document.querySelectorAll(".bsm-ui button, .bsm-ui select, .bsm-ui summary, .bsm-ui label, .bsm-ui input[type=range]:not(.bsm-wipe), .bsm-ui input[type=number]")];
+    return controls.filter((each) => !each.matches("label:has(input[type=range], input[type=number])")).map((each) => [each, each.getBoundingClientRect()])
+        .filter(([, { width, height }]) => width * height > 0 && Math.min(width, height) < finger - 0.5).map(([each, { width, height }]) => `low: ${each.name || each.textContent.trim()} ${width} x ${height}`);
 }
 
 /** The pixels of a PNG of 8 bits without interlacing, as rows of colors. */
@@ -56,7 +64,7 @@ let [states, wrong] = [0, 0];
 for (const path of pages) {
     for (const dark of [false, true]) {
         for (const [width, height] of SIZES) {
-            const page = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
+            const page = await browser.newPage({ viewport: { width, height }, isMobile: width < PHONE, hasTouch: width < PHONE, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
             await page.goto(/^https?:/.test(path) ? path : pathToFileURL(path).href);
             await page.waitForSelector("body:is([data-state=complete], [data-state=empty])", { timeout: PATIENCE });
             const empty = await page.evaluate(() => document.body.dataset.state === "empty");
@@ -87,6 +95,7 @@ for (const path of pages) {
                         const [part, button] = [document.querySelector(`[data-part=${panel}]`).getBoundingClientRect(), document.querySelector(`[name=${panel}]`).getBoundingClientRect()];
                         return { height: part.height, hit: Boolean(document.elementFromPoint(button.x + button.width / 2, button.y + button.height / 2)?.closest(`[name=${panel}]`)) };
                     }, panel);
+                    if (width < PHONE) outside.push(...(await page.evaluate(lowOnes, FINGER)));
                     if (!found.hit) over.push(`${panel} over its button`);
                     if (open !== found.height > LEAST_PANEL) over.push(`${panel} is ${found.height} px high where it is ${open ? "open" : "closed"}`);
                 }
