@@ -2,7 +2,7 @@
 import type { Attribute } from "./attributes";
 import { ATTRIBUTE, AWAITED, BLOCK, CONNECTIVITY, END, Engine, FAILED, FRAME, HEADER, LOSS, METADATA, NEED, OVER, REFINEMENT, type RawEvent } from "./engine";
 import { BsmError, errorLike } from "./errors";
-import type { AttributeEvent, Event, Mesh, Wishes } from "./events";
+import type { Event, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
 import type { SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
@@ -83,7 +83,10 @@ export class Decoder {
             if (event === NEED_BLOCK) throw new TypeError("a decoder with helpers gives events; it cannot finish alone");
             if (typeof event === "string" || kept.first) continue;
             if (event.type === "connectivity") kept.faces = event.faces;
-            if (event.type === "attribute") kept.attributes.push(withoutType(event));
+            if (event.type === "attribute") {
+                const { type: _, ...attribute } = event;
+                kept.attributes.push(attribute);
+            }
             if (event.type === "frame") {
                 const { positions, attributes: moved } = event;
                 const attributes = kept.attributes.map((old) => moved.find(({ name }) => name === old.name) ?? old);
@@ -136,8 +139,7 @@ export class Decoder {
         if (type !== END) return undefined;
         const isMesh = this.header!.gopFrames === 0;
         const losses = wishes.tolerant && isMesh ? engine.losses() : { missing: new Int32Array(0), degraded: new Int32Array(0) };
-        const end = { type: "end" as const, ...losses };
-        return !growing && isMesh ? { ...end, positions: engine.positions(vertices) } : end;
+        return { type: "end", ...losses, ...(!growing && isMesh ? { positions: engine.positions(vertices) } : {}) };
     }
 
     private beginMesh(header: Header): Event {
@@ -166,10 +168,6 @@ export class Decoder {
         if (problem) return { type: "loss", block: index, error: problem };
         return growing ? this.changed(index) : undefined;
     }
-}
-
-function withoutType({ type: _, ...attribute }: AttributeEvent): Attribute {
-    return attribute;
 }
 
 /** Decode a complete stream. */

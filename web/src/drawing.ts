@@ -3,7 +3,7 @@ import type { Attribute } from "./attributes";
 import type { Changes, ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./events";
 import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { inverse, upTo } from "./numbers";
+import { inverse } from "./numbers";
 import { dressed, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
@@ -243,7 +243,7 @@ export class Drawing {
         this.growing = false; // nothing is "grown" after the whole picture
         const { faces, origin, points, carried } = this;
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
-        const all = upTo(faces.length / 3);
+        const all = new Int32Array(faces.length / 3).map((_, face) => face);
         const whole = origin.includes(-1) ? all.filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2)) : all;
         const { index, vertices, pieces, attributes, own } = carried.length > 0 ? dressed(faces, whole, carried, points.length / 3) : this.bare(whole);
         const positions = spread(points, 3, vertices);

@@ -106,7 +106,7 @@ export class Engine extends Memory {
     }
 
     loose(): Loose {
-        const { vertices, positions } = this.changesBy("page_loose");
+        const { vertices, positions } = this.changes("page_loose");
         return { vertices, positions };
     }
 
@@ -114,11 +114,7 @@ export class Engine extends Memory {
         return this.filled(Float64Array, 3 * vertices, "bsmdec_positions");
     }
 
-    changes(): Changes {
-        return this.changesBy("page_changes");
-    }
-
-    private changesBy(name: string): Changes {
+    changes(name = "page_changes"): Changes {
         const [count, vertices, positions, final] = this.rows(name);
         return {
             vertices: this.ints(vertices, count),

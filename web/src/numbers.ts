@@ -1,10 +1,3 @@
-/** 0, 1, ... to `count` - 1. */
-export function upTo(count: number): Int32Array {
-    const numbers = new Int32Array(count);
-    for (let i = 0; i < count; i++) numbers[i] = i;
-    return numbers;
-}
-
 /** Which places of `values` have each number below `count`. */
 export function inverse(values: Int32Array, count: number): { starts: Int32Array; members: Int32Array } {
     const starts = new Int32Array(count + 1);

@@ -1,6 +1,5 @@
 /** What those that share the chains of a stream have in common. */
 import type { Described } from "./errors";
-import type { Header } from "./header";
 
 /** A block's own reconstruction, before it is blended with others; positions in BSM units. */
 export interface DecodedBlock {
@@ -20,9 +19,4 @@ export interface SharedBlock {
 export interface Share {
     number: number;
     among: number;
-}
-
-/** The chain that a block is in (M 10.1). */
-export function chainOf({ keyInterval, blocks }: Header, index: number): number {
-    return Math.floor(index / (keyInterval || blocks));
 }

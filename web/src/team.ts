@@ -1,6 +1,6 @@
 /** Threads that help a decoder: each decodes some of the chains of the stream. */
 import type { Header } from "./header";
-import { chainOf, type SharedBlock } from "./share";
+import type { SharedBlock } from "./share";
 import type { Reply, Order, Start } from "./worker";
 import { processors, WORTHWHILE } from "./threads";
 
@@ -16,7 +16,7 @@ export interface TeamListener {
 /** How many helpers have something to do; none for fewer vertices than are worthwhile. */
 export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
     if (header.vertices < worthwhile) return 0;
-    return Math.max(0, Math.min(chainOf(header, header.blocks - 1) + 1, processors(), MOST + 1) - 1);
+    return Math.max(0, Math.min(Math.ceil(header.blocks / (header.keyInterval || header.blocks)), processors(), MOST + 1) - 1); // chains: M 10.1
 }
 
 /** Lines to threads that run `serve`, with which a stream is shared: each takes all of its bytes. */

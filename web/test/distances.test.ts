@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { BufferAttribute, SphereGeometry, Triangle, Vector3 } from "three";
 import { BSMGeometry } from "../src/geometry";
+import { fieldOf } from "../src/viewer/colors";
 import { distancesOf } from "../src/viewer/distances";
 
 function geometryOf(points: ArrayLike<number>, faces: ArrayLike<number>): BSMGeometry {
@@ -73,4 +74,10 @@ test("nothing is measured of what cannot be compared, or is no longer shown", as
     await assert.rejects(distancesOf(moving, mesh, always), /sequence/);
     const [large, other] = [new SphereGeometry(1, 300, 300), new SphereGeometry(1, 301, 299)].map(({ attributes: { position }, index }) => geometryOf(position.array, index!.array));
     assert.equal(await distancesOf(large, other, () => false), undefined);
+});
+
+test("an attribute has colors from its least value to its largest, several numbers by their length", () => {
+    const geometry = new BSMGeometry().setAttribute("heat", new BufferAttribute(Float32Array.of(2, 4, 6), 1)).setAttribute("flow", new BufferAttribute(Float32Array.of(3, 4, 0, 0), 2)) as BSMGeometry;
+    assert.deepEqual(fieldOf(geometry, "of heat"), { values: Float32Array.of(2, 4, 6), low: 2, high: 6 });
+    assert.deepEqual([fieldOf(geometry, "of flow")?.high, fieldOf(geometry, "of none"), fieldOf(geometry, "error")], [5, undefined, undefined]);
 });

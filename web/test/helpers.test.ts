@@ -48,12 +48,10 @@ for (const name of CHAINS) {
         const data = readFileSync(join(VECTORS, `${name}.bsm`));
         const alone = decodeShared(kernels, data, data.length, 1, false);
         assert.equal(alone.error, undefined);
-        for (const among of [2, 3, 8]) {
-            for (const size of [data.length, 5]) {
-                const { awaited, ...together } = decodeShared(kernels, data, size, among, false);
-                assert.ok(awaited > 0);
-                assert.deepEqual({ ...together, awaited: 0 }, alone);
-            }
+        for (const [among, size] of [2, 3, 8].flatMap((among) => [[among, data.length], [among, 5]])) {
+            const { awaited, ...together } = decodeShared(kernels, data, size, among, false);
+            assert.ok(awaited > 0);
+            assert.deepEqual({ ...together, awaited: 0 }, alone);
         }
     });
 }

@@ -24,14 +24,12 @@ const WAYS: [string, (kernels: Kernels, data: Uint8Array) => Mesh][] = [
     ["byte by byte", (kernels, data) => meshOfEvents(eventsOf(kernels, data, 1))],
 ];
 
-for (const vector of vectors) {
-    for (const [way, take] of WAYS) {
-        test(`${vector.name} ${way}`, async () => {
-            const data = readFileSync(join(vector.folder, `${vector.name}.bsm`));
-            if (vector.error) assert.throws(() => take(kernels, data), { name: errorName(vector.error) });
-            else compare(take(kernels, data), readNpz(readFileSync(join(vector.folder, `${vector.name}.npz`))), way !== "whole");
-        });
-    }
+for (const [vector, way, take] of vectors.flatMap((vector) => WAYS.map((one) => [vector, ...one] as const))) {
+    test(`${vector.name} ${way}`, async () => {
+        const data = readFileSync(join(vector.folder, `${vector.name}.bsm`));
+        if (vector.error) assert.throws(() => take(kernels, data), { name: errorName(vector.error) });
+        else compare(take(kernels, data), readNpz(readFileSync(join(vector.folder, `${vector.name}.npz`))), way !== "whole");
+    });
 }
 
 /** Whether a stream has what the small build leaves out. */

@@ -2,7 +2,7 @@
 import { Color } from "three";
 import type { BSMGeometry } from "../geometry";
 
-export type Scheme = "plain" | "own" | "blocks" | "error";
+export type Scheme = "plain" | "own" | "blocks" | "error" | `of ${string}`; // of: an attribute
 
 export const LEGENDS: Partial<Record<Scheme, string>> = {
     blocks: "Order in which blocks arrive",
@@ -25,16 +25,27 @@ export function topOf(off: ArrayLike<number>, diagonal: number): number {
     return power * [1, 2, 5, 10].find((step) => step * power >= far)!;
 }
 
-/** Colors of all drawn vertices, shape (n, 3); undefined where a mesh has nothing of the kind. */
-export function colorsOf(geometry: BSMGeometry, scheme: Scheme, off?: Float32Array, top = 1): Float32Array | undefined {
+/** The attribute of a scheme at each drawn vertex: its number, or the length of its numbers; and the range. */
+export function fieldOf(geometry: BSMGeometry | undefined, scheme: Scheme): { values: Float32Array; low: number; high: number } | undefined {
+    const attribute = scheme.startsWith("of ") ? geometry?.attributes[scheme.slice(3)] : undefined;
+    if (!attribute) return undefined;
+    const numbers = Array.from({ length: attribute.itemSize }, (_, d) => d);
+    const values = Float32Array.from({ length: attribute.count }, (_, i) => (numbers.length > 1 ? Math.hypot(...numbers.map((d) => attribute.getComponent(i, d))) : attribute.getX(i)));
+    return { values, low: values.reduce((a, b) => Math.min(a, b), Infinity), high: values.reduce((a, b) => Math.max(a, b), -Infinity) };
+}
+
+/** Colors of all drawn vertices, shape (n, 3), the range of a field being that of another mesh; undefined where a mesh has nothing of the kind. */
+export function colorsOf(geometry: BSMGeometry, scheme: Scheme, off?: Float32Array, top = 1, { low, high } = { low: 0, high: 1 }): Float32Array | undefined {
     const { header, origin, parted } = geometry;
-    if (scheme === "plain" || scheme === "own" || !header) return undefined;
+    const field = fieldOf(geometry, scheme)?.values;
+    if ((scheme !== "blocks" && scheme !== "error" && !field) || !header) return undefined;
     const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
-    const shares = { blocks: (vertex: number) => origin[vertex] / last, error: (vertex: number) => off![vertex] / top };
+    const of = (i: number): number => parted?.[i] ?? i;
+    const share = (i: number): number => (field ? (field[i] - low) / (high - low) : scheme === "error" ? off![of(i)] / top : origin[of(i)] / last);
     const drawn = geometry.getAttribute("position").count;
-    const count = scheme === "error" ? (off?.length ?? 0) : origin.length;
+    const count = scheme === "error" ? (off?.length ?? 0) : field ? drawn : origin.length;
     if (count === 0 || (parted ?? { length: count }).length !== drawn) return undefined; // of a later run
     const colors = new Float32Array(3 * drawn);
-    for (let i = 0; i < drawn; i++) colors.set(STEPS[Math.round(255 * Math.min(Math.max(shares[scheme](parted ? parted[i] : i) || 0, 0), 1))], 3 * i);
+    for (let i = 0; i < drawn; i++) colors.set(STEPS[Math.round(255 * Math.min(Math.max(share(i) || 0, 0), 1))], 3 * i);
     return colors;
 }

@@ -3,7 +3,7 @@ import { BufferAttribute, Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
 import { imagesOf, materialsOf, turnOf } from "../materials";
 import type { Pool } from "../pool";
-import { colorsOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
+import { colorsOf, fieldOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
 import { distancesOf } from "./distances";
 import { element, percent, sized, type Content } from "./facts";
 import type { Form } from "./form";
@@ -129,7 +129,9 @@ export class Comparison {
     /** Make materials from the metadata and images; offer them and the colors. */
     async dress(index = this.content.main): Promise<void> {
         const { geometries, scheme } = this;
-        const { metadata, color, pieces } = geometries[index]!;
+        const { attributes, metadata, color, pieces } = geometries[index]!;
+        const fields = Object.keys(attributes).flatMap((name) => (/^(position|normal|(uv|color)\d*)$/.test(name) ? [] : new Option(name, `of ${name}`)));
+        if (index === this.content.main) this.form.part("fields").replaceChildren(...fields);
         const named = [...metadata.keys()].some((key) => key.startsWith("material."));
         if (named) {
             const images = await imagesOf(metadata);
@@ -181,23 +183,25 @@ export class Comparison {
         const scheme = content.tiles === undefined ? (this.scheme.value as Scheme) : "plain";
         const own = scheme === "own";
         const { diagonal = 1 } = content.facts;
+        const field = fieldOf(geometries[content.main], scheme);
         const top = (this.top ??= diagonal * topOf(offs[content.main] ?? [0], diagonal));
         this.stale = false;
         geometries.forEach((geometry, i) => {
             if (!geometry || (i === content.main && !this.shown)) return;
             const vertices = geometry.header?.vertices ?? 0; // of each frame
             const off = offs[i]?.subarray(...(geometry.frames.length > 1 ? [geometry.shown * vertices, (geometry.shown + 1) * vertices] : []));
-            const colors = colorsOf(geometry, scheme, off, top);
+            const colors = colorsOf(geometry, scheme, off, top, field);
             stage.color(i, own ? geometry.color : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
         });
-        form.part("scale").hidden = !LEGENDS[scheme];
-        form.say("legend", `${LEGENDS[scheme] ?? ""}${scheme === "error" && content.facts.apart !== undefined ? "'s surface" : ""}`);
+        form.part("scale").hidden = !LEGENDS[scheme] && !field;
+        form.say("legend", `${LEGENDS[scheme] ?? scheme.slice(3)}${scheme === "error" && content.facts.apart !== undefined ? "'s surface" : ""}`);
         const unit = geometries[content.main]?.metadata.get("unit");
         const tick = (share: number): HTMLElement => {
             const far = `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`;
             return element("li", percent((share * top) / diagonal), element("small", far));
         };
-        const ticks = scheme === "error" ? [0, 0.5, 1].map(tick) : ["first", "last"].map((text) => element("li", text));
+        const words = field ? [field.low, (field.low + field.high) / 2, field.high].map((value) => `${Number(value.toPrecision(3))}`) : ["first", "last"];
+        const ticks = scheme === "error" ? [0, 0.5, 1].map(tick) : words.map((text) => element("li", text));
         form.part("scale").querySelector("ol")!.replaceChildren(...ticks);
     }
 

@@ -87,7 +87,7 @@ function verdictOf({ look, farthest, diagonal = 1 }: Content["facts"], unit: unk
 }
 
 /** Sizes of the given file and the stream, what is claimed of them, and the rows below; sizes are compared only if all of the file is in the stream. */
-export function factsOf({ layers, main, facts }: Content, length: number, { frames: { length: frames }, header, metadata }: BSMGeometry, took?: number): { plain?: number; size: number; claim: string; tone: Tone; rows: Row[] } {
+export function factsOf({ layers, main, facts }: Content, length: number, { carried, frames: { length: frames }, header, metadata }: BSMGeometry, took?: number): { plain?: number; size: number; claim: string; tone: Tone; rows: Row[] } {
     const size = layers[main].size || length;
     const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
     const plain = main > 0 && !facts.less ? layers[0].size : undefined;
@@ -103,6 +103,7 @@ export function factsOf({ layers, main, facts }: Content, length: number, { fram
     if (took !== undefined) rows.push(["Decoded and drawn in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
+    if (carried.length > 0) rows.push(["Attributes", carried.map(({ name, domain }) => `${name}${{ vertex: "", corner: " of corners", face: " of faces" }[domain]}`).join(", ")]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     const [words, tone] = verdictOf(facts, metadata.get("unit"));
     const left = facts.less ? `${(notes.find((note) => /left out/i.test(note)) ?? "Left out: parts of the file").split(/\.( |$)/)[0].replace(/^.*?left out/i, "Left out")}. ` : "";

@@ -3,7 +3,6 @@ import type { Comparison } from "./comparison";
 import type { Form } from "./form";
 import type { Stage } from "./stage";
 
-const DIGITS = ["1", "2", "3"];
 const SHADINGS = ["smooth", "flat", "wire"];
 
 export function listenToKeys(form: Form, stage: Stage, meshes: Comparison): void {
@@ -28,7 +27,7 @@ export function listenToKeys(form: Form, stage: Stage, meshes: Comparison): void
         "?": () => form.unfold("keys"),
         escape: () => form.unfold(""),
     };
-    DIGITS.forEach((digit, i) => (acts[digit] = () => form.pick("layer", String(i))));
+    ["1", "2", "3"].forEach((digit, i) => (acts[digit] = () => form.pick("layer", String(i))));
     form.root.addEventListener("keydown", ({ key, target, ctrlKey, metaKey, altKey }) => {
         if (ctrlKey || metaKey || altKey || (target as HTMLElement).matches("select, [type=number]")) return;
         if (key === " " && !(target as HTMLElement).matches("canvas, body")) return; // it presses what has the focus

@@ -115,6 +115,7 @@ export class View {
         streams.selectedIndex = index;
         form.part("name").hidden = index >= 0 && streams.length > 1;
         form.say("name", content.name);
+        form.say("embed", `<script type="module">import "bsm-decoder/player";</script>\n<bsm-player src="${encodeURI(content.name.replace(/\.\w+$/, ""))}.bsm" autoplay loop></bsm-player>`);
         form.part("invite").hidden = true;
         form.part("arrival").hidden = form.part("colors").hidden = content.tiles !== undefined;
         form.control("keep").hidden = content.facts.seconds === undefined; // there is a file of it already
@@ -163,6 +164,7 @@ export class View {
         form.on("spin", "change", ({ checked }) => (stage.camera.controls.autoRotate = checked));
         form.on("back", "change", ({ value }) => (root.dataset.back = value));
         form.on("again", "click", () => this.restart());
+        form.on("embed", "click", () => void navigator.clipboard?.writeText(form.part("embed").textContent!));
         form.on("theme", "click", () => {
             const isDark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
             root.dataset.theme = isDark ? "light" : "dark";
