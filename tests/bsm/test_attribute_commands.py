@@ -87,13 +87,6 @@ def test_names_of_values_leave_with_their_attribute(count, tmp_path):
     assert {name.split(".")[0] for name in some.metadata} == {"material"}
 
 
-@pytest.mark.parametrize("text", ["name", "=x", ""])
-def test_metadata_that_say_nothing(tmp_path, text, capsys):
-    write_mesh(tmp_path / "a.ply", tetrahedron())
-    assert main(["encode", str(tmp_path / "a.ply"), "--meta", text]) == 2
-    assert "--meta takes NAME=TEXT" in capsys.readouterr().err
-
-
 def test_metadata_of_a_sequence(tmp_path):
     mesh = torus(12, 9)
     np.savez(tmp_path / "s.npz", positions=np.array([mesh.positions] * 3), faces=mesh.faces)

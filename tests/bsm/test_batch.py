@@ -91,12 +91,6 @@ def test_failures_are_reported_and_the_others_go_on(streams, tmp_path, jobs):
     assert notes[-1].startswith("2 of 4 files")
 
 
-def test_a_sole_input_into_a_folder(meshes, tmp_path):
-    assert main(["encode", "-q", str(meshes / "a.npz"), "-o", f"{tmp_path}/x/", *SMALL]) == 0
-    assert main(["decode", "-q", str(tmp_path / "x" / "a.bsm"), "-o", f"{tmp_path}/y/", "--format", "npz"]) == 0
-    assert names(tmp_path / "x") == ["a.bsm"] and names(tmp_path / "y") == ["a.npz"]
-
-
 def test_info_of_many(streams, capsys):
     assert main(["info", *(str(streams / name) for name in names(streams))]) == 0
     text = capsys.readouterr().out
@@ -146,11 +140,6 @@ def test_outputs_that_the_user_did_not_name_are_not_written_through_links(meshes
         assert precious.read_text() == "precious"
     assert bsm("encode", "-f", meshes / "a.npz", "-o", tmp_path / "out" / "a.bsm", *SMALL).returncode == 0
     assert precious.read_bytes().startswith(b"\x89BSM")
-
-
-def test_a_folder_without_a_name(tmp_path):
-    done = bsm("encode", ".")
-    assert (done.returncode, done.stderr) == (2, "bsm: . gives the output no name; name it with -o\n")
 
 
 # ------------------------------------------------------------------------------------------------------------ signals

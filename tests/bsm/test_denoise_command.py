@@ -201,30 +201,6 @@ def test_no_more_than_a_few_frames_are_held():
     assert most <= WINDOW + OVERLAP + 2 * (os.cpu_count() or 1) + 2
 
 
-@pytest.mark.parametrize(
-    ("arguments", "word"),
-    [
-        (("--fine", "best"), "best"),
-        (("--keep", "2"), "keep"),
-        (("--iterations", "-1"), "iterations"),
-        (("--for", "beauty"), "beauty"),
-        (("-o", "out.xyz"), "not written as xyz"),
-        (("-o", "-", "--json"), "standard output"),
-    ],
-)
-def test_what_is_refused(noisy_file, tmp_path, arguments, word):
-    ran = bsm("denoise", noisy_file, "-o", tmp_path / "out.ply", *arguments)
-    assert ran.returncode != 0
-    assert word in ran.stderr
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_outputs_are_not_replaced_unasked(noisy_file, tmp_path):
-    (tmp_path / "out.ply").write_bytes(b"mine")
-    assert bsm("denoise", noisy_file, "-o", tmp_path / "out.ply", *FEW).returncode != 0
-    assert (tmp_path / "out.ply").read_bytes() == b"mine"
-
-
 def test_compare_measures_surfaces_when_asked_to(noisy_file, tmp_path):
     write_mesh(tmp_path / "clean.npz", CLEAN)
     plain, full = (

@@ -262,11 +262,6 @@ class TestCommands:
             assert main([*words[:2], *wrong]) == 2
         assert main(["curve", "-o", "a.svg"]) == 2
 
-    def test_curve_knows_its_codecs(self, tmp_path, capsys):
-        write_mesh(tmp_path / "torus.npz", torus(20, 20))
-        assert main(["curve", str(tmp_path / "torus.npz"), "-o", str(tmp_path), "--codecs", "mp3"]) == 2
-        assert "unknown codec mp3" in capsys.readouterr().err
-
 
 def test_table():
     assert table(("a", "b"), [("x", "3"), ("yyy", "2")]) == "| a   |  b |\n| --- | -: |\n| x   |  3 |\n| yyy |  2 |"

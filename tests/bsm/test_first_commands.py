@@ -194,9 +194,6 @@ def test_a_command_that_is_named_can_be_pasted_whatever_the_file_is_called(folde
     (folder / "a; touch b.ply").write_bytes((folder / "ring.ply").read_bytes())
     assert run(*given, "a; touch b.ply") != 0
     assert "a; touch b.ply" in shlex.split(capsys.readouterr().err.partition("run: ")[2])
-
-
-def test_a_folder_that_is_named_can_be_pasted(folder, capsys):
     (folder / "my scans").mkdir()
     assert run("decode", "my scans") != 0
     assert "my scans" in shlex.split(capsys.readouterr().err.partition("run: ")[2].partition(";")[0])

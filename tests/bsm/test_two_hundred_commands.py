@@ -221,6 +221,8 @@ encode ring.ply --texture webp | --images webp:85
 encode ring.ply --images gif | webp:85
 encode ring.ply --unit mm | --meta unit=mm
 encode ring.ply --meta mm | NAME=TEXT
+encode ring.ply --meta =mm | NAME=TEXT
+encode . | gives the output no name; name it with -o | 2
 encode ring.ply --fps 30 | --frame-rate
 encode ring.ply --no-normals | --attribute normal=none
 encode ring.ply --tehta 3 | did you mean --theta
@@ -287,6 +289,13 @@ glb ring.glb -o a.bsm | .glb
 glb none.glb -o a.glb | No such file
 glb a.fbx -o a.glb | convert it to GLB
 denoise none.ply | No such file
+denoise ring.ply --fine best | best
+denoise ring.ply --keep 2 | keep
+denoise ring.ply --iterations -1 | iterations
+denoise ring.ply --for beauty | beauty
+denoise ring.ply -o out.xyz | not written as xyz
+denoise ring.ply -o - --json | standard output
+denoise ring.ply -o ring2.ply | exists | 9
 denoise - -o - | --format | 2
 view none.ply | No such file
 view --port 99999 | argument --port: 99999 is more than 65535

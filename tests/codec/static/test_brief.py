@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import bsm
-from bsm import BsmError, Decoder, EncodeOptions
+from bsm import Decoder, EncodeOptions
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Grid, write_brief
 from bsm.codec.decoding import decode
 from bsm.codec.static.encoder import encode
-from tools.surgery import first_payload, frames_of, is_brief, stream_of
+from tools.surgery import frames_of, is_brief, stream_of
 from tools.vectors.good_attributes import charts, with_attributes
 from tools.vectors.good_fields import header_of
 from tools.vectors.meshes import torus
@@ -64,23 +63,6 @@ def test_it_decodes_to_the_same_as_the_frames_for_which_it_stands():
     assert np.array_equal(one.positions, other.positions) and np.array_equal(one.faces, other.faces)
 
 
-def test_it_may_come_byte_by_byte():
-    data = encode(MESH)
-    with Decoder() as decoder:
-        for k in range(len(data)):
-            decoder.receive_data(data[k : k + 1])
-        assert np.array_equal(decoder.decode_rest().positions, decode(data).positions)
-
-
-def test_each_changed_byte_is_noticed():
-    data = encode(MESH)
-    for place in (k for k in range(len(data)) if k != 4):
-        changed = bytearray(data)
-        changed[place] ^= 1 << place % 8
-        with pytest.raises(BsmError):
-            decode(bytes(changed))
-
-
 def test_doubles_and_long_payloads_need_frames():
     header = Header(vertices=3, faces=1, grid=(1, 1, 1), scale=0.5)
     body = (Connectivity(b"abc"), Grid(0, 3, b"d"))
@@ -89,13 +71,3 @@ def test_doubles_and_long_payloads_need_frames():
     assert write_brief(replace(header, center=(0.0, 1e200, 0.0)), body) is None
     assert write_brief(header, (body[0], Grid(0, 2, b"d"), Grid(2, 1, b"e"))) is None
     assert write_brief(header, (Connectivity(bytes(60_000)), body[1])) is None
-
-
-def test_info_names_it(tmp_path, capsys):
-    from bsm.cli import main
-
-    (tmp_path / "a.bsm").write_bytes(bsm.encode(MESH))
-    assert main(["info", str(tmp_path / "a.bsm")]) == 0
-    assert "brief" in capsys.readouterr().out
-    assert main(["verify", str(tmp_path / "a.bsm")]) == 0
-    assert first_payload(bsm.encode(MESH))[:2] == b"\x81\x17"
