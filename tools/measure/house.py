@@ -34,7 +34,7 @@ CONTEXT = re.compile(r"\b(Context|Arena) \*")
 LIMITS = {
     "codec proper, lines": 36_616,
     "rest of the product, lines": 31_463,
-    "tests, lines": 31_081,
+    "tests, lines": 30_995,
     "tools, lines": 17_615,
     "tuned constants of the search": 55,
     "kernels driven by both Python and C": 20,
