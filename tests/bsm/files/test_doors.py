@@ -837,10 +837,9 @@ def test_factors_stay_in_range_and_far_meshes_go_by_a_node(tmp_path):
     assert again.positions == pytest.approx(positions, abs=1e-6)
     assert again.metadata["material.0.emissiveFactor"] == "223.826 223.826 223.826"
     assert again.metadata["material.0.baseColorFactor"] == "1 0 0 1"
-    metadata = {"material.0.baseColorFactor": "2 -1 0 1", "material.0.roughnessFactor": 7.0}
-    left = write_mesh(tmp_path / "b.obj", TriangleMesh(SQUARE, [[0, 1, 2]], (), metadata))
-    assert left == ("baseColorFactor, roughnessFactor of material 0",)
-    assert (tmp_path / "b.mtl").read_text().splitlines()[1:] == ["Kd 1 0 0", "Pr 1"]
+    beyond = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"material.0.baseColorFactor": "2 -1 0 1"})
+    assert write_mesh(tmp_path / "b.obj", beyond) == ("baseColorFactor of material 0",)
+    assert (tmp_path / "b.mtl").read_text().splitlines()[1:] == ["Kd 1 0 0"]
 
 
 def test_the_first_image_of_a_ply_has_the_color(tmp_path):
@@ -852,12 +851,16 @@ def test_the_first_image_of_a_ply_has_the_color(tmp_path):
 
 
 @pytest.mark.parametrize("way", [(1, 0, 0), (1, 1, 0), (1, 1, 1)])  # by a face, an edge, a vertex
-def test_bodies_that_touch_are_named(way):
+def test_bodies_that_touch_are_named_and_objects_of_a_3mf(way, tmp_path):
     corners = np.array(list(np.ndindex(2, 2, 2)), float)
     faces = np.array([[1, 3, 0], [4, 1, 0], [0, 3, 2], [2, 4, 0], [1, 7, 3], [5, 1, 4],
                       [5, 7, 1], [3, 7, 2], [6, 4, 2], [2, 7, 6], [6, 5, 4], [7, 5, 6]])  # fmt: skip
-    two = TriangleMesh(np.vstack([corners, np.add(corners, way)]), np.vstack([faces, faces + 8]))
+    bodies = bsm.Attribute("object", np.repeat([0, 1], 12), "face")
+    two = TriangleMesh(np.vstack([corners, np.add(corners, way)]), np.vstack([faces, faces + 8]), [bodies])
     assert any("not a manifold" in note for note in bsm.Encoder(two).notes)
+    pytest.importorskip("lib3mf")
+    assert write_mesh(tmp_path / "a.3mf", bsm.decode(bsm.encode(two, preset="lossless"))) == ()
+    assert len(read_mesh(tmp_path / "a.3mf").mesh.positions) == 16
 
 
 @pytest.mark.parametrize("kind", ["ply", "off", "vtp"])

@@ -1,5 +1,5 @@
 """3MF by lib3mf, the library of the 3MF Consortium: objects where the build places them, read as one mesh; a mesh is
-written as one object with the colors of its materials."""
+written as an object for each part, with the colors of its materials."""
 
 import ctypes
 import io
@@ -15,6 +15,7 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError, counted, imported
 from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement
@@ -31,6 +32,7 @@ _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rati
 _TAKEN = Taken(rows_of("3mf"))
 _FILES = re.compile(r"\[Content_Types\]\.xml|(.*/)?_rels/.*|.*\.model|.*/", re.IGNORECASE)  # those of each package
 _ELSE = "write PLY, OBJ or OFF"
+_MOST_OBJECTS = 1 << 10
 _Painted = Literal["color", "texcoord"]
 
 
@@ -233,53 +235,61 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
         raise MeshError(NO_DOUBLES.format("3MF"))
     if repeated := int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum()):
         raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
-    item = model.AddMeshObject()
-    points, corners = positions.astype(np.float32), mesh.faces.astype(np.uint32)
-    kinds = ((points, library.Position), (corners, library.Triangle))
-    tables = ((kind * len(rows)).from_buffer_copy(rows.tobytes()) for rows, kind in kinds)
-    _call(item, "meshobject_setgeometry", *(each for table in tables for each in (ctypes.c_uint64(len(table)), table)))
     held = {"up", "unit"} & ({*place.held} | ({"unit"} if size else set()))
     numbers, materials = formats.face_numbers(mesh, "material"), formats.materials_in(mesh.metadata)
-    if materials:
-        which = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
-        held |= _paint(library, model, item, which, materials)
-    about = model.GetMetaDataGroup()
+    which = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
+    sorting, objects = _objects(mesh)
+    held |= {f"{sorting.name}.names", *(f"{sorting.name}.{n}.name" for n in objects)} if sorting else {"name"}
+    painted = _colored(library, model, which, materials, held) if materials else None
+    for name, rows in objects.values():
+        item, used = model.AddMeshObject(), np.unique(mesh.faces[rows]) if sorting else np.arange(len(positions))
+        corners = np.searchsorted(used, mesh.faces[rows]).astype(np.uint32)
+        kinds = ((positions[used].astype(np.float32), library.Position), (corners, library.Triangle))
+        _call(item, "meshobject_setgeometry", *chain.from_iterable(_counted(table, kind) for table, kind in kinds))
+        if painted is not None:
+            first = painted[rows[0]]
+            item.SetObjectLevelProperty(int(first["ResourceID"]), int(first["PropertyIDs"][0]))
+            _call(item, "meshobject_setalltriangleproperties", *_counted(painted[rows], library.TriangleProperties))
+        item.SetName(name)
+        model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
     for name in _KNOWN:
         if isinstance(value := mesh.metadata.get(name), str):
-            about.AddMetaData("", name, value, "xs:string", True)
+            model.GetMetaDataGroup().AddMetaData("", name, value, "xs:string", True)
             held.add(name)
-    if called := mesh.metadata.get("name"):
-        item.SetName(str(called))
-        held.add("name")
-    model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
     writer = model.QueryWriter("3mf")
-    largest = max(float(np.abs(points).max(initial=0)), 1e-30)
+    largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
     writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
-    painted = numbers if materials else None
-    return formats.Written(
-        data, formats.left_out(mesh, [painted], [name for name in mesh.metadata if name not in held])
-    )
+    shown = [numbers if materials else None, sorting]
+    return formats.Written(data, formats.left_out(mesh, shown, [name for name in mesh.metadata if name not in held]))
 
 
-def _paint(library: Any, model: Any, item: Any, numbers: Ints, materials: Mapping[int, Material]) -> set[str]:
-    """Give each triangle the color of its material; return the metadata that this holds."""
+def _objects(mesh: TriangleMesh) -> tuple[Attribute | None, dict[int, tuple[str, Ints]]]:
+    """Return the attribute of faces that tells objects apart, if one does, and the name and the faces of each."""
+    for sorting in filter(None, (formats.face_numbers(mesh, what) for what in ("part", "object"))):
+        kinds, names = np.unique(sorting.values), formats.names_in(mesh.metadata, sorting.name)
+        if 1 < len(kinds) <= _MOST_OBJECTS:
+            return sorting, {n: (names.get(n, ""), np.flatnonzero(sorting.values == n)) for n in kinds.tolist()}
+    return None, {0: (str(mesh.metadata.get("name") or ""), np.arange(len(mesh.faces)))}
+
+
+def _counted(rows: Array, kind: Any) -> tuple[Any, Any]:
+    """The number of rows, and a table of them, as lib3mf takes it."""
+    return ctypes.c_uint64(len(rows)), (kind * len(rows)).from_buffer_copy(rows.tobytes())
+
+
+def _colored(library: Any, model: Any, numbers: Ints, materials: Mapping[int, Material], held: set[str]) -> Array:
+    """Return the color of each triangle by its material; `held` gets the metadata that this holds."""
     used, where = np.unique(numbers, return_inverse=True)
-    group, held = model.AddBaseMaterialGroup(), set()
-    usual = group.AddMaterial("none", library.Color(255, 255, 255, 255))
-    places = np.full(len(used), usual, np.uint32)
+    group = model.AddBaseMaterialGroup()
+    places = np.full(len(used), group.AddMaterial("none", library.Color(255, 255, 255, 255)), np.uint32)
     for place in np.flatnonzero(np.isin(used, [*materials])).tolist():
         number, words = int(used[place]), materials[int(used[place])]
         look, _ = within(appearance(words))
         shares = conventions.to_srgb(np.array([*look.color, look.opacity]))
         rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
         places[place] = group.AddMaterial(str(words.get("name") or f"material {number}"), rgba)
-        left = lost_in("3MF", words)
-        held |= {f"material.{number}.{word}" for word in words if word not in left}
-    of = places[where]
+        held |= {f"material.{number}.{word}" for word in words.keys() - {*lost_in("3MF", words)}}
     given = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
-    given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), of[:, None]
-    table = (library.TriangleProperties * len(given)).from_buffer_copy(given.tobytes())
-    item.SetObjectLevelProperty(group.GetUniqueResourceID(), int(of[0]))
-    _call(item, "meshobject_setalltriangleproperties", ctypes.c_uint64(len(table)), table)
-    return held
+    given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), places[where][:, None]
+    return given
