@@ -41,8 +41,7 @@ _WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
 
 def warn(notes: Iterable[str]) -> None:
-    """Warn of changes and losses, in the line of the user's code that called `bsm`; commands print notes instead.
-    Decorators and context managers of the standard library may be between that line and `bsm`."""
+    """Warn of changes and losses, in the line of the user's code that called `bsm`; commands print notes instead."""
     modules = [str(frame.f_globals.get("__name__", "")) for frame, _ in walk_stack(sys._getframe(1))]
     if any(name.startswith(_WITH_NOTES) for name in modules):
         return

@@ -79,12 +79,10 @@ class _Scene(Growing):
         arrays, held = _at_vertices(split)
         placed, expressed = placed_node(mesh.metadata, origin)
         names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {*expressed, "part.names"}
-        images = formats.images_in(mesh.metadata)
-        known = formats.materials_in(mesh.metadata)
+        images, known = formats.images_in(mesh.metadata), formats.materials_in(mesh.metadata)
         materials = {n: self._material(n, words, images, written) for n, words in known.items()}
-        if any(materials.get(n) is None for n in kinds[:, 1].tolist()):  # else viewers draw metal, which is black
-            matte = self.add("materials", dict(MATTE))
-            materials |= {n: matte for n in kinds[:, 1].tolist() if materials.get(n) is None}
+        bare = [n for n in kinds[:, 1].tolist() if materials.get(n) is None]  # which viewers draw as black metal
+        materials |= dict.fromkeys(bare, self.add("materials", dict(MATTE))) if bare else {}
         opacity = next((a.values[:, 3:] for a in held if a.semantic == "color"), np.zeros((0, 1)))
         if opacity.size and conventions.shares_of(opacity).min() < 1:
             for which in {materials[n] for n in kinds[:, 1].tolist()}:  # shows the opacity of vertices
@@ -115,8 +113,7 @@ class _Scene(Growing):
         self, number: int, words: Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
-        look, beyond = within(appearance(words))
-        self.left_out += tuple(f"{name} beyond 0 to 1 of material {words.get('name', number)}" for name in beyond)
+        look, _ = within(appearance(words))
         found, surface, absent = Tree(), Tree(), list[Texture]()
         for name, value in in_gltf(look).items():
             if isinstance(value, Texture):
@@ -132,7 +129,7 @@ class _Scene(Growing):
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
         held = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
-        written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(look, words, held)}}
+        written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, held)}}
         return self.add("materials", found) if found else None
 
     def _moved(self, texture: Texture) -> Tree:

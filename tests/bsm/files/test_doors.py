@@ -832,7 +832,7 @@ def test_factors_stay_in_range_and_far_meshes_go_by_a_node(tmp_path):
     metadata = {"material.0.Kd": "1.5 0 0", "material.0.Ke": "10 10 10", "material.0.d": "1.0"}
     positions = np.add([[0, 0, 0], [1, 0, 0], [0, 1, 0.1]], [500123.25, 100.5, -4649776.75])
     left = write_mesh(tmp_path / "a.glb", TriangleMesh(positions, [[0, 1, 2]], (), metadata))
-    assert left == ("color beyond 0 to 1 of material 0",)
+    assert left == ("Kd of material 0",)
     again = read_mesh(tmp_path / "a.glb").mesh
     assert again.positions == pytest.approx(positions, abs=1e-6)
     assert again.metadata["material.0.emissiveFactor"] == "223.826 223.826 223.826"

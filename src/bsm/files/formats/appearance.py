@@ -50,26 +50,22 @@ class Appearance:
     roughness: float = 1.0
     cutoff: float = 0.5
     double_sided: bool = False
-    said: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)
-    """The fields that each word says."""
+    said: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)  # fields by the words for them
 
     def says(self, name: str) -> bool:
-        """Whether a word says this field, or it is not what is usual."""
+        """Whether a word says this field, or it is unusual."""
         return any(name in fields for fields in self.said.values()) or getattr(self, name) != getattr(USUAL, name)
 
 
 USUAL = Appearance()
 _ROWS = [*csv.DictReader(Path(__file__).with_suffix(".csv").read_text().splitlines())]
-"""A row for each field with its words in each format, those after ~ converted; the last has what is in no field."""
+"""A row for each field with its words in each format, those after ~ converted; the last has those of no field."""
 
 
 def fields_of(kind: str) -> dict[str, list[str]]:
     """Return the fields that each word of a format says."""
-    found: dict[str, list[str]] = {}
-    for row in _ROWS[:-1]:
-        for word in row[kind].replace("~", "").split():
-            found.setdefault(word, []).append(row["field"])
-    return found
+    said = [(word, row["field"]) for row in _ROWS[:-1] for word in row[kind].replace("~", "").split()]
+    return {word: [name for other, name in said if other == word] for word, _ in said}
 
 
 def held_by(kind: str) -> set[str]:
@@ -171,7 +167,7 @@ def within(look: Appearance) -> tuple[Appearance, list[str]]:
 
 
 def in_gltf(look: Appearance) -> dict[str, Any]:
-    """Return what is said of an appearance, or is not usual, as glTF says it."""
+    """Return the fields of an appearance that are said or unusual, in the words of glTF."""
     found: dict[str, Any] = {}
     for word, names in _GLTF.items():
         first, *more = (getattr(look, name) for name in names)
@@ -248,17 +244,13 @@ def one_line(text: str) -> str:
     return re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", " ", text)
 
 
-def lost(look: Appearance, words: Collection[str], held: Collection[str]) -> list[str]:
-    """Return the words that say something that is neither usual nor among the fields that a format holds."""
+def lost(words: Material, held: Collection[str]) -> list[str]:
+    """Return the words that say more than the fields that a format holds, or have numbers beyond its range."""
+    look = appearance(words)
     usual = {name for name in vars(USUAL) if getattr(look, name) == getattr(USUAL, name)}
     usual |= {"mode"} if look.mode == "BLEND" and look.opacity < 1 else set()
-    return [word for word in words if not {*look.said.get(word, ("",))} <= {*held, *usual}]
-
-
-def lost_in(kind: str, words: Material) -> list[str]:
-    """Return the words that a format has no place for, or whose numbers are beyond its range."""
-    look = appearance(words)
-    return lost(look, words, held_by(kind).difference(within(look)[1]))
+    fine = {*held, *usual}.difference(within(look)[1])
+    return [word for word in words if not {*look.said.get(word, ("",))} <= fine]
 
 
 def as_text(value: Any) -> str:

@@ -25,7 +25,7 @@ from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.conventions import shares_of
-from bsm.files.formats.appearance import Material, is_black_beside_image, lost_in, one_line, parse_mtl
+from bsm.files.formats.appearance import Material, held_by, is_black_beside_image, lost, one_line, parse_mtl
 from bsm.files.pipes import file_beside
 
 Value: TypeAlias = "str | int | float | bytes"
@@ -297,8 +297,7 @@ class Written:
 
 def unsaid(metadata: Metadata, kind: str) -> list[str]:
     """The names of the words of materials that say more than a format holds."""
-    left = {number: lost_in(kind, words) for number, words in materials_in(metadata).items()}
-    return [f"material.{number}.{word}" for number, words in left.items() for word in words]
+    return [f"material.{n}.{word}" for n, m in materials_in(metadata).items() for word in lost(m, held_by(kind))]
 
 
 def left_out(mesh: TriangleMesh, held: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
-from bsm.files.formats.appearance import Material, appearance, lost_in, within
+from bsm.files.formats.appearance import Material, appearance, held_by, lost, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
@@ -289,7 +289,7 @@ def _colored(library: Any, model: Any, numbers: Ints, materials: Mapping[int, Ma
         shares = conventions.to_srgb(np.array([*look.color, look.opacity]))
         rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
         places[place] = group.AddMaterial(str(words.get("name") or f"material {number}"), rgba)
-        held |= {f"material.{number}.{word}" for word in words.keys() - {*lost_in("3MF", words)}}
+        held |= {f"material.{number}.{word}" for word in words.keys() - {*lost(words, held_by("3MF"))}}
     given = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
     given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), places[where][:, None]
     return given

@@ -194,9 +194,8 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         place = mesh.GetPath().AppendChild(name)
         place = mesh.GetPath().AppendChild(f"{name}_{number}") if stage.GetPrimAtPath(place) else place
         bound[number] = shade.Material.Define(stage, place)
-        look, beyond = looks.within(given := looks.appearance(known))
-        held = _write_surface(pxr, bound[number], look, files).difference(beyond)
-        written |= {f"material.{number}.{word}" for word in known.keys() - {*looks.lost(given, known, held)}}
+        held = _write_surface(pxr, bound[number], looks.within(looks.appearance(known))[0], files)
+        written |= {f"material.{number}.{word}" for word in known.keys() - {*looks.lost(known, held)}}
     bind_materials(pxr, mesh, shown, bound)
     return bound, written
 
@@ -255,9 +254,8 @@ def _write_surface(pxr: Any, material: Any, look: looks.Appearance, images: Mapp
         if image is None:
             held.discard(painted)
             if number and (name in needed or look.says(number)):
-                surface.CreateInput(name, getattr(types, kind)).Set(
-                    pxr.Gf.Vec3f(*(value or ())) if kind == "Color3f" else value
-                )
+                value = pxr.Gf.Vec3f(*value) if isinstance(value, tuple) else value
+                surface.CreateInput(name, getattr(types, kind)).Set(value)
             continue
         reader = shader("coordinates", _READER)
         reader.CreateInput("varname", types.String).Set(_COORDINATES)
