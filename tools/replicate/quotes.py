@@ -17,6 +17,7 @@ PASSAGES = {
     "speed": "codec/PAPER.md",
     "warm": "docs/how-it-works.md",
     "results": "docs/guides/research.md",
+    "parts": "docs/guides/research.md",
 }
 """The document of each; its text, with the numbers of jobs, is a file in passages/. Marks in the document name it."""
 

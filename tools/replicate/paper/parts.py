@@ -54,8 +54,7 @@ def whole(model: Model, segments: float, border: Mask) -> tuple[float, ...]:
     data, align = codec.encode(model.mesh)
     seconds, rate = time.thread_time() - begin, inspect_stream([data]).bpv_paper
     block = next(packet for packet in Skimmer().receive(data) if packet.type == FrameType.BLOCK)
-    found = errors(model, align(codec.decode(data)), border)
-    first = 1e-3 * (block.offset + block.length)
+    found, first = errors(model, align(codec.decode(data)), border), 1e-3 * (block.offset + block.length)
     return 8 * len(data) / len(model.clean), rate, seconds, first, seconds, *found, *found
 
 
