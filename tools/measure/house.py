@@ -32,7 +32,7 @@ BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, lines": 36_616,
+    "codec proper, lines": 36_607,
     "rest of the product, lines": 31_463,
     "tests, lines": 30_995,
     "tools, lines": 17_615,

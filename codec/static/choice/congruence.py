@@ -22,9 +22,9 @@ ROOM = 1 << 18  # numbers for votes
 FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer to their images
 
 
-def transforms_of(prepared: Prepared, grid: Raster, finer: float = 1.0) -> Levels:
+def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
     """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    (turns, shifts), origin = _motions(prepared, grid.step / finer, grid.turn), np.array(grid.origin)
+    (turns, shifts), origin = _motions(prepared, grid.step, grid.turn), np.array(grid.origin)
     return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
 
 

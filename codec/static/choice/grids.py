@@ -44,20 +44,18 @@ def may_repeat(prepared: Prepared) -> bool:
 
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
-    """A draft whose transforms are the better of two sets, less those of its last two quarters that do not pay."""
+    """A draft without decisions about whole vertices if these pay little, and without quarters of its transforms."""
     places, header = draft.places, draft.header
     if places is None or not header.congruence:
         return draft
-    grid = grid_of(header)
-    sets = transforms_of(prepared, grid)[: header.transforms], transforms_of(prepared, grid, 2.0)
-    kept, finer = ([part for part in np.array_split(some, 4) if len(part)] for some in sets)
-    for i in (5, 4, 3, 2):  # first without whole vertices, which take longer to decode
-        some = kept if i == 5 else finer if i == 4 else kept[:i] + kept[i + 1 :]
-        if i < len(kept) or (i == 4 and not np.array_equal(*sets)) or (i == 5 and kept):
-            grid = replace(grid, transforms=np.concatenate([sets[0][:0], *some]), whole=i < 5 and draft.header.whole)
-            coded = grid_draft(prepared, grid, places, draft.may_be_brief, draft.begun)
-            wins = coded.size < (1.0 - LEAST_SAVED * (i == 5)) * draft.size
-            draft, kept = (coded, some) if wins else (draft, kept)
+    grid, transforms = grid_of(header), transforms_of(prepared, grid_of(header))[: header.transforms]
+    kept = [part for part in np.array_split(transforms, 4) if len(part)]
+    for i in range(count := len(kept), max(count - 3, 0), -1):  # first without whole vertices, which decode slowly
+        some = kept[:i] + kept[i + 1 :]
+        grid = replace(grid, transforms=np.concatenate(some), whole=i < count and draft.header.whole)
+        coded = grid_draft(prepared, grid, places, draft.may_be_brief, draft.begun)
+        wins = coded.size < (1.0 - LEAST_SAVED * (i == count)) * draft.size
+        draft, kept = (coded, some) if wins else (draft, kept)
     return draft
 
 
@@ -239,15 +237,13 @@ class Gridded:
         def also(make: Callable[[], Draft]) -> Draft:
             if self.transforms >= 0:
                 return coded(self.transforms)
-            draft = least = make()
-            transforms = transforms_of(self._prepared, grid) if repeats else None
-            for some in () if transforms is None else (transforms, transforms[:0])[: 1 + len(transforms)]:
-                kind = replace(grid, transforms=some)
-                if len(some) or (not quick and (few or sampled_size(linked, kind, places) < sampled())):
-                    least = min(least, coded(len(some)), key=lambda d: d.size)
-                if least.size < (1.0 - LEAST_SAVED) * draft.size:
-                    break
-            return least
+            draft = make()
+            if not repeats:
+                return draft
+            kind = replace(grid, transforms=(transforms := transforms_of(self._prepared, grid)))
+            if not len(transforms) and (quick or not (few or sampled_size(linked, kind, places) < sampled())):
+                return draft
+            return min(draft, coded(len(transforms)), key=lambda made: made.size)
 
         guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
         decoded = grid.positions(places)

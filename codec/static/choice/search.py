@@ -61,8 +61,6 @@ class Search:
                 leaning, gain = saved, share
                 if seen and SHAPED * first.size > (least + leaning) / gain:
                     continue
-                if share < SHAPED and way is not grid and way.at(grid.first).size > SHAPED * first.size:
-                    continue  # places that are chosen repeat less
             like = (lambda made, gain=gain: made.like(parts) / gain) if gain < 1.0 else attrgetter("size")
             found = widest(
                 way, bounds, (near * least + leaning) / gain, tries=self._tries, size=like, each=self._crew.map
@@ -101,14 +99,14 @@ class Search:
         more = LEAST_SAVED * best.size * min(FIRST / self._prepared.graph.size, 1.0)
         transforms = grid.transforms if best.places is None else best.header.transforms
         least, like = best.size, (transforms, best.begun + more)
-        seen, few, hopeless = bounds.contract.look < math.inf, self._prepared.graph.size <= 2 * SAMPLE, 0
+        seen, hopeless = bounds.contract.look < math.inf, 0
         steps = [2.0 ** ((rung + 1 - finer) / RUNGS) for finer in range(RUNGS + 2 if seen else 2 * RUNGS)]
         made = (list(map(grid.at, steps[at : at + self._ahead])) for at in range(0, len(steps), self._ahead))
         hoped = ([c for c in some if transforms < 0 or c.step < found.step or bounds.keeps(c)] for some in made)
         sized = (zip(some, self._crew.map(lambda made: made.like(*like), some), strict=True) for some in hoped)
         for candidate, size in chain.from_iterable(sized):
             hopeless = hopeless + 1 if (1.0 - LEAST_SAVED) * size > least else 0
-            if seen and hopeless > few:  # without pictures, all can be tried
+            if seen and hopeless > 1:  # without pictures, all can be tried
                 break
             if size < least and not bounds.folds(candidate.positions) and bounds.keeps(candidate):
                 yield candidate
@@ -186,7 +184,8 @@ class Search:
         """Ways that may be smallest, first those that are smaller at their first step; `share`: what parts leave."""
         prepared, options = self._prepared, self._options
         few = prepared.graph.size < FEW_VERTICES and self._measures.normals is None
-        grids: list[Way] = [grid] if few else [Gridded(prepared, bounds, 1.0), grid]
+        only = few or (share < SHAPED and bounds.contract.look < math.inf)  # places that are chosen repeat less
+        grids: list[Way] = [grid] if only else [Gridded(prepared, bounds, 1.0), grid]
         if options.effort == "quick":
             return grids[:1]
         if not prepared.has_low_frequencies:

@@ -81,7 +81,7 @@ def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, 
 def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, monkeypatch: pytest.MonkeyPatch) -> None:
     noise = np.random.default_rng(0).normal(size=mesh.positions.shape)
     whole, less = sizes(replace(mesh, positions=mesh.positions + rough * mesh.diagonal * noise), monkeypatch)
-    assert whole <= min(less)
+    assert whole <= min(less) + 1  # where parts repeat, no places are chosen
 
 
 @pytest.mark.parametrize("effort", ["quick", "normal", pytest.param("best", marks=pytest.mark.slow)])
