@@ -11,9 +11,8 @@
 >>> encoded.mesh.faces.shape == mesh.faces.shape
 True
 
-The rest is that of the codec: connectivity, quantization, entropy coding, smoothing. `curves` compares ideas with the
-codec, `blocks` returns the arrays that the codec works on, `PartCoder` codes parts that arrive one by one, as
-in the paper. Names in this module may change with any release.
+The rest is that of the codec. `curves` compares ideas with it, `blocks` returns the arrays that it works on, and
+`PartCoder` codes parts one by one, as in the paper. Names in this module may change with any release.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -41,6 +40,7 @@ from bsm.codec.static.options import RANGES, EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
 from bsm.codec.static.units import Units, checksum_of
 from bsm.codec.static.ways.block_coder import DecodedBlock, blended
+from bsm.console import Console
 from bsm.files.inspection import Skimmer
 from bsm.libraries import as_mesh
 
@@ -180,7 +180,8 @@ def curves(
     given, found = join(as_mesh(mesh).bare, keep=False).mesh, {}
     for name, idea in {"ours": Idea(), **ideas}.items():
         codecs = [_tried(idea, changed(EncodeOptions(), **{"threads": 1, **keywords, "step": step})) for step in steps]
-        found[name] = run_curve(Curve(name, name, tuple(codecs)), given, "mesh")
+        with Console().progress(name) as progress:
+            found[name] = run_curve(Curve(name, name, tuple(codecs)), given, "mesh", progress=progress)
         rate = compare_curves(found["ours"], found[name])["bd_rate_percent"]["theta_deg"]
         found[name]["bytes_of_ours"] = None if rate is None else 1.0 + rate / 100.0
     return found

@@ -175,6 +175,6 @@ def as_of_decoders(limits: str) -> Iterator[None]:
     except LimitError as error:
         raise OptionError(
             f"decoders with {limits} limits would refuse this stream: {error.message.partition(';')[0]}; take smaller "
-            "blocks, fewer coefficients, iterations or attributes, or a grid, or limits = "
-            '"wide" if all who decode take these, too'
+            "blocks, fewer coefficients, iterations or attributes, or a grid, or, if all who decode take these, too, "
+            'limits = "wide" (in a shell --set limits=wide, then decode --limits wide)'
         ) from error
