@@ -1,4 +1,4 @@
-"""The comparison of attributes with Draco's: normals that it computes, and figures that stay what they are."""
+"""The comparison of attributes with Draco's: figures that stay what they are."""
 
 import sys
 from pathlib import Path

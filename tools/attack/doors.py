@@ -466,9 +466,7 @@ def main() -> NoReturn:
         "--scenes", nargs="+", type=Path, metavar="FOLDER", help="rewrite the scenes there, and count new errors"
     )
     parser.add_argument("--acts", action="store_true", help="also write GLB and USD, and ask three.js and usd-core")
-    parser.add_argument("--only-acts", action="store_true", help="only that")
     args = parser.parse_args()
-    args.acts |= args.only_acts
     if args.scenes:
         sys.exit(min(scenes_in(args.scenes), 1))
     files = list(listed(args.cache, args.packages, args.each)) if args.packages is not None else []
@@ -495,8 +493,6 @@ def main() -> NoReturn:
             findings += wrong(acts.add(name, bsm.read_mesh(path).mesh)) if args.acts else 0
         except bsm.BsmError:
             counts["refused"] += 1
-        if args.only_acts:
-            continue
         for reader, result, difference in compared(path, args.readers, apart):
             said = f"{reader} {name}: {difference}"
             why = next((why for key, why in explained.items() if fnmatch.fnmatchcase(said, f"*{key}*")), "")

@@ -2,7 +2,7 @@
 
     python -m tools.attack proof              the whole proof: a million mutants, three thousand streams everywhere
     python -m tools.attack proof --short      a minute of it, for every change
-    python -m tools.attack proof --mutants 10000000 --only mutants
+    python -m tools.attack proof --only mutants --seed 1
 
 | suite | what it does |
 |---|---|
@@ -33,8 +33,14 @@ from tools.attack.places import ROOT, build_processors, environments
 from tools.attack.tally import Tally
 
 SHARD_SECONDS = 1800
-MUTANTS, DIFFERENTIAL, ENCODES, SURROUNDINGS = 4000, 1000, 50, 12
-"""Inputs of one shard."""
+INPUTS = {
+    "mutants": (4000, 1_000_000, 4000),
+    "browser": (4000, 1_000_000, 4000),
+    "differential": (1000, 20_000, 500),
+    "encodes": (50, 3000, 50),
+}
+"""Of each suite: inputs of one shard, in all, and in short."""
+SURROUNDINGS = 12
 
 
 @dataclass(frozen=True)
@@ -57,17 +63,12 @@ def main() -> int:
         prog="python -m tools.attack proof", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--short", action="store_true", help="a minute of everything, on two processors")
-    parser.add_argument("--mutants", type=int, default=1_000_000, metavar="N")
-    parser.add_argument("--differential", type=int, default=20_000, metavar="N")
-    parser.add_argument("--encodes", type=int, default=3_000, metavar="N")
     parser.add_argument("--only", nargs="+", metavar="SUITE", help="these suites alone")
     parser.add_argument("--seed", default="0", help="default: %(default)s")
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="shards at a time (one per core)")
     parser.add_argument("--folder", type=Path, default=Path(".cache/proof"), help="default: %(default)s")
     args = parser.parse_args()
     begin = time.monotonic()
-    if args.short:
-        args.mutants, args.differential, args.encodes = min(args.mutants, 4_000), min(args.differential, 500), 50
     parts = [part for part in plan(args) if not args.only or part.suite in args.only]
     findings = args.folder.resolve() / args.seed
     print(f"seed {args.seed}, {len(parts)} shards, findings are kept in {findings}", flush=True)
@@ -90,10 +91,7 @@ def plan(args: argparse.Namespace) -> list[Part]:
     """All shards, the suites in turn, so that a run that is stopped has done a little of everything."""
     places = range(0, len(environments()), 8 if args.short else 1)
     queues = [
-        [Part("mutants", *cut) for cut in cuts(args.mutants, MUTANTS)],
-        [Part("browser", *cut) for cut in cuts(args.mutants, MUTANTS)],
-        [Part("differential", *cut) for cut in cuts(args.differential, DIFFERENTIAL)],
-        [Part("encodes", *cut) for cut in cuts(args.encodes, ENCODES)],
+        *([Part(name, *cut) for cut in cuts(sizes[args.short], shard)] for name, (shard, *sizes) in INPUTS.items()),
         [Part("surroundings", number, SURROUNDINGS) for number in places],
     ]
     shares = [(place / len(queue), part) for queue in queues for place, part in enumerate(queue)]

@@ -1,13 +1,12 @@
 """Compare what attributes take in our files with what they take in Draco's, at the same quantization.
 
-    python -m tools.measure attributes MESH [MESH ...] [--grid 14] [--normals DEGREES]
+    python -m tools.measure attributes MESH [MESH ...] [--grid 14]
 
 Both put positions on the same grid. What an attribute takes is the file with it less the file
 without; in Draco's (level 10), vertices are split where the attribute needs it. Texture coordinates have 12 bits,
 normals 8 on an octahedron, colors and whole numbers are exact, and other numbers are kept to 1 % of their range (for
-Draco: rounded so first). Every attribute of ours is decoded and compared before it counts. `--normals` computes normals
-for meshes that have none: of the faces around each corner, by their angles, up to edges that are sharper than that.
-Draco has no values of faces. Needs DracoPy and scipy.
+Draco: rounded so first). Every attribute of ours is decoded and compared before it counts. Draco has no values of
+faces. Needs DracoPy.
 """
 
 from __future__ import annotations
@@ -23,7 +22,6 @@ import numpy.typing as npt
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners, compare_values
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.files.mesh import read_mesh
@@ -143,36 +141,6 @@ def _levels(attribute: Attribute) -> Array:
     return np.asarray(values, np.uint8 if values.max() < 256 else np.uint32)
 
 
-def with_normals(mesh: TriangleMesh, sharp: float) -> TriangleMesh:
-    """The mesh with normals at corners: of the faces around, by angle, up to edges sharper than an angle in degrees."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    places = mesh.positions[mesh.faces]
-    unit = face_normals(mesh.positions, mesh.faces)
-    corner = np.arange(mesh.faces.size)
-    ends = np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=2).reshape(-1, 2)
-    after = corner // 3 * 3 + (corner + 1) % 3
-    flipped = ends[:, 0] > ends[:, 1]
-    low, high = np.where(flipped, after, corner), np.where(flipped, corner, after)
-    order = np.lexsort(np.sort(ends, axis=1).T)
-    same = (np.sort(ends, axis=1)[order][1:] == np.sort(ends, axis=1)[order][:-1]).all(axis=1)
-    first, second = order[:-1][same], order[1:][same]
-    smooth = (unit[first // 3] * unit[second // 3]).sum(axis=1) > np.cos(np.radians(sharp))
-    first, second = first[smooth], second[smooth]
-    pairs = np.concatenate([low[first], high[first]]), np.concatenate([low[second], high[second]])
-    count, group = connected_components(coo_array((np.ones(len(pairs[0])), pairs), (len(corner), len(corner))), False)
-    sides = np.roll(places, -1, axis=1) - places, np.roll(places, 1, axis=1) - places
-    lengths = [np.linalg.norm(side, axis=2) for side in sides]
-    cosine = (sides[0] * sides[1]).sum(axis=2) / np.maximum(lengths[0] * lengths[1], 1e-300)
-    weighed = (unit[:, None] * np.arccos(np.clip(cosine, -1, 1))[:, :, None]).reshape(-1, 3)
-    sums = np.stack([np.bincount(group, weighed[:, axis], count) for axis in range(3)], axis=1)
-    length = np.linalg.norm(sums, axis=1, keepdims=True)
-    normals = np.where(length > 0, sums / np.where(length > 0, length, 1), [0.0, 0.0, 1.0])
-    attribute = Attribute("normal", normals.astype(np.float32), "corner", "normal", group.reshape(-1, 3))
-    return replace(mesh, attributes=(*mesh.attributes, attribute))
-
-
 def rows_of(mesh: TriangleMesh, grid: int) -> tuple[list[Row], Row]:
     """Each attribute, and the whole files."""
     bare = replace(mesh, attributes=(), metadata={})
@@ -191,14 +159,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", nargs="+", metavar="MESH")
     parser.add_argument("--grid", type=int, default=14, metavar="BITS")
-    parser.add_argument("--normals", type=float, metavar="DEGREES")
     options = parser.parse_args()
     ratios: dict[str, list[float]] = {}
     print("| mesh | attribute | ours | Draco | ratio |\n|---|---|---|---|---|")
     for path in options.meshes:
         mesh = read_mesh(path).mesh
-        if options.normals is not None and not any(own.semantic == "normal" for own in mesh.attributes):
-            mesh = with_normals(mesh, options.normals)
         if not mesh.attributes:
             continue
         rows, whole = rows_of(mesh, options.grid)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_geometry, face_normals
 from bsm.codec.look.pictures import Canvas, Picture, averaged, cameras, difference
-from tools.measure.attributes import with_normals
 
 SIDES = (0, 2, 4, 5)
 PIXELS = 256
@@ -24,6 +25,24 @@ ALBEDO, AMBIENT, GLOSS, SHARPNESS, WALL = (0.62, 0.53, 0.45), 0.06, 0.28, 32, 0.
 Photograph = npt.NDArray[np.uint8]  # shape (PHOTOGRAPH, PHOTOGRAPH, 3), sRGB
 
 
+def smoothed(mesh: TriangleMesh) -> npt.NDArray[np.int32]:
+    """The number of each corner's normal, shape (m, 3): corners share one up to edges that are sharp."""
+    unit, corner = face_normals(mesh.positions, mesh.faces), np.arange(mesh.faces.size)
+    ends = np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=2).reshape(-1, 2)
+    after = corner // 3 * 3 + (corner + 1) % 3
+    flipped, edges = ends[:, 0] > ends[:, 1], np.sort(ends, axis=1)
+    low, high = np.where(flipped, after, corner), np.where(flipped, corner, after)
+    order = np.lexsort(edges.T)
+    same = (edges[order][1:] == edges[order][:-1]).all(axis=1)
+    first, second = order[:-1][same], order[1:][same]
+    smooth = (unit[first // 3] * unit[second // 3]).sum(axis=1) > np.cos(np.radians(SHARP))
+    first, second = first[smooth], second[smooth]
+    pairs = np.concatenate([low[first], high[first]]), np.concatenate([low[second], high[second]])
+    joined = coo_array((np.ones(len(pairs[0])), pairs), (len(corner), len(corner)))
+    groups: npt.NDArray[np.int32] = connected_components(joined, directed=False)[1]
+    return groups.reshape(-1, 3)
+
+
 class Gallery:
     """Pictures of an original, and of what became of it."""
 
@@ -32,7 +51,7 @@ class Gallery:
         self._middle, self._diagonal = (low + high) / 2, float(np.linalg.norm(high - low))
         self._faces = np.ascontiguousarray(mesh.faces, np.int32)
         self._positions = self._placed(mesh.positions)
-        self._smooth = np.asarray(with_normals(mesh, SHARP).attributes[-1].indices)
+        self._smooth = smoothed(mesh)
 
     def _placed(self, positions: Positions) -> Matrix:
         return np.ascontiguousarray((positions - self._middle) / self._diagonal)
