@@ -40,8 +40,7 @@ export function colorsOf(geometry: BSMGeometry, scheme: Scheme, off?: Float32Arr
     const field = fieldOf(geometry, scheme)?.values;
     if ((scheme !== "blocks" && scheme !== "error" && !field) || !header) return undefined;
     const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
-    const of = (i: number): number => parted?.[i] ?? i;
-    const share = (i: number): number => (field ? (field[i] - low) / (high - low) : scheme === "error" ? off![of(i)] / top : origin[of(i)] / last);
+    const share = (i: number, vertex = parted?.[i] ?? i): number => (field ? (field[i] - low) / (high - low) : scheme === "error" ? off![vertex] / top : origin[vertex] / last);
     const drawn = geometry.getAttribute("position").count;
     const count = scheme === "error" ? (off?.length ?? 0) : field ? drawn : origin.length;
     if (count === 0 || (parted ?? { length: count }).length !== drawn) return undefined; // of a later run

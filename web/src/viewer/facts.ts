@@ -103,7 +103,7 @@ export function factsOf({ layers, main, facts }: Content, length: number, { carr
     if (took !== undefined) rows.push(["Decoded and drawn in", spent(took)]);
     if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
     if (before && before[1] !== faces) rows.push(["Original", `${counted(before[0])} vertices`, `${counted(before[1])} triangles`]);
-    if (carried.length > 0) rows.push(["Attributes", carried.map(({ name, domain }) => `${name}${{ vertex: "", corner: " of corners", face: " of faces" }[domain]}`).join(", ")]);
+    if (carried.length > 0) rows.push(["Attributes", carried.map(({ name }) => name).join(", ")]);
     if (frames > 1) rows.push(["Sequence", `${counted(frames)} frames`, `${sized(Math.round(size / frames))} a frame`]);
     const [words, tone] = verdictOf(facts, metadata.get("unit"));
     const left = facts.less ? `${(notes.find((note) => /left out/i.test(note)) ?? "Left out: parts of the file").split(/\.( |$)/)[0].replace(/^.*?left out/i, "Left out")}. ` : "";
