@@ -4,10 +4,8 @@
 #ifdef BSMDEC_WRITES
 
 enum { MOST_FACES = (1 << 30) / 3, MOST_VERTICES = 1 << 30, MOST_GRID_BITS = 20, MOST_VALUE_BITS = 32,
-    MOST_LABEL = 1 << 24, MOST_LABELS = 1 << 16 };
+    MOST_LABEL = 1 << 24, MOST_LABELS = 1 << 16, NAME_WORDS = (MOST_NAME + 1) / 8 };
 static const double MOST_COORDINATE = 1e290, LEAST_EXTENT = 1e-290;
-
-static bool is_finite(double value) { return value - value == 0.0; }
 
 /* ---- Before ---- */
 
@@ -15,8 +13,7 @@ static bool check_shape(Encoder *encoder) {
     Context *context = &encoder->writer.context;
     const bsmenc_mesh *mesh = encoder->mesh;
     if (mesh->vertices < 1 || mesh->vertices >= MOST_VERTICES || mesh->faces < 1 || mesh->faces > MOST_FACES)
-        return FAIL(context, MISUSED, "a mesh of # vertices and # faces cannot be encoded", mesh->vertices,
-            mesh->faces);
+        return FAIL(context, MISUSED, "a mesh cannot have # vertices and # faces", mesh->vertices, mesh->faces);
     if ((mesh->positions == NULL && mesh->positions_single == NULL) || mesh->corners == NULL)
         return FAIL(context, MISUSED, "the mesh has no positions or no corners");
     for (int64_t i = 0; i < 3 * mesh->faces; i++)
@@ -58,24 +55,33 @@ static bool check_options(Context *context, const bsmenc_options *o) {
 
 static Span text_of(const char *text) { return (Span){(const uint8_t *)text, (int64_t)strlen(text)}; }
 
-static bool check_metadata(Context *context, const bsmenc_mesh *mesh) {
-    if (mesh->metadata_count > 0 && mesh->metadata == NULL) return FAIL(context, MISUSED, "mesh.metadata is NULL");
-    for (size_t i = 0; i < mesh->metadata_count; i++) {
+static bool check_metadata(Encoder *encoder) {
+    Context *context = &encoder->writer.context;
+    Arena *scratch = &encoder->writer.scratch;
+    const bsmenc_mesh *mesh = encoder->mesh;
+    int64_t count = (int64_t)mesh->metadata_count;
+    Longs names;
+    Ints first;
+    if (mesh->metadata_count >= MOST_VERTICES || (count > 0 && mesh->metadata == NULL))
+        return FAIL(context, MISUSED, "mesh.metadata is NULL or too long");
+    if (!zero_longs(scratch, NAME_WORDS * count, &names) || !take_ints(scratch, count, &first)) return false;
+    for (int64_t i = 0; i < count; i++) {
         const bsmdec_metadata *entry = mesh->metadata + i;
         bool text = entry->type == BSMDEC_TEXT, sized = text || entry->type == BSMDEC_BYTES;
         if (entry->name == NULL || strlen(entry->name) > MOST_NAME || !is_text(text_of(entry->name))
             || entry->type < BSMDEC_WHOLE || entry->type > BSMDEC_BYTES || (sized && entry->size > UINT32_MAX)
             || (sized && entry->size > 0 && entry->bytes == NULL))
-            return FAIL(context, MISUSED, "metadata entry # has no short name, no value, or no type", (int64_t)i);
+            return FAIL(context, MISUSED, "metadata entry # has no short name, no value, or no type", i);
         if (text && !is_text((Span){entry->bytes, (int64_t)entry->size}))
             return FAIL(context, MISUSED, "metadata '$' is not UTF-8", .name = entry->name);
         if (entry->type == BSMDEC_NUMBER && !is_finite(entry->number))
             return FAIL(context, MISUSED, "metadata '$' is not finite", .name = entry->name);
-        for (size_t k = 0; k < i; k++)
-            if (strcmp(mesh->metadata[k].name, entry->name) == 0)
-                return FAIL(context, MISUSED, "two metadata entries have the name '$'", .name = entry->name);
+        memcpy(names.data + NAME_WORDS * i, entry->name, strlen(entry->name));
     }
-    return true;
+    int64_t different = number_rows(names.data, count, NAME_WORDS, scratch, first), twice = 0;
+    if (different < 0 || different == count) return different == count;
+    while (first.data[twice] == twice) twice++;
+    return FAIL(context, MISUSED, "two metadata entries have the name '$'", .name = mesh->metadata[twice].name);
 }
 
 /* Whether floats are labels or ids: whole numbers, and few of them. */
@@ -128,8 +134,7 @@ static bool check_attribute(Encoder *encoder, const bsmenc_attribute *a) {
             return FAIL(context, MISUSED, "a value of row # is not finite", i / a->components);
     if (a->quality == BSMENC_RECOMPUTE && a->domain == BSMDEC_FACE)
         return FAIL(context, MISUSED, "normals of faces cannot be recomputed");
-    bool bits = a->quality == BSMENC_BITS;
-    bool bound = a->quality >= BSMENC_BOUND && a->quality <= BSMENC_ANGLE;
+    bool bits = a->quality == BSMENC_BITS, bound = a->quality >= BSMENC_BOUND && a->quality <= BSMENC_ANGLE;
     if (a->quality < BSMENC_DEFAULT || a->quality > BSMENC_OMIT
         || (bits && !(a->amount >= 1 && a->amount <= MOST_VALUE_BITS && a->amount == (double)(int)a->amount))
         || (bound && !(a->amount > 0.0 && is_finite(a->amount))))
@@ -141,9 +146,8 @@ static bool check_attributes(Encoder *encoder) {
     Context *context = &encoder->writer.context;
     const bsmenc_mesh *mesh = encoder->mesh;
     int64_t count = (int64_t)mesh->attribute_count;
-    if (count >= MOST_ATTRIBUTES) return FAIL(context, MISUSED, "a stream has # attributes at most, not #",
-        MOST_ATTRIBUTES - 1, count);
-    if (count > 0 && mesh->attributes == NULL) return FAIL(context, MISUSED, "mesh.attributes is NULL");
+    if (mesh->attribute_count >= MOST_ATTRIBUTES || (count > 0 && mesh->attributes == NULL))
+        return FAIL(context, MISUSED, "mesh.attributes is NULL, or they are more than #", MOST_ATTRIBUTES - 1);
     if (!TAKE(&encoder->writer.arena, count, encoder->attributes)
         || !TAKE_ZEROS(&encoder->writer.arena, count, encoder->carried))
         return false;
@@ -163,7 +167,7 @@ static bool check_attributes(Encoder *encoder) {
 
 bool check_mesh(Encoder *encoder) {
     return check_options(&encoder->writer.context, &encoder->options) && check_shape(encoder)
-        && check_metadata(&encoder->writer.context, encoder->mesh) && check_attributes(encoder);
+        && check_metadata(encoder) && check_attributes(encoder);
 }
 
 /* ---- After ---- */
@@ -230,13 +234,12 @@ static bool prove_shape(Proof *proof) {
 /* Whether a decoded value is as near to a given one as the outcome says. */
 static bool is_near(const bsmenc_attribute *a, const Quantized *q, int64_t row, const void *values, int64_t decoded) {
     double own[MOST_COMPONENTS], back[MOST_COMPONENTS];
-    bool whole = a->kind < BSMDEC_FLOAT32;
     for (int j = 0; j < a->components; j++) {
         own[j] = load_number(a->values, row * a->components + j, a->kind);
         back[j] = load_number(values, decoded * a->components + j, a->kind);
         if (q->outcome.bits > 0) continue;
-        double error = __builtin_fabs(own[j] - back[j]), slack = whole ? 0.0 : 1e-12 * (__builtin_fabs(own[j])
-            + q->outcome.error);
+        double error = __builtin_fabs(own[j] - back[j]), slack = 1e-12 * (__builtin_fabs(own[j]) + q->outcome.error);
+        if (a->kind < BSMDEC_FLOAT32) slack = 0.0;
         if (!(error <= q->outcome.error + (q->outcome.error > 0.0 ? slack : 0.0))) return false;
     }
     if (q->outcome.bits == 0) return true;

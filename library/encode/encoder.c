@@ -345,12 +345,9 @@ EXACTLY(bsmenc_status, bsmenc_encode,
     if (!sized) FAIL(context, MISUSED, "options.size is not sizeof(bsmenc_options)");
     if (!allocates) FAIL(context, MISUSED, "allocator.size is not sizeof(bsmdec_allocator), or a function is NULL");
     if (mesh == NULL || mesh->size != sizeof *mesh) FAIL(context, MISUSED, "mesh.size is not sizeof(bsmenc_mesh)");
-    if (!failed(context) && encode(encoder) && tell_outcomes(encoder)) {
-        encoder->stream.bytes = encoder->out.bytes.data;
-        encoder->stream.size = (size_t)encoder->out.bytes.size;
-    } else {
-        encoder->stream = (bsmenc_stream){0};
-    }
+    bool done = !failed(context) && encode(encoder) && tell_outcomes(encoder);
+    if (!done) encoder->stream = (bsmenc_stream){0};
+    else encoder->stream.bytes = encoder->out.bytes.data, encoder->stream.size = (size_t)encoder->out.bytes.size;
     encoder->stream.status = (bsmenc_status)context->error.status;
     encoder->stream.message = context->error.message;
     release_all(&encoder->writer.scratch);

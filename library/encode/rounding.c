@@ -12,8 +12,6 @@ static const double TENS[] = {1e-45, 1e-44, 1e-43, 1e-42, 1e-41, 1e-40, 1e-39, 1
     1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21,
     1e22, 1e23, 1e24, 1e25, 1e26, 1e27, 1e28, 1e29, 1e30, 1e31, 1e32, 1e33, 1e34, 1e35, 1e36, 1e37, 1e38};
 
-static bool is_finite(double value) { return value - value == 0.0; }
-
 /* The lowest and the highest coordinate of each axis; returns the longest side. */
 static double box_of(ConstDoubles2 positions, double *low, double *high) {
     double extent = 0.0;

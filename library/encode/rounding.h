@@ -3,6 +3,8 @@
 
 #include "library/encode/joining.h"
 
+INLINE bool is_finite(double value) { return value - value == 0.0; }
+
 /* Positions on a grid: place k of an axis is at origin + k * step. */
 typedef struct {
     double origin[3], step;

@@ -15,7 +15,9 @@ import bsm
 from bsm import Attribute, TriangleMesh
 from tests.library.conftest import linked
 from tests.shapes import soup, tetrahedron, torus
+from tools import bsmenc
 from tools.amalgamate import ROOT
+from tools.bsmdec import Entry
 from tools.bsmenc import CELLS, LOSSLESS, PROGRESS, STOPPED, UNREACHABLE, Allocator, compiled_whole, encode, library
 
 
@@ -52,24 +54,14 @@ def test_c_and_python_write_the_same_bytes(encoder, mesh, preset, keep):
     assert found.data == bsm.encode(mesh, preset=preset, keep_order=keep)
 
 
-@pytest.mark.parametrize(
-    ("name", "word", "amount", "text"),
-    [
-        ("heat", "bits", 9, "9bits"),
-        ("heat", "exact", 0, "exact"),
-        ("heat", "bound", 0.01, "0.01"),
-        ("heat", "share", 2.0, "2%"),
-        ("normal", "angle", 1.5, "1.5deg"),
-        ("normal", "recompute", 0, "recompute"),
-        ("normal", "none", 0, "none"),
-        ("color", "bits", 5, "5bits"),
-        ("color", "share", 3, "3%"),
-        ("uv", "bits", 27, "27bits"),
-    ],
-)
-def test_qualities_are_those_of_python(encoder, name, word, amount, text):
-    mesh = dressed(torus(20, 12))
-    found = encode(encoder, mesh, {name: (word, amount)}, bits=11)
+QUALITIES = "heat bits 9 9bits, heat exact 0 exact, heat bound .01 0.01, heat share 2 2%, normal angle 1.5 1.5deg, "
+QUALITIES += "normal recompute 0 recompute, normal none 0 none, color bits 5 5bits, color share 3 3%, uv bits 27 27bits"
+
+
+@pytest.mark.parametrize("quality", QUALITIES.split(", "))
+def test_qualities_are_those_of_python(encoder, quality):
+    mesh, (name, word, amount, text) = dressed(torus(20, 12)), quality.split()
+    found = encode(encoder, mesh, {name: (word, float(amount))}, bits=11)
     assert found.data == bsm.encode(mesh, grid=11, attributes={name: text}), found.message
 
 
@@ -142,11 +134,28 @@ def test_wrong_meshes_and_options_are_refused(encoder):
     assert "'heat'" in encode(encoder, mesh, {"heat": ("angle", 1.0)}).message
     far = TriangleMesh(mesh.positions + 1e7, mesh.faces)
     assert encode(encoder, far, positions=LOSSLESS).status == UNREACHABLE
-    wild = TriangleMesh(mesh.positions, mesh.faces)
-    wild.faces.flags.writeable or wild.faces.setflags(write=False)
-    broken = replace(wild, faces=wild.faces)
-    object.__setattr__(broken, "faces", np.where(wild.faces == 5, 63, wild.faces).astype(np.int32))
+    broken = replace(mesh)
+    object.__setattr__(broken, "faces", np.where(mesh.faces == 5, 63, mesh.faces).astype(np.int32))
     assert "vertex 63 of 63" in encode(encoder, broken).message
+
+
+def test_misuse_is_told(encoder):
+    positions, corners = np.eye(3), np.arange(3, dtype=np.uint32)
+    heat, long = (bsmenc.Given(name, 0, 0, 7, 1, 3, positions.ctypes.data) for name in (b"heat", b"x" * 256))
+    entries = [Entry(b"m%d" % number, 1, number) for number in range(40_000)]
+    for what, count, rows, words in (
+        *(("attribute", 2, (heat, heat), "two attributes have the name 'heat'"), ("attribute", 1, (long,), "1 to 255")),
+        *(("metadata", 40_001, (*entries, entries[7]), "the name 'm7'"), ("attribute", 2**64 - 1, (heat,), "255")),
+        *(("metadata", 1, (Entry(long.name, 1),), "short name"), ("metadata", 2**64 - 1, entries, "too long")),
+        *((what, 1, (), "is NULL") for what in ("attribute", "metadata")),
+    ):
+        mesh = bsmenc.Mesh(ctypes.sizeof(bsmenc.Mesh), 3, 1, positions.ctypes.data, None, corners.ctypes.data)
+        kept = (type(rows[0]) * len(rows))(*rows) if rows else None
+        setattr(mesh, f"{what}_count", count)
+        setattr(mesh, what.replace("bute", "butes"), kept and ctypes.addressof(kept))
+        found = bsmenc.run(encoder, mesh, bsmenc.Options(ctypes.sizeof(bsmenc.Options)))
+        assert found.status == 2 and words in found.message
+    assert encoder.bsmenc_encode(ctypes.byref(mesh), None, None) == 2
 
 
 def test_progress_ascends_and_can_stop(encoder):

@@ -100,7 +100,7 @@ def _read_there(asked: dict[str, Any], limits: Limits, kind: str) -> Any:
     asked["limits"] = asdict(limits)
     asked["memory"] = int(min(limits.memory_for(limits.vertices, size), 1 << 40))
     seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
-    asked["seconds"] = _least(seconds, max(resource.getrlimit(resource.RLIMIT_CPU)[0] - 1, -1))
+    asked["seconds"] = max(1, _least(seconds, max(resource.getrlimit(resource.RLIMIT_CPU)[0] - 1, -1)))
     asked["closed"] = lack() is None
     data = asked.pop("data", b"")
     question = json.dumps(asked).encode()
@@ -238,9 +238,10 @@ def _watch(answer: int, memory: int, seconds: int) -> None:
             for file in (answer, words, said):
                 os.close(file)
             _read(memory)
-        signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGALRM))
+        signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGKILL))
         signal.alarm(seconds)
         _, status, used = os.wait4(child, 0)
+        status = status if signal.alarm(0) else signal.SIGALRM  # for a child may stop itself, or ignore that signal
         with suppress(ProcessLookupError):
             os.killpg(child, signal.SIGKILL)
         last = b""

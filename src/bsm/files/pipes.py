@@ -308,6 +308,8 @@ class Input:
         read = getattr(self._file, "read1", self._file.read)
         with _errors_of(self.name) if self._opened and is_url(self.name) else nullcontext():
             piece = read(_CHUNK)
+        if piece is None:
+            raise BlockingIOError(errno.EAGAIN, "the file has no bytes yet, and does not wait for them", self.name)
         if isinstance(piece, str):
             raise errors.ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
         if not piece:

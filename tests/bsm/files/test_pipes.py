@@ -76,6 +76,13 @@ def test_too_much_is_refused(monkeypatch):
         read_bytes(DATA)
 
 
+def test_a_file_that_does_not_wait_is_not_at_its_end():
+    reading, writing = os.pipe()
+    os.set_blocking(reading, False)
+    with open(writing, "wb"), open(reading, "rb", buffering=0) as file, pytest.raises(BlockingIOError):
+        read_bytes(file)
+
+
 def test_what_is_a_pipe(tmp_path):
     os.mkfifo(tmp_path / "fifo")
     (tmp_path / "file").write_bytes(b"")
@@ -100,12 +107,7 @@ def test_the_command_line_takes_what_a_shell_gives(line, tmp_path):
     os.mkfifo(tmp_path / "fifo.ply")
     program = f'bsm() {{ "{sys.executable}" -m bsm "$@"; }}\n'
     feed = "cat in.ply > fifo.ply &\n" if "fifo.ply" in line else ""
-    done = subprocess.run(
-        ["bash", "-c", program + feed + line.replace("encode", "encode --grid 8")],
-        cwd=tmp_path,
-        capture_output=True,
-        timeout=120,
-        check=True,
-    )
+    command = ["bash", "-c", program + feed + line.replace("encode", "encode --grid 8")]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=120, check=True)
     assert b"Traceback" not in done.stderr
     assert len(read_mesh(tmp_path / "out.ply").mesh.faces) == len(read_mesh(tmp_path / "in.ply").mesh.faces)

@@ -154,7 +154,7 @@ def test_an_npz_of_too_many_vertices(tmp_path):
         open_sequence(str(tmp_path / "a.npz"), limits=Limits(vertices=999))
 
 
-LARGE = (*("ply, quads of bytes", "ply, long polygons of bytes", "glb, accessors of no bytes"),)
+LARGE = "ply, quads of bytes", "ply, long polygons of bytes", "glb, accessors of no bytes"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
@@ -228,8 +228,7 @@ def test_what_gzip_has_compressed_is_bounded():
 
 
 def test_gzip_of_several_members():
-    mesh = torus(6, 6)
-    text = written_mesh(mesh, "obj").data
+    text = written_mesh(torus(6, 6), "obj").data
     both = gzip.compress(text[:100]) + gzip.compress(text[100:]) + bytes(10)
     assert gunzipped(both, Limits()) == text
     with pytest.raises(TruncatedError):
@@ -268,8 +267,7 @@ def test_an_obj_is_known_by_its_content():
     assert format_of_bytes(b"vt 0 0\n") is None
 
 
-SECONDS = 10
-BYTES = 1 << 30
+SECONDS, BYTES = 10, 1 << 30
 PROGRAM = f"""
 import json, os, signal, sys
 from bsm.bitstream.errors import BsmError
