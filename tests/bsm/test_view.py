@@ -795,28 +795,11 @@ def essence(event: Any) -> list[Any]:
     return [type(event).__name__.removesuffix("Event").lower()]
 
 
+STILL = "labels keys layer-chunks refined grid-chunks smoothing splits-seams attribute-colors attribute-split skippable"
+MOVING = ("overlap", "learnt", "low-delay", "runs", "runs-low-delay", "runs-many")
 DAMAGED = {
-    bsm.Decoder: [
-        "labels",
-        "keys",
-        "layer-chunks",
-        "refined",
-        "grid-chunks",
-        "smoothing",
-        "splits-seams",
-        "attribute-colors",
-        "attribute-uv-blocks",
-        "attribute-split",
-        "skippable",
-    ],
-    bsm.SequenceDecoder: [
-        "sequence-overlap",
-        "sequence-learnt",
-        "sequence-low-delay",
-        "sequence-runs",
-        "sequence-runs-low-delay",
-        "sequence-runs-many",
-    ],
+    bsm.Decoder: [*STILL.split(), "attribute-uv-blocks"],
+    bsm.SequenceDecoder: [f"sequence-{name}" for name in MOVING],
 }
 
 
