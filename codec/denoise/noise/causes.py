@@ -7,7 +7,6 @@ line.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
@@ -22,13 +21,6 @@ SAME = 1e-6  # values closer together, as a share of the extent, are one value
 SPREADS = 3  # averagings that part vertices that rounding has merged
 
 FEW_VALUES = 4  # of a coordinate that lies on half-cells
-
-
-class Confines(Protocol):
-    """Where a vertex may be."""
-
-    def within(self, given: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back to where those that were `given` may be."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,3 +122,7 @@ class Reach:
             way = along + across / (1.0 + np.linalg.norm(across, axis=1, keepdims=True) / (ASIDE * level))
         far = np.linalg.norm(way, axis=1, keepdims=True) / (FARTHEST * level)
         return np.asarray(given + way / np.maximum(far, 1.0))
+
+
+Confines = Spacing | Box | Reach
+"""Where a vertex may be: `within` brings moved positions, shape (n, 3), back to where those that were given may be."""

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bsm.codec.arrays import Floats, Mask, Positions
-from bsm.codec.denoise.noise.causes import Box, find_grid
+from bsm.codec.denoise.noise.causes import Box, Spacing, find_grid
 from bsm.codec.denoise.noise.finding import Evidence, Finding, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
@@ -123,7 +123,7 @@ def _cells(positions: Positions, probe: Probe, edge: float) -> Finding | None:
     if cells.thin > ONE_CELL:
         reason = "its walls are one cell of a binary volume thick, too thin to tell their shape"
         return Finding("none", 0.0, np.zeros(len(positions)), edge, reason, bound=cells)
-    levels = cells.levels(probe.smooth_normals(positions))
+    levels = Spacing(cells.steps).levels(probe.smooth_normals(positions) @ cells.frame.T)
     sizes = " x ".join(f"{step:.3g}" for step in cells.steps)
     where = "x, y and z" if np.array_equal(cells.frame, np.eye(3)) else "axes of its own"
     reason = f"stairs along {where} of a binary volume of cells of {sizes}; no vertex leaves its half-cell"

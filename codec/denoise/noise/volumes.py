@@ -40,10 +40,6 @@ class Cells(Box):
         """The largest step over the smallest, those of slices of many cells included."""
         return float(self.steps.max() / self.steps.min())
 
-    def levels(self, normals: Floats) -> Floats:
-        """Standard deviation along normals, shape (n, 3), of what sampling takes away or adds, shape (n,)."""
-        return np.asarray(np.sqrt(np.square(normals @ self.frame.T * self.steps).sum(axis=1) / 12.0))
-
     def flattened(self, positions: Positions, topology: Topology) -> Positions:
         """The surface of fewest bends within the bounds, shape (n, 3)."""
         bends = (sparse.identity(topology.n, format="csr") - Probe(topology).average).tocsr()
