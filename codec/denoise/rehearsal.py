@@ -26,7 +26,9 @@ GAIN = 1.01  # members join while the error stays below this multiple: several m
 EASIER = {"none": 1.0, "learnt": 0.93, "flat": 0.95}
 """What errors after a finish, in turn, count: true shapes have less noise, and more detail, than guesses."""
 SEED = 1
-FINE_SHAPE = 1.3  # finest frequencies of steadied frames over their noise, from which on they hold detail of the shape
+FINE_SHAPE, FILTERED = 1.3, 0.6
+"""Finest frequencies of steadied frames over their noise, from which on they hold detail of the shape; and the share of
+an iteration in the guess at other frames."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """Roughness that a guess loses (a logarithm, within bounds), and the factor by which the mesh has lost more."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
@@ -88,9 +90,11 @@ class Rehearsal:
         self._mesh, self._surface, self._topology, self._goal = given, surface, surface.topology, goal
         self._finding, self._level, self._touched = finding, level, finding.levels > 0.0
         self._synthesis = Synthesis(finding, surface.probe, level.tangential)
-        if finding.kind == "unsteady" and level.normal > FINE_SHAPE * finding.level:
-            # Little noise is left, so the guess has the detail of the shape.
-            self._rehearse(given.given, SEED)
+        if finding.kind == "unsteady":
+            # Little noise is left. A guess without any has lost detail, and one with all of it asks for no filter.
+            once = self._within(next(islice(given.iterates(base), 1, None)), given.given)
+            share = 0.0 if level.normal > FINE_SHAPE * finding.level else FILTERED
+            self._rehearse(given.given + share * (once - given.given), SEED)
             return
         iterations = 1
         for done, guess in enumerate(given.iterates(base)):
