@@ -34,7 +34,7 @@ CONTEXT = re.compile(r"\b(Context|Arena) \*")
 LIMITS = {
     "codec proper, lines": 36_607,
     "rest of the product, lines": 31_463,
-    "tests, lines": 30_985,
+    "tests, lines": 30_977,
     "tools, lines": 17_593,
     "tuned constants of the search": 55,
     "kernels driven by both Python and C": 20,
