@@ -6,6 +6,7 @@ conventions asks for (`src/bsm/files/conventions.py`). Expected values are compu
 
 import importlib
 import json
+import re
 import subprocess
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -16,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 import bsm
-from bsm.files.formats.metadata import face_numbers, materials_in
+from bsm.files.formats.metadata import face_numbers, images_in, materials_in
 from bsm.files.mesh import write_mesh
 from bsm.files.motion.frames import Shared
 from bsm.files.sequence import sequence_writer
@@ -26,6 +27,8 @@ Array = npt.NDArray[Any]
 WEB = Path(__file__).parents[2] / "web"
 START, RATE = 48.0, 24.0
 UP = {"x": 0, "y": 1, "z": 2}
+OF_USD = 6  # numbers of a row of surfaces that USD has of its own
+SHOWN = rb"\x89PNG|\xff\xd8\xff|RIFF....WEBP"  # images that GLB holds
 NEAR = 2e-3  # relative, for sizes and colors
 THREE = """
 import { readFileSync } from "node:fs";
@@ -44,8 +47,9 @@ for (const path of process.argv.slice(1)) {
         const surfaces = [], low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
         gltf.scene.traverse((node) => {
             if (!node.isMesh) return;
-            const { color, opacity, transparent } = node.material;
-            surfaces.push([...color.toArray(), transparent ? opacity : 1]);
+            const { color, opacity, transparent, metalness, roughness, side, map, normalMap } = node.material;
+            const sets = [map, normalMap].map((image) => (image ? 1 + image.channel : 0));
+            surfaces.push([...color.toArray(), transparent ? opacity : 1, metalness, roughness, side ? 1 : 0, ...sets]);
             const shades = node.geometry.attributes.color;
             for (let row = 0; row < (shades ? shades.count : 0); row++)
                 for (let axis = 0; axis < 3; axis++) {
@@ -68,7 +72,7 @@ for (const path of process.argv.slice(1)) {
 
 @dataclass
 class Seen:
-    """Extents in meters and the axis that is up; colors and opacities of surfaces; ends of colors of vertices."""
+    """Extents in meters and the axis that is up; rows of surfaces (as of `_surface`); ends of colors of vertices."""
 
     extents: Array
     up: int
@@ -85,7 +89,11 @@ class Seen:
             ("height in meters", self.extents[self.up], wanted.extents[wanted.up]),
             ("width", np.sort(np.delete(self.extents, self.up)), np.sort(np.delete(wanted.extents, wanted.up))),
             ("colors of vertices", self.shades, wanted.shades),
-            ("colors and opacity of materials", _rows(self.surfaces), _rows(wanted.surfaces)),
+            (
+                "colors, opacity, metal, roughness, sides and images of materials",
+                _rows(self.surfaces),
+                _rows(wanted.surfaces),
+            ),
         )
         size = float(wanted.extents.max(initial=0.0))
         for what, own, other in compared:
@@ -98,7 +106,7 @@ class Seen:
 
 
 def _rows(surfaces: Array) -> Array:
-    return np.unique(np.round(np.reshape(surfaces, (-1, 4)), 3), axis=0)
+    return np.unique(np.round(np.atleast_2d(surfaces), 3), axis=0)
 
 
 def _linear(color: Sequence[float]) -> list[float]:
@@ -117,7 +125,8 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
     color = next((a for a in shown if a.semantic == "color"), None)
     bright = next((a for a in shown if a.name == "color" and a.values.dtype == np.float32), None)  # above 1, and linear
     kinds = materials_in(mesh.metadata)
-    surfaces = np.array([_surface(kinds.get(number, {})) for number in used])
+    images = {number for number, (_, data) in images_in(mesh.metadata).items() if re.match(SHOWN, data, re.DOTALL)}
+    surfaces = np.array([_surface(kinds.get(number, {}), images)[: OF_USD if faces else None] for number in used])
     shades = np.zeros(0)
     if color is None and bright is not None and bright.domain == "vertex":
         values = bright.values[np.unique(mesh.faces), :3]
@@ -135,27 +144,33 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
     )
 
 
-def _surface(words: dict[str, Any]) -> list[float]:
-    numbers = {
-        name: [float(word) for word in str(words[name]).removeprefix("-halo").split()]
-        for name in ("Kd", "d", "Tr", "baseColorFactor")
-        if name in words
-    }
+def _surface(words: dict[str, Any], images: set[int]) -> list[float]:
+    """Color, opacity, metal, roughness, double sides, and one more than the set of the images of color and normals."""
+    known = ["Kd", "d", "Tr", "Pm", "Pr", "baseColorFactor", "metallicFactor", "roughnessFactor"]
+    numbers = {n: [float(word) for word in str(words[n]).removeprefix("-halo").split()] for n in known if n in words}
+    of_mtl = not words or any(re.match("[A-Z][a-z]|Tf|d$|illum|map_|norm$|bump", name) for name in words)
+    both = "map_Pr" in words and words.get("map_Pm") == words["map_Pr"]
+    metal = numbers.get("metallicFactor", numbers.get("Pm", [float(both or not of_mtl)]))
+    rough = numbers.get("roughnessFactor", numbers.get("Pr", [1.0 if words else 0.9]))
+    maps = (("baseColorTexture", "map_Kd"), ("normalTexture", "norm", "map_Bump"))
+    sets = [float(any(words.get(name, -1) in images for name in names)) for names in maps]
+    rest = [*np.clip([*metal, *rough], 0.0, 1.0).tolist(), float(bool(words.get("doubleSided"))), *sets]
     if "baseColorFactor" in numbers:
         *color, opacity = numbers["baseColorFactor"]
-        return [*color, opacity if words.get("alphaMode", "BLEND") == "BLEND" else 1.0]
+        return [*color, opacity if words.get("alphaMode", "BLEND") == "BLEND" else 1.0, *rest]
     opacity = numbers["d"][0] if "d" in numbers else 1 - numbers["Tr"][0] if "Tr" in numbers else 1.0
-    return [*_linear(numbers.get("Kd", [1.0] * 3)), min(max(opacity, 0.0), 1.0)]
+    black = "map_Kd" in words and not any(numbers.get("Kd", [1.0]))  # as some write where an image has the colors
+    color = [1.0] * 3 if black else numbers.get("Kd", [1.0] * 3)
+    return [*np.clip(_linear(color), 0.0, 1.0).tolist(), min(max(opacity, 0.0), 1.0), *rest]
 
 
 def by_three(paths: Sequence[Path]) -> list[Seen]:
     command = ["node", "--input-type=module", "-e", THREE, *map(str, paths)]
     found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
-    lines = map(json.loads, found.splitlines())
     return [
         Seen(np.zeros(3), 1, np.zeros(0), np.zeros(0), None, line["error"]) if "error" in line
         else Seen(np.array(line["extents"]), 1, np.array(line["surfaces"]), np.array(line["shades"]), line["start"])
-        for line in lines
+        for line in map(json.loads, found.splitlines())
     ]  # fmt: skip
 
 
@@ -172,7 +187,8 @@ def by_usd(path: Path) -> Seen:
             color, opacity = (
                 value.Get() if value and not value.HasConnectedSource() else None for value in given.values()
             )
-            surfaces.append([*(color or [1.0] * 3), 1.0 if opacity is None else opacity])
+            rough = [surface.GetInput(name).Get() for name in ("metallic", "roughness")]
+            surfaces.append([*(color or [1.0] * 3), 1.0 if opacity is None else opacity, *rough])
         elif prim.IsA(geom.Mesh) and (var := geom.Mesh(prim).GetDisplayColorPrimvar()) and var.HasValue():
             values = np.array(var.ComputeFlattened(code))
             shades = np.array([values.min(axis=0), values.max(axis=0)])
@@ -212,13 +228,14 @@ class Acts:
             seen = by_usd(path)
             wanted = wanted_of(mesh, faces=True)
             near = [
-                (np.abs(wanted.surfaces - row).max(axis=1) < NEAR).any() for row in np.reshape(seen.surfaces, (-1, 4))
+                (np.abs(wanted.surfaces - row).max(axis=1) < NEAR).any()
+                for row in np.reshape(seen.surfaces, (-1, OF_USD))
             ]
             seen.surfaces = seen.surfaces[near] if any(near) else seen.surfaces  # it also has those that no face has
             numbers, kinds = face_numbers(mesh, "material"), materials_in(mesh.metadata)
             if not all(map(kinds.get, [0] if numbers is None else np.unique(numbers.values).tolist())):
-                white = np.ones((1, 4))  # faces without a material
-                seen.surfaces = np.concatenate([np.reshape(seen.surfaces, (-1, 4)), white])
+                bare = np.array([_surface({}, set())[:OF_USD]])  # faces without a material
+                seen.surfaces = np.concatenate([np.reshape(seen.surfaces, (-1, OF_USD)), bare])
             yield from ((f"{name}, usdc", what) for what in seen.differences(wanted, moving=True))
             path.unlink()
 

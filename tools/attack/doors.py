@@ -1,7 +1,7 @@
 """`python -m tools.attack doors`: do others read in a file what comes back from a stream of it?
 
 Each file is read, encoded with `lossless` (or `grid14`, where single precision is too coarse), decoded and compared
-with what trimesh, meshio, PyMeshLab, Open3D and usd-core read: area, orientation, places, colors, texture coordinates
+with what trimesh, meshio, PyMeshLab and usd-core read: area, orientation, places, colors, texture coordinates
 and normals as moments, which do not depend on the order of faces; the number of triangles; and names of materials.
 The polygons of OBJ, OFF and USD are also read here. Their area vectors do not depend on the cut, and if ours are the
 same, another reader's triangles are not a finding. Polygons that are not flat, and quads whose edges cross, have a
@@ -167,17 +167,6 @@ def of_pymeshlab(path: Path) -> Read:
     return Read(np.concatenate(triangles), whole)
 
 
-def of_open3d(path: Path) -> Read:
-    library = imported("open3d", "files are compared with Open3D (pip install open3d)", "")
-    mesh = library.io.read_triangle_mesh(str(path))
-    faces, values = np.asarray(mesh.triangles), dict[str, Array]()
-    if mesh.has_vertex_colors():
-        values["color"] = np.asarray(mesh.vertex_colors)[faces]
-    if mesh.has_triangle_uvs():
-        values["texcoord"] = np.asarray(mesh.triangle_uvs).reshape(-1, 3, 2)
-    return Read(np.asarray(mesh.vertices)[faces], values)
-
-
 def of_polygons(points: Array, sizes: Sequence[int], corners: Array) -> Read:
     """Cut polygons into fans from their first corners; a fan's area vectors add up to the polygon's in any cut."""
     counts, corners = np.asarray(sizes, np.int64), np.asarray(corners, np.int64)
@@ -264,7 +253,6 @@ def of_usd(path: Path) -> Read:
 OTHERS: dict[str, tuple[Callable[[Path], Read], tuple[str, ...]]] = {
     "trimesh": (of_trimesh, ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf")),
     "meshio": (of_meshio, ("ply", "obj", "stl", "off", "vtp")),
-    "open3d": (of_open3d, ("ply", "stl", "off")),
     "pymeshlab": (of_pymeshlab, ("ply", "obj", "stl", "off", "dae", "3mf")),
     "usd": (of_usd, USD),
     "off polygons": (of_off, ("off",)),
@@ -461,7 +449,7 @@ def main() -> NoReturn:
     )
     parser.add_argument("--packages", nargs="*", metavar="NAME", help="files of packages of doors.json (default: all)")
     parser.add_argument("--each", type=int, default=0, metavar="N", help="about N files of each package only")
-    parser.add_argument("--readers", nargs="+", choices=OTHERS, default=list(OTHERS), help="who is compared with")
+    parser.add_argument("--readers", nargs="*", choices=OTHERS, default=list(OTHERS), help="who is compared with")
     parser.add_argument(
         "--scenes", nargs="+", type=Path, metavar="FOLDER", help="rewrite the scenes there, and count new errors"
     )
@@ -479,8 +467,7 @@ def main() -> NoReturn:
     acts = Acts(Path(written.name))
 
     def wrong(found: Iterator[tuple[str, str]]) -> int:
-        said = [f"{name}: {difference}" for name, difference in found]
-        said = [text for text in said if not any(key in text for key in explained)]
+        said = [text for text in (f"{n}: {d}" for n, d in found) if not any(key in text for key in explained)]
         print("\n".join(said), end="\n" * bool(said), flush=True)
         return len(said)
 
