@@ -89,11 +89,7 @@ class Seen:
             ("height in meters", self.extents[self.up], wanted.extents[wanted.up]),
             ("width", np.sort(np.delete(self.extents, self.up)), np.sort(np.delete(wanted.extents, wanted.up))),
             ("colors of vertices", self.shades, wanted.shades),
-            (
-                "colors, opacity, metal, roughness, sides and images of materials",
-                _rows(self.surfaces),
-                _rows(wanted.surfaces),
-            ),
+            ("looks of materials", _rows(self.surfaces), _rows(wanted.surfaces)),
         )
         size = float(wanted.extents.max(initial=0.0))
         for what, own, other in compared:
@@ -148,10 +144,11 @@ def _surface(words: dict[str, Any], images: set[int]) -> list[float]:
     """Color, opacity, metal, roughness, double sides, and one more than the set of the images of color and normals."""
     known = ["Kd", "d", "Tr", "Pm", "Pr", "baseColorFactor", "metallicFactor", "roughnessFactor"]
     numbers = {n: [float(word) for word in str(words[n]).removeprefix("-halo").split()] for n in known if n in words}
-    of_mtl = not words or any(re.match("[A-Z][a-z]|Tf|d$|illum|map_|norm$|bump", name) for name in words)
+    of_gltf = any(re.match("name|base|metal|rough|emissive|normalT|occl|alpha|double", name) for name in words)
+    of_mtl = any(re.match("[A-Z][a-z]|d$|illum|map_|norm$|bump", name) for name in words)
     both = "map_Pr" in words and words.get("map_Pm") == words["map_Pr"]
-    metal = numbers.get("metallicFactor", numbers.get("Pm", [float(both or not of_mtl)]))
-    rough = numbers.get("roughnessFactor", numbers.get("Pr", [1.0 if words else 0.9]))
+    metal = numbers.get("metallicFactor", numbers.get("Pm", [float(both or (of_gltf and not of_mtl))]))
+    rough = numbers.get("roughnessFactor", numbers.get("Pr", [1.0 if of_gltf or of_mtl else 0.9]))
     maps = (("baseColorTexture", "map_Kd"), ("normalTexture", "norm", "map_Bump"))
     sets = [float(any(words.get(name, -1) in images for name in names)) for names in maps]
     rest = [*np.clip([*metal, *rough], 0.0, 1.0).tolist(), float(bool(words.get("doubleSided"))), *sets]
@@ -183,11 +180,9 @@ def by_usd(path: Path) -> Seen:
     for prim in stage.Traverse():
         if prim.IsA(shade.Material):
             surface = shade.Material(prim).ComputeSurfaceSource()[0]
-            given = {name: surface.GetInput(name) for name in ("diffuseColor", "opacity")}
-            color, opacity = (
-                value.Get() if value and not value.HasConnectedSource() else None for value in given.values()
-            )
-            rough = [surface.GetInput(name).Get() for name in ("metallic", "roughness")]
+            given = map(surface.GetInput, ("diffuseColor", "opacity", "metallic", "roughness"))
+            said = (value.Get() if value and not value.HasConnectedSource() else None for value in given)
+            color, opacity, *rough = said
             surfaces.append([*(color or [1.0] * 3), 1.0 if opacity is None else opacity, *rough])
         elif prim.IsA(geom.Mesh) and (var := geom.Mesh(prim).GetDisplayColorPrimvar()) and var.HasValue():
             values = np.array(var.ComputeFlattened(code))
