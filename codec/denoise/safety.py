@@ -18,7 +18,7 @@ MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, 
 FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
 """Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
-NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.15, 12.0, 0.4
+NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.15, 20.0, 0.4
 """How far its level is above that in the finest frequencies without detail, by two estimates; the share of movements
 that is not made for each unit more, and the largest one."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
