@@ -124,7 +124,7 @@ function checkPriors(clang, object, priors, target) {
 }
 
 /** Sources of what takes most time, which are compiled for speed, and not for their size alone; vectors that they do not ask for make them slower. */
-const FAST = /basis\/cholesky|codec\/blocks|conquest|fields\/(layer|expectation|grid)|payloads\/coding/;
+const FAST = /basis\/cholesky|codec\/blocks|conquest|fields\/(layer|expectation|grid)/;
 const SPEED = ["-fno-vectorize", "-fno-slp-vectorize"];
 
 /** Sources that stay apart when the rest is optimized as one: what runs WebAssembly compiles smaller functions sooner. */
