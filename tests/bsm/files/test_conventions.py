@@ -90,15 +90,15 @@ def test_a_unit_that_is_unknown_is_kept_and_changes_no_size():
     [
         ({"Kd": "0 1 0", "d": "0.3"}, 0.3, "BLEND"),
         ({"Tr": "0.7"}, 0.3, "BLEND"),
-        ({"Kd": "0 1 0"}, 1.0, "OPAQUE"),
+        ({"technique": "0"}, 1.0, "OPAQUE"),
         ({"map_Kd": 0, "map_d": 0}, 1.0, "BLEND"),
         ({"Kd": "1 1 1", "map_d": 0}, 1.0, "OPAQUE"),
         ({"baseColorFactor": "1 1 1 0.5", "alphaMode": "OPAQUE"}, 0.5, "OPAQUE"),
     ],
 )
-def test_opacity_acts(words, opacity, mode):
+def test_opacity_acts_and_only_gltf_is_metal_by_default(words, opacity, mode):
     look = appearance(words)
-    assert (look.mode, look.opacity) == (mode, pytest.approx(opacity))
+    assert (look.mode, look.opacity, look.metallic) == (mode, pytest.approx(opacity), "baseColorFactor" in words)
 
 
 def test_colors_of_materials_are_linear_in_gltf_and_srgb_in_mtl():

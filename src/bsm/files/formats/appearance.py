@@ -122,6 +122,8 @@ def appearance(words: Material) -> Appearance:
         said["map_d"] = ("mode",)
     if found.get("opacity", 1.0) < 1 or "map_d" in said:
         found.setdefault("mode", "BLEND")
+    if not said:
+        found |= {"metallic": 0.0, "roughness": 0.9}  # matte, as in files without a material
     return Appearance(**found, said=said)
 
 
