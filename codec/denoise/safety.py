@@ -18,9 +18,9 @@ MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, 
 FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
 """Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
-NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.15, 20.0, 0.4
-"""How far its level is above that in the finest frequencies without detail, by two estimates; the share of movements
-that is not made for each unit more, and the largest one."""
+NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4
+"""Its level over that in the finest frequencies without detail, the share of movements that is not made for each unit
+more, and the largest one."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
@@ -58,6 +58,5 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
 
 def restraint(finding: Finding, finest: float) -> float:
     """How much of a movement to make where white noise, of this level in the finest frequencies, may hold detail."""
-    # One estimate alone takes sharp edges of a few thousand vertices for detail.
-    excess = finding.level / finest + 1.0 / finding.whiteness - 2.0 - NOISE_ALONE if finest > 0.0 else 0.0
+    excess = finding.level / finest - NOISE_ALONE if finest > 0.0 else 0.0
     return 1.0 - min(max(DETAIL_SLOPE * excess, 0.0), DETAIL_MOST)

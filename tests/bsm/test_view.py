@@ -143,7 +143,7 @@ def test_server_has_the_page_and_its_streams():
     with viewed(str(stream), str(stream)) as address:
         answer = urllib.request.urlopen(address)
         page = answer.read().decode()
-        script = page.rpartition('<script type="module">')[2].rpartition("</script>")[0]
+        script = page.partition('<script type="module">')[2].rpartition("</script>")[0]
         digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
         assert f"'sha256-{digest}'" in answer.headers["Content-Security-Policy"]
         assert answer.headers["X-Frame-Options"] == "DENY"

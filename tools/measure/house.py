@@ -33,9 +33,9 @@ CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
     "codec proper, lines": 36_607,
-    "rest of the product, lines": 31_463,
+    "rest of the product, lines": 31_457,
     "tests, lines": 30_977,
-    "tools, lines": 17_593,
+    "tools, lines": 17_592,
     "tuned constants of the search": 55,
     "kernels driven by both Python and C": 20,
 }

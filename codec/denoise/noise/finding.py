@@ -104,9 +104,7 @@ class Evidence:
 
     def whiteness(self, windows: Mask) -> float:
         """Level of the finest frequencies over the fine ones: 1 for white noise, less if neighbors share it."""
-        half = int(windows.sum()) // 2 + 1  # the mean of the calm half varies less than any quantile does
-        finest, fine = (float(np.sort(levels[windows])[:half].mean()) for levels in (self.finest, self.levels))
-        return finest / max(fine, 1e-9)
+        return float(np.quantile(self.finest[windows], 0.25) / max(np.quantile(self.levels[windows], 0.25), 1e-9))
 
     def residuals(self, windows: Mask) -> Floats:
         """Values of counted vertices of these windows over the levels there."""
