@@ -45,7 +45,7 @@ def packets_of(data: bytes, kind: type = object) -> list[tuple[Any, int, int]]:
 
 
 def frame_ends(data: bytes) -> list[int]:
-    """Offsets behind the preamble and behind every frame."""
+    """Return where the preamble ends, and where each frame does, in bytes."""
     return [5, *(span.offset + span.length for _, span in scan(data))]
 
 

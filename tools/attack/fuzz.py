@@ -154,7 +154,7 @@ def work() -> None:
     refuse_other_kernels()
     name = sys.argv[1]
     target = TARGETS[name]
-    for data in seeds(name):  # loads what is imported late
+    for data in seeds(name):  # so that nothing is imported while the fuzzer counts
         run(target, data)
     instrument()
 
