@@ -52,10 +52,16 @@ def torus(rows: int = 40, columns: int = 24, bumps: float = 0.05) -> TriangleMes
 
 
 def ply_head(
-    vertices: int = 3, faces: int = 1, order: str = "ascii", more: str = "", corners: str = "uchar int", last: str = ""
+    vertices: int = 3,
+    faces: int = 1,
+    order: str = "ascii",
+    more: str = "",
+    corners: str = "uchar int",
+    last: str = "",
+    kind: str = "float",
 ) -> str:
     """The header of a PLY with x, y and z, more lines for vertices, and last ones for faces."""
-    axes = "".join(f"property float {axis}\n" for axis in "xyz")
+    axes = "".join(f"property {kind} {axis}\n" for axis in "xyz")
     rows = f"element face {faces}\nproperty list {corners} vertex_indices\n{last}end_header\n"
     return f"ply\nformat {order} 1.0\nelement vertex {vertices}\n{axes}{more}{rows}"
 

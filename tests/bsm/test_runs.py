@@ -12,6 +12,7 @@ from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
 from tests.bsm.program import run
+from tests.gltf import unpack
 from tests.motion import capture
 from tests.shapes import ply_head
 from tools.vectors.meshes import torus
@@ -86,8 +87,7 @@ def test_caches_are_a_series(stream, tmp_path, kind):
 def test_meshes_of_a_glb_take_turns(stream, tmp_path):
     """Each frame shows its own mesh, as a player of glTF evaluates scales and weights."""
     assert run("decode", stream, "-o", tmp_path / "a.glb") == 0
-    data = (tmp_path / "a.glb").read_bytes()
-    tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    tree, _ = unpack((tmp_path / "a.glb").read_bytes())
     assert [len(mesh["primitives"][0]["targets"]) for mesh in tree["meshes"]] == [count - 1 for _, count in PIECES]
     source = open_sequence(str(tmp_path / "a.glb"), wanted=Wanted(animation="frames", rate=24.0))
     ends = np.cumsum([0, *(len(torus(size, 6).positions) for size, _ in PIECES)])

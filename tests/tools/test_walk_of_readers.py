@@ -14,10 +14,11 @@ from bsm import Limits
 from bsm.files.isolation import lack
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.files.table import MESH_FORMATS
+from tests.gltf import unpack
 from tools.attack.calls import recorded
 from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth
-from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up, written
+from tools.attack.readers import Case, Sample, _grown, numbers, problems, read_all, samples, warm_up, written
 from tools.attack.taken import Taken
 from tools.attack.uses import cases, of_size, uses
 
@@ -94,7 +95,7 @@ def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
     for sample in (_grown(1 << 17)["glb, a chain of nodes"](), of_size(USES["glb, materials"], 1 << 17)):
         (tmp_path / "a.glb").write_bytes(sample.data)
         assert "read" in read_all(tmp_path / "a.glb", Limits()).outcome
-    tree = _json_of(samples()["glb"].data)
+    tree = unpack(samples()["glb"].data)[0]
     tree["accessors"][0]["count"] = 10**400
     (tmp_path / "a.gltf").write_text(json.dumps(tree))
     assert "Error: " in read_all(tmp_path / "a.gltf", Limits()).outcome

@@ -9,7 +9,6 @@ what decoding takes; whatever comes out must be a mesh or an error of ours.
 from __future__ import annotations
 
 import argparse
-import base64
 import gzip
 import importlib
 import io
@@ -37,9 +36,11 @@ from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import read_mesh, written_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
+from tests.gltf import Built, Tree, glb, unpack
+from tests.shapes import ply_head
 from tools.attack.taken import Taken, bounds, taken_by_each
 from tools.vectors.good_attributes import charts, colors, groups, with_attributes
-from tools.vectors.meshes import torus
+from tools.vectors.meshes import patch, torus
 
 HUGE_WORDS = (b"2147483647", b"999999999999999999", b"9" * 400, b"-1", b"1e300")
 HUGE_BYTES = tuple(
@@ -58,7 +59,6 @@ class Sample:
     beside: tuple[tuple[str, bytes], ...] = ()
 
 
-Tree = dict[str, Any]
 Change = Callable[[Tree], None]
 DATA_URI = "data:application/octet-stream;base64,"
 
@@ -90,40 +90,46 @@ def _written(kind: str) -> bytes:
         return Path(path).read_bytes()
 
 
-def _json_of(glb: bytes) -> dict[str, Any]:
-    tree: dict[str, Any] = json.loads(glb[20 : 20 + int.from_bytes(glb[12:16], "little")])
-    return tree
+def strip_of(size: int, each: int) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """Return the positions and faces of a strip whose vertices take `size` bytes, each `each`."""
+    mesh = patch(2, max(2, size // (2 * each)))
+    return mesh.positions, mesh.faces
 
 
-def _as_glb(tree: dict[str, Any], binary: bytes) -> bytes:
-    text = json.dumps(tree).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+class Scene(Built):
+    """A strip of triangles whose vertices take `size` bytes, at a node, and what else grows on it."""
+
+    def __init__(self, size: int) -> None:
+        super().__init__()
+        positions, faces = strip_of(size, 24)
+        self.count = len(positions)
+        self.attributes = {"POSITION": self.array(positions.astype("<f4"))}
+        self.indices = self.array(faces.astype("<u4").reshape(-1))
+        self.primitive: Tree = {"attributes": self.attributes, "indices": self.indices}
+        self.mesh(self.primitive)
+        self.nodes({"mesh": 0})
+
+    def move(self, until: float = 1.0) -> None:
+        """Let the first node move."""
+        times, places = np.array([0, until], "<f4"), np.array([[0, 0, 0], [1, 0, 0]], "<f4")
+        sampler = {"input": self.array(times), "output": self.array(places)}
+        channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
+        self.tree["animations"] = [{"samplers": [sampler], "channels": [channel]}]
+
+    def sample(self) -> Sample:
+        return Sample("glb", self.bytes)
 
 
 def _ascii_ply() -> bytes:
-    rows = b"0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n"
-    return (
-        _ply_head("ascii", 3, "float", 1, b"property uchar red\nproperty uchar green\nproperty uchar blue\n")
-        + rows
-        + b"3 0 1 2\n"
-    )
-
-
-def _ply_head(order: str, vertices: int, kind: str, faces: int, more: bytes = b"", length: str = "uchar") -> bytes:
-    axes = "".join(f"property {kind} {axis}\n" for axis in "xyz")
-    lists = f"element face {faces}\nproperty list {length} int vertex_indices\n"
-    return (
-        f"ply\nformat {order} 1.0\nelement vertex {vertices}\n{axes}".encode() + more + f"{lists}end_header\n".encode()
-    )
+    head = ply_head(more="property uchar red\nproperty uchar green\nproperty uchar blue\n")
+    return head.encode() + b"0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n"
 
 
 def _ragged_ply() -> bytes:
     """Polygons of three and of four corners, whose rows differ in length."""
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4").tobytes()
     faces = b"\3" + np.array([0, 1, 2], "<i4").tobytes() + b"\4" + np.arange(4, dtype="<i4").tobytes()
-    return _ply_head("binary_little_endian", 4, "float", 2) + points + faces
+    return ply_head(4, 2, "binary_little_endian").encode() + points + faces
 
 
 _FACET = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -209,7 +215,7 @@ def numbers() -> Iterator[Case]:
 
 def _numbers_of_tree(kind: str, sample: Sample) -> Iterator[Case]:
     """Change each number in the JSON of a GLB, and update its length."""
-    tree, binary = _json_of(sample.data), sample.data[28 + int.from_bytes(sample.data[12:16], "little") :]
+    tree, binary = unpack(sample.data)
     text = json.dumps(tree).encode()
     for match in _NUMBER.finditer(text):
         for word in (b"2147483647", b"20000000", b"9" * 18, b"-1", b"1e300", b'"a"', b"[]"):
@@ -221,7 +227,7 @@ def _numbers_of_tree(kind: str, sample: Sample) -> Iterator[Case]:
 
 def _remade(text: bytes, binary: bytes) -> Sample:
     try:
-        return Sample("glb", _as_glb(json.loads(text), binary))
+        return Sample("glb", glb(json.loads(text), binary))
     except ValueError:  # a number in a string
         return Sample("glb", b"glTF" + text)
 
@@ -294,71 +300,60 @@ def _grown(size: int) -> dict[str, Callable[[], Sample]]:
 
 
 def _grown_ply(size: int) -> dict[str, Callable[[], Sample]]:
-    little = "binary_little_endian"
+    chars = partial(ply_head, order="binary_little_endian", kind="char")
 
-    def points(kind: str) -> Sample:
-        width = np.dtype(kind).itemsize
-        name = {1: "char", 8: "double"}[width]
+    def ply(head: str, body: bytes) -> Sample:
+        return Sample("ply", head.encode() + body)
+
+    def points(kind: str, width: int) -> Sample:
         count = size // (3 * width)
-        return Sample("ply", _ply_head(little, count, name, 1) + bytes(3 * width * count) + b"\3" + bytes(12))
+        return ply(chars(count, kind=kind), bytes(3 * width * count) + b"\3" + bytes(12))
 
-    def properties(line: str, body: bytes) -> Sample:
-        many = "".join(line.format(number) for number in range(60_000 // len(line))).encode()
-        return Sample(
-            "ply",
-            _ply_head(little, 1, "char", 0)[:-11].replace(b"element face 0\n", many + b"element face 1\n")
-            + b"end_header\n"
-            + body,
-        )
+    def properties(line: str) -> Sample:
+        many = "".join(line.format(number) for number in range(60_000 // len(line)))
+        return ply(chars(1).replace("element face", many + "element face"), bytes(8000))
 
     def lists() -> Sample:
         """As many lists as there may be in as many rows as there may be, some of them longer than others."""
-        many = b"".join(b"property list uchar char l%d\n" % number for number in range(1500))
+        many = "".join(f"property list uchar char l{number}\n" for number in range(1500))
         rows = size // 1501
-        row = b"\1\0" + bytes(1500)
-        head = _ply_head(little, 1, "char", rows)[:-11] + many + b"end_header\n"
-        return Sample("ply", head + bytes(3) + row + bytes(1501 * rows))
+        return ply(chars(1, rows, last=many), bytes(3) + b"\1\0" + bytes(1500) + bytes(1501 * rows))
 
     def faces(fill: bytes, count: int) -> Sample:
-        return Sample("ply", _ply_head(little, 1, "char", count) + bytes(3) + fill)
+        return ply(chars(1, count), bytes(3) + fill)
 
     def polygons(corners: int) -> Sample:
         row = bytes([corners, *(number % 3 for number in range(corners))])
         count = size // len(row)
-        head = _ply_head(little, 3, "char", count).replace(b"uchar int vertex", b"uchar uchar vertex")
-        return Sample("ply", head + bytes((0, 0, 0, 1, 0, 0, 0, 1, 0)) + row * count)
+        return ply(chars(3, count, corners="uchar uchar"), bytes((0, 0, 0, 1, 0, 0, 0, 1, 0)) + row * count)
+
+    def more(lines: str) -> Sample:
+        return ply(chars(1, more=lines), bytes(16))
+
+    def rows(row: bytes) -> Sample:
+        head = ply_head(1, size // len(row), kind="char")
+        return _text("ply", head.encode() + b"0 0 0\n", row, size)
 
     empty = b"\0" * size
     mixed = b"\3" + bytes(12) + b"\0" * size
     long = struct.pack("<I", size // 4) + bytes(size)
     return {
-        "ply, points of bytes": partial(points, "i1"),
-        "ply, points of doubles": partial(points, "f8"),
+        "ply, points of bytes": partial(points, "char", 1),
+        "ply, points of doubles": partial(points, "double", 8),
         "ply, faces without corners": partial(faces, empty, size),
         "ply, rows that differ": partial(faces, mixed, size),
         "ply, triangles": partial(faces, (b"\3" + bytes(12)) * (size // 13), size // 13),
         "ply, quads of bytes": partial(polygons, 4),
         "ply, long polygons of bytes": partial(polygons, 255),
-        "ply, one face": lambda: Sample("ply", _ply_head(little, 1, "char", 1, length="uint") + bytes(3) + long),
-        "ply, properties": partial(properties, "property char a{}\n", bytes(8000)),
-        "ply, properties in a row": partial(properties, "property char a_{}\n", bytes(8000)),
+        "ply, one face": lambda: ply(chars(1, corners="uint int"), bytes(3) + long),
+        "ply, properties": partial(properties, "property char a{}\n"),
+        "ply, properties in a row": partial(properties, "property char a_{}\n"),
         "ply, lists": lists,
-        "ply, comments": lambda: Sample(
-            "ply", _ply_head(little, 1, "char", 1, b"comment meta a: 1\n" * 3400) + bytes(16)
-        ),
-        "ply, images": lambda: Sample(
-            "ply",
-            _ply_head(little, 1, "char", 1, b"".join(b"comment TextureFile %d\n" % n for n in range(2500))) + bytes(16),
-        ),
-        "ply, elements": lambda: Sample(
-            "ply", _ply_head(little, 1, "char", 1, b"".join(b"element e%d 0\n" % n for n in range(3500)))
-        ),
-        "ply of text, empty rows": partial(
-            _text, "ply", _ply_head("ascii", 1, "char", size // 2) + b"0 0 0\n", b"0\n", size
-        ),
-        "ply of text, triangles": partial(
-            _text, "ply", _ply_head("ascii", 1, "char", size // 8) + b"0 0 0\n", b"3 0 0 0\n", size
-        ),
+        "ply, comments": partial(more, "comment meta a: 1\n" * 3400),
+        "ply, images": partial(more, "".join(f"comment TextureFile {n}\n" for n in range(2500))),
+        "ply, elements": partial(more, "".join(f"element e{n} 0\n" for n in range(3500))),
+        "ply of text, empty rows": partial(rows, b"0\n"),
+        "ply of text, triangles": partial(rows, b"3 0 0 0\n"),
     }
 
 
@@ -527,30 +522,6 @@ def _grown_caches(size: int) -> dict[str, Callable[[], Sample]]:
 
 def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
     """What a tree can say many times of the same bytes; each of a mesh that stays, and of one that moves."""
-    floats, indices = {"componentType": 5126, "count": 3}, {"componentType": 5125, "count": 3, "type": "SCALAR"}
-
-    def tree(until: float | None) -> tuple[Tree, bytes]:
-        binary = np.eye(3, dtype="<f4").tobytes() + np.arange(3, dtype="<u4").tobytes()
-        keys = np.array([0, until or 0, 0, 0, 0, 1, 0, 0], "<f4").tobytes()
-        found: Tree = {
-            "asset": {"version": "2.0"},
-            "scenes": [{"nodes": [0]}],
-            "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-            "accessors": [{"bufferView": 0, **floats, "type": "VEC3"}, {"bufferView": 1, **indices}],
-            "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12}],
-            "buffers": [{"byteLength": len(binary)}],
-        }
-        if until is not None:
-            found["bufferViews"].append({"buffer": 1, "byteLength": len(keys)})
-            found["buffers"].append({"byteLength": len(keys), "uri": DATA_URI + base64.b64encode(keys).decode()})
-            found["accessors"] += [
-                {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
-                {"bufferView": 2, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"},
-            ]
-            channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
-            found["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [channel]}]
-        return found, binary
 
     def nothing(place: int, count: int) -> Change:
         """An accessor without a view: all of it is zeros."""
@@ -594,9 +565,11 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         nodes(t, [{"mesh": 0}] + [{}] * (size // 8))
 
     def made(change: Change, until: float | None) -> Sample:
-        found, binary = tree(until)
-        change(found)
-        return Sample("glb", _as_glb(found, binary))
+        scene = Scene(72)
+        if until is not None:
+            scene.move(until)
+        change(scene.tree)
+        return scene.sample()
 
     both: dict[str, Change] = {
         "points of no bytes": nothing(0, 1 << 26),

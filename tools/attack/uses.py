@@ -19,13 +19,14 @@ import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from bsm import TriangleMesh, encode
 from bsm.files.formats.npz import write_npy
-from tools.attack.readers import DATA_URI, Case, Sample, Tree, _as_glb, problems, three_mf, warm_up
+from tests.gltf import Tree, glb, unpack
+from tests.shapes import ply_head
+from tools.attack.readers import DATA_URI, Case, Sample, Scene, problems, strip_of, three_mf, warm_up
 from tools.vectors.meshes import patch
 
 Use = Callable[[int, int], Sample]
@@ -36,120 +37,76 @@ SPLITS = (0.5, 0.9, 0.1)
 """Shares of a file that what is used takes."""
 
 
-def strip_of(size: int, each: int) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the positions and faces of a strip whose vertices take `size` bytes, each `each`."""
-    mesh = patch(2, max(2, size // (2 * each)))
-    return mesh.positions, mesh.faces
-
-
 # ---------------------------------------------------------------------------------------------------------------- glTF
 
 
-class _Scene:
-    """A tree with one mesh, and its bytes."""
-
-    def __init__(self, size: int) -> None:
-        positions, faces = strip_of(size, 24)
-        self.binary, self.count = b"", len(positions)
-        self.tree: Tree = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [], "bufferViews": []}
-        self.attributes = {"POSITION": self.accessor(positions.astype("<f4"), "VEC3")}
-        self.indices = self.accessor(faces.astype("<u4").reshape(-1), "SCALAR")
-        self.primitive: Tree = {"attributes": self.attributes, "indices": self.indices}
-        self.tree["meshes"] = [{"primitives": [self.primitive]}]
-        self.nodes([{"mesh": 0}])
-
-    def accessor(self, array: np.ndarray[Any, Any], kind: str) -> int:
-        data = array.tobytes()
-        self.tree["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)})
-        self.binary += data + bytes(-len(data) % 4)
-        component = {"f": 5126, "u": {1: 5121, 2: 5123, 4: 5125}.get(array.dtype.itemsize)}[array.dtype.kind]
-        view = len(self.tree["bufferViews"]) - 1
-        self.tree["accessors"].append(
-            {"bufferView": view, "componentType": component, "count": len(array), "type": kind}
-        )
-        return view
-
-    def nodes(self, nodes: list[Tree]) -> None:
-        self.tree |= {"nodes": nodes, "scenes": [{"nodes": list(range(len(nodes)))}]}
-
-    def move(self) -> None:
-        """Let the first node move."""
-        times, places = np.array([0, 1], "<f4"), np.array([[0, 0, 0], [1, 0, 0]], "<f4")
-        sampler = {"input": self.accessor(times, "SCALAR"), "output": self.accessor(places, "VEC3")}
-        channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
-        self.tree["animations"] = [{"samplers": [sampler], "channels": [channel]}]
-
-    def skin(self) -> None:
-        joints, weights = np.zeros((self.count, 4), "u1"), np.tile(np.array([1, 0, 0, 0], "<f4"), (self.count, 1))
-        self.attributes |= {"JOINTS_0": self.accessor(joints, "VEC4"), "WEIGHTS_0": self.accessor(weights, "VEC4")}
-
-    def sample(self) -> Sample:
-        self.tree["buffers"] = [{"byteLength": len(self.binary)}]
-        return Sample("glb", _as_glb(self.tree, self.binary))
-
-
-def _gltf(change: Callable[[_Scene, int], None], moves: bool, size: int, uses: int) -> Sample:
-    scene = _Scene(size)
+def _gltf(change: Callable[[Scene, int], None], moves: bool, size: int, uses: int) -> Sample:
+    scene = Scene(size)
     change(scene, uses)
     if moves:
         scene.move()
     return scene.sample()
 
 
-def _nodes(scene: _Scene, uses: int) -> None:
-    scene.nodes([{"mesh": 0} for _ in range(uses)])
+def _nodes(scene: Scene, uses: int) -> None:
+    scene.nodes(*({"mesh": 0} for _ in range(uses)))
 
 
-def _tree_of_nodes(scene: _Scene, uses: int) -> None:
+def _tree_of_nodes(scene: Scene, uses: int) -> None:
     """Each node is a child of the one before it, and has the mesh as well."""
     chain: list[Tree] = [{"mesh": 0, "children": [number + 1]} for number in range(min(uses, 400))]
     scene.tree |= {"nodes": [*chain, {"mesh": 0}], "scenes": [{"nodes": [0]}]}
 
 
-def _meshes(scene: _Scene, uses: int) -> None:
+def _meshes(scene: Scene, uses: int) -> None:
     scene.tree["meshes"] *= uses
-    scene.nodes([{"mesh": number} for number in range(uses)])
+    scene.nodes(*({"mesh": number} for number in range(uses)))
 
 
-def _primitives(scene: _Scene, uses: int) -> None:
+def _primitives(scene: Scene, uses: int) -> None:
     scene.tree["meshes"][0]["primitives"] = [scene.primitive for _ in range(uses)]
 
 
-def _nodes_of_primitives(scene: _Scene, uses: int) -> None:
+def _nodes_of_primitives(scene: Scene, uses: int) -> None:
     """As many nodes as primitives: work for each pair is the square."""
     _primitives(scene, max(1, uses // 2))
-    scene.nodes([{"mesh": 0} for _ in range(uses // 2 + 1)])
+    scene.nodes(*({"mesh": 0} for _ in range(uses // 2 + 1)))
 
 
-def _materials(scene: _Scene, uses: int) -> None:
+def _materials(scene: Scene, uses: int) -> None:
     scene.tree["materials"] = [{"name": str(number)} for number in range(uses)]
     scene.tree["meshes"][0]["primitives"] = [scene.primitive | {"material": number} for number in range(uses)]
 
 
-def _skins(scene: _Scene, uses: int) -> None:
+def _skin(scene: Scene) -> None:
+    joints, weights = np.zeros((scene.count, 4), "u1"), np.tile(np.array([1, 0, 0, 0], "<f4"), (scene.count, 1))
+    scene.attributes |= {"JOINTS_0": scene.array(joints), "WEIGHTS_0": scene.array(weights)}
+
+
+def _skins(scene: Scene, uses: int) -> None:
     """Each node plays the mesh by a skin of its own, with targets: one part for each."""
-    scene.skin()
+    _skin(scene)
     scene.primitive["targets"] = [{"POSITION": 0}] * uses
     scene.tree["skins"] = [{"joints": [0]} for _ in range(uses)]
-    scene.nodes([{}, *({"mesh": 0, "skin": number} for number in range(uses))])
+    scene.nodes({}, *({"mesh": 0, "skin": number} for number in range(uses)))
 
 
-def _targets(scene: _Scene, uses: int) -> None:
+def _targets(scene: Scene, uses: int) -> None:
     scene.primitive["targets"] = [{"POSITION": 0}] * uses
     scene.tree["meshes"][0]["weights"] = [0.5] * uses
 
 
-def _attributes(scene: _Scene, uses: int) -> None:
+def _attributes(scene: Scene, uses: int) -> None:
     scene.attributes |= {f"_A{number}": 0 for number in range(uses)}
 
 
-def _joints(scene: _Scene, uses: int) -> None:
-    scene.skin()
+def _joints(scene: Scene, uses: int) -> None:
+    _skin(scene)
     scene.tree["skins"] = [{"joints": [0] * uses}]
-    scene.nodes([{}, *({"mesh": 0, "skin": 0} for _ in range(uses))])
+    scene.nodes({}, *({"mesh": 0, "skin": 0} for _ in range(uses)))
 
 
-def _animations(scene: _Scene, uses: int) -> None:
+def _animations(scene: Scene, uses: int) -> None:
     _nodes(scene, uses)
     scene.move()
     (animation,) = scene.tree["animations"]
@@ -157,11 +114,11 @@ def _animations(scene: _Scene, uses: int) -> None:
     scene.tree["animations"] = [{**animation, "channels": channels}] * 4
 
 
-def _instancing(scene: _Scene, uses: int) -> None:
-    places = scene.accessor(np.zeros((uses, 3), "<f4"), "VEC3")
+def _instancing(scene: Scene, uses: int) -> None:
+    places = scene.array(np.zeros((uses, 3), "<f4"))
     instances = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": places}}}
     scene.tree |= {"extensionsUsed": list(instances), "extensionsRequired": list(instances)}
-    scene.nodes([{"mesh": 0, "extensions": instances}])
+    scene.nodes({"mesh": 0, "extensions": instances})
 
 
 _GLTF = (
@@ -175,10 +132,8 @@ PIXEL = base64.b64decode(
 
 def _images(size: int, uses: int) -> Sample:
     """One image, in as many images, textures and materials."""
-    scene = _Scene(1000)
-    scene.tree["bufferViews"].append({"buffer": 0, "byteOffset": len(scene.binary), "byteLength": size})
-    scene.binary += PIXEL + bytes(size + -size % 4 - len(PIXEL) % 4)
-    view = len(scene.tree["bufferViews"]) - 1
+    scene = Scene(1000)
+    view = scene.view(PIXEL + bytes(size))
     scene.tree["images"] = [{"bufferView": view, "mimeType": "image/png"}] * uses
     scene.tree["textures"] = [{"source": number} for number in range(uses)]
     _materials(scene, uses)
@@ -190,8 +145,7 @@ def _images(size: int, uses: int) -> Sample:
 def _image_by_uri(size: int, uses: int) -> Sample:
     """One image in a buffer of text that all images, textures and materials use."""
     sample = _images(size, uses)
-    tree = json.loads(sample.data[20 : 20 + int.from_bytes(sample.data[12:16], "little")])
-    binary = sample.data[28 + int.from_bytes(sample.data[12:16], "little") :]
+    tree, binary = unpack(sample.data)
     tree["buffers"][0]["uri"] = DATA_URI + base64.b64encode(binary).decode()
     return Sample("gltf", json.dumps(tree).encode())
 
@@ -321,11 +275,9 @@ def _obj_polygons(size: int, uses: int) -> Sample:
 
 def _ply_images(size: int, uses: int) -> Sample:
     """One image that many lines name."""
-    head = b"".join(b"comment TextureFile i.png\n" for _ in range(min(uses, 2500)))
-    body = b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
-    axes = b"element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-    faces = b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-    return Sample("ply", b"ply\nformat ascii 1.0\n" + head + axes + faces + body, (("i.png", PIXEL + bytes(size)),))
+    head = ply_head(more="comment TextureFile i.png\n" * min(uses, 2500))
+    body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    return Sample("ply", (head + body).encode(), (("i.png", PIXEL + bytes(size)),))
 
 
 @dataclass(frozen=True)
@@ -389,7 +341,7 @@ MODELS = {
 
 def _views(own: bool, size: int, uses: int) -> Sample:
     """Accessors of one view, or each with a view of its own over the same bytes."""
-    scene = _Scene(size)
+    scene = Scene(size)
     first, view = scene.tree["accessors"][0], scene.tree["bufferViews"][0]
     for number in range(uses):
         if own:
@@ -418,7 +370,7 @@ def _streams(own: bool, size: int, uses: int) -> Sample:
         "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": names}]}], "accessors": accessors,
         "bufferViews": views, "buffers": [{"byteLength": len(stream)}, missing],
     }  # fmt: skip
-    return Sample("glb", _as_glb(tree, stream + bytes(-len(stream) % 4)))
+    return Sample("glb", glb(tree, stream))
 
 
 def _members(size: int, uses: int) -> Sample:

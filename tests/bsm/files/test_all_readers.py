@@ -13,6 +13,7 @@ import pytest
 from bsm import BsmError, Limits, read_mesh
 from bsm.files.mesh import written_mesh
 from bsm.files.table import FORMATS, USD_FORMATS, WRITTEN_FORMATS
+from tests.gltf import unpack
 from tests.motion import bending, save_frames
 from tests.shapes import torus
 
@@ -30,10 +31,8 @@ def valid(kind: str, folder: Path) -> bytes:
         data: bytes = pytest.importorskip("trimesh").Trimesh(mesh.positions, mesh.faces).export(file_type="dae")
         return data
     if kind == "gltf":
-        whole = written_mesh(mesh, "glb").data
-        length = int.from_bytes(whole[12:16], "little")
-        document = json.loads(whole[20 : 20 + length])
-        content = base64.b64encode(whole[28 + length :]).decode()
+        document, numbers = unpack(written_mesh(mesh, "glb").data)
+        content = base64.b64encode(numbers).decode()
         document["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{content}"
         return json.dumps(document).encode()
     path = folder / f"valid.{'usdc' if kind == 'usdz' else kind}"

@@ -2,7 +2,6 @@
 
 import itertools
 import json
-import struct
 
 import numpy as np
 import pytest
@@ -18,19 +17,9 @@ from bsm.files.mesh import write_mesh, written_mesh
 from bsm.gltf.coding import MATTE
 from bsm.lengths import metres
 from tests.bsm.files.test_file_attributes import png
+from tests.gltf import unpack
 
 TRIANGLE = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 3]], float)
-
-
-def tree_of(data):
-    return json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
-
-
-def with_tree(data, tree):
-    text = json.dumps(tree).encode()
-    text += b" " * (-len(text) % 4)
-    rest = data[20 + struct.unpack_from("<I", data, 12)[0] :]
-    return b"glTF" + struct.pack("<IIII", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
 
 
 @pytest.mark.parametrize("up", ["x", "y", "z"])
@@ -124,7 +113,7 @@ def test_materials_of_mtl_are_no_metals_and_maps_of_roughness_act(words, metal, 
     metadata = {f"material.0.{name}": value for name, value in words.items()}
     metadata |= {f"image.{number}.data": png() + bytes(number) for number in range(2)}
     written = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], (), metadata), "glb")
-    surface = tree_of(written.data)["materials"][0]["pbrMetallicRoughness"]
+    surface = unpack(written.data)[0]["materials"][0]["pbrMetallicRoughness"]
     assert surface.get("metallicFactor", 1.0) == metal and ("metallicRoughnessTexture" in surface) == painted
     assert any("map_Pr" in name for name in written.left_out) == ("map_Pr" in words and not painted)
 
@@ -160,7 +149,7 @@ def test_files_of_other_kinds_are_named(name, contents, said, tmp_path):
 def test_vertices_that_are_transparent_blend():
     shades = Attribute("color", np.array([[255, 0, 0, 128]] * 3, np.uint8), semantic="color")
     data = written_mesh(TriangleMesh(TRIANGLE, [[0, 1, 2]], [shades]), "glb").data
-    assert tree_of(data)["materials"] == [{**MATTE, "alphaMode": "BLEND"}]
+    assert unpack(data)[0]["materials"] == [{**MATTE, "alphaMode": "BLEND"}]
     again = read_mesh(data, "glb").mesh
     assert again.attributes[0].values[0].tolist() == [255, 0, 0, 128]
     opaque = data.replace(b'"BLEND"', b'"MASK" ')
@@ -195,7 +184,7 @@ def test_textures_that_are_moved_stay_so(tmp_path):
     assert write_mesh(tmp_path / "a.obj", again.mesh) == ()
     assert b"map_Kd -s 2 3 1 -o 0.5 0.25 0 " in (tmp_path / "a.mtl").read_bytes()
     second = written_mesh(again.mesh, "glb").data
-    assert tree_of(second)["materials"] == tree_of(written.data)["materials"]
+    assert unpack(second)[0]["materials"] == unpack(written.data)[0]["materials"]
 
 
 SHADES = {3: np.array([[10, 20, 30]] * 3, np.uint8), 4: np.array([[10, 20, 30, 40]] * 3, np.uint8)}

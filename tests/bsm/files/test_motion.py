@@ -32,7 +32,7 @@ from bsm.files.motion.frames import Shared, Wanted, painted_like
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
 from tests.bsm.program import run as bsm
-from tests.gltf import Built, glb
+from tests.gltf import Built, glb, unpack
 from tests.motion import animators_own, bending, save_frames
 from tests.shapes import torus
 
@@ -727,11 +727,6 @@ def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
 # ---------------------------------------------------------------------------------------------------------------- glTF
 
 
-def parsed(data):
-    size = int.from_bytes(data[12:16], "little")
-    return json.loads(data[20 : 20 + size]), data[28 + size :]
-
-
 def test_what_is_no_moving_gltf(tmp_path, capsys):
     pytest.importorskip("trimesh")
     write_mesh(tmp_path / "still.glb", torus(5, 4))
@@ -749,7 +744,7 @@ HOSTILE = (-1, 1 << 40, 2.5, "x", None, [], {}, [[]])
 
 def test_hostile_gltf_gives_errors_of_ours(tmp_path):
     """Whatever stands anywhere in the tree; and bytes that are not there."""
-    tree, binary = parsed((MOVING / "skinned.glb").read_bytes())
+    tree, binary = unpack((MOVING / "skinned.glb").read_bytes())
     path = tmp_path / "a.glb"
     refused = 0
     for number, place in enumerate(leaves(json.loads(json.dumps(tree)))):
@@ -786,7 +781,7 @@ def leaves(tree, place=()):
 
 
 def test_a_node_below_itself_ends(tmp_path):
-    tree, binary = parsed((MOVING / "morphing.glb").read_bytes())
+    tree, binary = unpack((MOVING / "morphing.glb").read_bytes())
     tree["nodes"][0]["children"] = [0]
     (tmp_path / "a.glb").write_bytes(glb(tree, binary))
     with pytest.raises(FormatError, match="two places"):
@@ -794,7 +789,7 @@ def test_a_node_below_itself_ends(tmp_path):
 
 
 def test_bytes_that_are_used_many_times_are_bounded(tmp_path):
-    tree, binary = parsed((MOVING / "morphing.glb").read_bytes())
+    tree, binary = unpack((MOVING / "morphing.glb").read_bytes())
     moving = next(node for node in tree["nodes"] if "mesh" in node)
     many = json.loads(json.dumps(tree))
     many["nodes"] += [moving] * 2000

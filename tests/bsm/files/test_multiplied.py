@@ -11,7 +11,7 @@ import bsm
 from bsm import FormatError, Limits
 from bsm.cli import main
 from bsm.files.mesh import read_mesh, write_mesh
-from tests.gltf import Built
+from tests.gltf import Built, unpack
 from tests.shapes import torus
 from tests.streams import memory_below
 
@@ -81,13 +81,12 @@ def test_no_output_of_glb_replaces_what_it_reads(tmp_path, capsys):
     (tmp_path / "b.fallback.bin").write_bytes(data)
     assert main(["glb", str(tmp_path / "b.fallback.bin"), "-o", str(tmp_path / "b.glb"), "--fallback", "-f"]) == 2
     assert (tmp_path / "b.fallback.bin").read_bytes() == data and not (tmp_path / "b.glb").exists()
-    tree, size = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")]), len(data)
-    start = 28 + int.from_bytes(data[12:16], "little")
-    tree["buffers"] = [{"uri": "c.glb", "byteLength": size - start}]
-    (tmp_path / "c.glb").write_bytes(data[start:])
+    tree, numbers = unpack(data)
+    tree["buffers"] = [{"uri": "c.glb", "byteLength": len(numbers)}]
+    (tmp_path / "c.glb").write_bytes(numbers)
     (tmp_path / "c.gltf").write_text(json.dumps(tree))
     assert main(["glb", str(tmp_path / "c.gltf"), "-o", str(tmp_path / "c.glb"), "-f"]) == 2
-    assert (tmp_path / "c.glb").read_bytes() == data[start:]
+    assert (tmp_path / "c.glb").read_bytes() == numbers
     assert capsys.readouterr().err.count("would replace the input") == 2
 
 

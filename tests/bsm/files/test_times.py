@@ -1,7 +1,6 @@
 """When frames are shown: numbers in names, times in files and lists; in and out."""
 
 import json
-import struct
 
 import numpy as np
 import pytest
@@ -13,6 +12,7 @@ from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.table import FORMATS
 from tests.bsm.program import run as bsm
+from tests.gltf import glb, unpack
 from tests.shapes import tetrahedron
 
 COUNT = 4
@@ -139,25 +139,11 @@ def test_the_shell_keeps_the_numbers_of_frames(tmp_path, capsys):
     assert "1 other meshes are there" in capsys.readouterr().err
 
 
-def with_tree(data, change):
-    """A GLB with another tree."""
-    size = struct.unpack_from("<I", data, 12)[0]
-    tree = json.loads(data[20 : 20 + size])
-    change(tree)
-    text = json.dumps(tree).encode()
-    text += b" " * (-len(text) % 4)
-    rest = struct.pack("<I4s", len(text), b"JSON") + text + data[20 + size :]
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(rest)) + rest
-
-
 def test_pointers_are_named(tmp_path):
     written(tmp_path / "a.glb", "glb", {})
-    data = (tmp_path / "a.glb").read_bytes()
-
-    def pointed(tree):
-        for channel in tree["animations"][0]["channels"]:
-            channel["target"] = {"path": "pointer"}
-
-    (tmp_path / "c.glb").write_bytes(with_tree(data, pointed))
+    tree, numbers = unpack((tmp_path / "a.glb").read_bytes())
+    for channel in tree["animations"][0]["channels"]:
+        channel["target"] = {"path": "pointer"}
+    (tmp_path / "c.glb").write_bytes(glb(tree, numbers))
     with pytest.raises(FormatError, match="channels of pointer were left out"):
         opened(tmp_path / "c.glb")
