@@ -8,8 +8,9 @@ import numpy.typing as npt
 from bsm.codec.geometry.mesh import TriangleMesh
 
 
-def _grid(rows: int, columns: int, closed: bool) -> npt.NDArray[np.int32]:
-    i, j = np.meshgrid(np.arange(rows - (not closed)), np.arange(columns - (not closed)), indexing="ij")
+def grid_faces(rows: int, columns: int, closed: tuple[bool, bool] = (False, False)) -> npt.NDArray[np.int32]:
+    """Triangles of a rectangular grid of vertices, of which rows and columns may be closed."""
+    i, j = np.meshgrid(np.arange(rows - (not closed[0])), np.arange(columns - (not closed[1])), indexing="ij")
     a, b = i * columns + j, (i + 1) % rows * columns + j
     c, d = (i + 1) % rows * columns + (j + 1) % columns, i * columns + (j + 1) % columns
     halves = [np.stack([a, b, c], -1), np.stack([a, c, d], -1)]
@@ -20,16 +21,16 @@ def patch(rows: int, columns: int) -> TriangleMesh:
     """A wavy rectangle: a disc with a boundary."""
     x, y = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1.3, columns), indexing="ij")
     z = 0.1 * np.sin(5 * x) * np.cos(4 * y) + 0.02 * np.sin(17 * x + 9 * y)
-    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), _grid(rows, columns, closed=False))
+    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(rows, columns))
 
 
-def torus(rows: int, columns: int, phase: float = 0.0) -> TriangleMesh:
+def torus(rows: int = 40, columns: int = 24, phase: float = 0.0, bumps: float = 0.05) -> TriangleMesh:
     """A bumpy torus: closed, genus one; its graph is so regular that eigenvalues repeat."""
     angles = [np.linspace(0, 2 * np.pi, count, endpoint=False) for count in (rows, columns)]
     u, v = np.meshgrid(*angles, indexing="ij")
-    r = 0.35 * (1 + 0.05 * np.sin(6 * u + phase) * np.sin(4 * v))
+    r = 0.35 * (1 + bumps * np.sin(6 * u + phase) * np.sin(4 * v))
     x, y, z = (1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v + phase)
-    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), _grid(rows, columns, closed=True))
+    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(rows, columns, (True, True)))
 
 
 def tetrahedron() -> TriangleMesh:

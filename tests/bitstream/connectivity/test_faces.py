@@ -108,7 +108,7 @@ def test_triangulated_spheres_round_trip(size: int, seed: int) -> None:
 
 
 def test_regular_mesh_costs_almost_nothing() -> None:
-    faces = grid_faces(100, 80, close_rows=True, close_columns=True)
+    faces = grid_faces(100, 80, (True, True))
     assert len(check_round_trip(faces, 8000).payload) < 40
 
 
@@ -167,11 +167,7 @@ def _hostile_cases() -> dict[str, tuple[Faces, int]]:
     holes = grid_faces(20, 20)
     holes = holes[rng.random(len(holes)) < 0.8]
     soup = rng.integers(0, 60, (150, 3))
-    return {
-        "torus": (grid_faces(15, 20, close_rows=True, close_columns=True), 300),
-        "holes": compact(holes),
-        "soup": compact(soup),
-    }
+    return {"torus": (grid_faces(15, 20, (True, True)), 300), "holes": compact(holes), "soup": compact(soup)}
 
 
 def test_a_seam_that_repeats_a_vertex_before_there_is_one_is_harmless() -> None:

@@ -122,7 +122,7 @@ def random_faces(vertices: int, count: int, kind: str, seed: int) -> Faces:
     if kind == "strip":
         faces = (np.arange(count)[:, None] + np.arange(3)) % vertices
     if kind == "torus":
-        faces = grid_faces(7, 6, close_rows=True, close_columns=True)
+        faces = grid_faces(7, 6, (True, True))
         faces = faces[rng.random(len(faces)) < 0.9]
         turned = rng.random(len(faces)) < 0.1
         faces[turned] = faces[turned][:, ::-1]

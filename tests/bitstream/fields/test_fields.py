@@ -27,7 +27,7 @@ from tools.measure.grids import encode as encode_stream
 from tools.measure.grids import welded
 
 SEEDS = st.integers(0, 2**32 - 1)
-TORUS = grid_faces(12, 9, close_rows=True, close_columns=True)
+TORUS = grid_faces(12, 9, (True, True))
 TRIANGLE, NOTHING = [[0, 1, 2]], np.empty((0, 3), np.int32)
 K = np.arange(108)
 BUMPS = np.stack([100 * (K // 9) + (K % 9) ** 2, 90 * (K % 9), 500 + (K // 9 - 6) ** 3 + (K % 9 * 37) % 11], axis=1)

@@ -18,16 +18,15 @@ from tests.shapes import at_corners, patch, tetrahedron, torus
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
 
-def png(red=200):
-    """A picture of one point."""
+def png(*head, pixels=bytes([0, 200, 10, 20])):
+    """A picture of one point, or another with its sides, bits and kind of colors, and rows of pixels."""
 
     def chunk(kind, data):
         body = kind + data
         return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
 
-    head = struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)
-    pixels = zlib.compress(bytes([0, red, 10, 20]))
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
+    begin = chunk(b"IHDR", struct.pack(">IIBBBBB", *(head or (1, 1, 8, 2)), 0, 0, 0))
+    return b"\x89PNG\r\n\x1a\n" + begin + chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b"")
 
 
 def attribute(mesh, name):

@@ -1,8 +1,6 @@
 """Small files that tell readers and `bsm glb` to make much of little, and outputs that would replace inputs."""
 
 import json
-import struct
-import zlib
 
 import numpy as np
 import pytest
@@ -11,6 +9,7 @@ import bsm
 from bsm import FormatError, Limits
 from bsm.cli import main
 from bsm.files.mesh import read_mesh, write_mesh
+from tests.bsm.files.test_file_attributes import png
 from tests.gltf import Built, unpack
 from tests.shapes import torus
 from tests.streams import memory_below
@@ -41,17 +40,6 @@ def test_one_grid_checks_before_it_reads(tmp_path):
         assert main(["glb", path, "-o", str(tmp_path / "a.glb"), "--one-grid", "-q"]) == 6
 
 
-def png(side):
-    """A black image of single bits, with so many pixels on each side."""
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = zlib.compress(bytes(side * (1 + (side + 7) // 8)))
-    head = struct.pack(">IIBBBBB", side, side, 1, 0, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
-
-
 def test_images_of_many_pixels_stay_as_they_are(tmp_path, capsys):
     pytest.importorskip("PIL.Image")
     built = Built()
@@ -59,7 +47,8 @@ def test_images_of_many_pixels_stay_as_they_are(tmp_path, capsys):
     positions = built.array(shape.positions.astype(np.float32))
     faces = built.array(shape.faces.astype(np.uint16).reshape(-1))
     built.nodes({"mesh": built.mesh({"attributes": {"POSITION": positions}, "indices": faces})})
-    built.tree["images"] = [{"bufferView": built.view(png(9000)), "mimeType": "image/png"}]
+    image = png(9000, 9000, 1, 0, pixels=bytes(9000 * 1126))  # black, of single bits
+    built.tree["images"] = [{"bufferView": built.view(image), "mimeType": "image/png"}]
     (tmp_path / "a.glb").write_bytes(built.bytes)
     with memory_below(100e6):
         code = main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb"), "--images", "webp"])
