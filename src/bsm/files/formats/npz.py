@@ -318,54 +318,44 @@ def open_npz_sequence(
     attributes: Callable[[], tuple[Attribute, ...]] = tuple,
     metadata: Callable[[], Metadata] = dict,
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write an npz of frames, shape (T, n, 3); yields what takes them, and keeps them until their number is known."""
-    kept: list[Positions] = []
+    """Write an npz of frames, shape (T, n, 3); yields what takes them. What changes waits in files for their number."""
     first: tuple[Attribute, ...] = ()
     moved: dict[str, IO[bytes]] = {}
-    taken = 0
+    shape, taken = (0, 3), 0
 
-    def begin(entry: IO[bytes], shape: tuple[int, ...], kind: str = "<f8") -> None:
-        np.lib.format.write_array_header_1_0(entry, {"descr": kind, "fortran_order": False, "shape": shape})
+    def append(entry: IO[bytes], values: IO[bytes], shape: tuple[int, ...], kind: str) -> None:
+        np.lib.format.write_array_header_1_0(entry, {"descr": kind, "fortran_order": False, "shape": (taken, *shape)})
+        values.seek(0)
+        shutil.copyfileobj(values, entry)
 
+    # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, ExitStack() as waiting:
-        # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
-        with archive.open(zipfile.ZipInfo("faces.npy"), "w") as entry:
-            np.lib.format.write_array(entry, faces)
-        with ExitStack() as opened:
-            positions: IO[bytes] | None = None
+        positions = waiting.enter_context(tempfile.TemporaryFile())
 
-            def write(frame: Positions) -> None:
-                nonlocal positions
-                if positions is None:
-                    info = zipfile.ZipInfo("positions.npy")
-                    positions = opened.enter_context(archive.open(info, "w", force_zip64=True))
-                    begin(positions, (count or taken, *frame.shape))
-                positions.write(np.ascontiguousarray(frame, "<f8").data)
+        def take(frame: Positions) -> None:
+            nonlocal first, shape, taken
+            positions.write(np.ascontiguousarray(frame, "<f8").data)
+            now, shape = attributes(), frame.shape
+            first = first if taken else now
+            for before, attribute in zip(first, now, strict=True):
+                if attribute is not before and attribute.name not in moved:
+                    moved[attribute.name] = values = waiting.enter_context(tempfile.TemporaryFile())
+                    values.writelines(before.values.tobytes() for _ in range(taken))
+                if attribute.name in moved:
+                    moved[attribute.name].write(attribute.values.tobytes())
+            taken += 1
 
-            def take(frame: Positions) -> None:
-                nonlocal first, taken
-                write(frame) if count else kept.append(frame)
-                now = attributes()
-                first = first if taken else now
-                for before, attribute in zip(first, now, strict=True):
-                    if attribute is not before and attribute.name not in moved:
-                        moved[attribute.name] = values = waiting.enter_context(tempfile.TemporaryFile())
-                        values.writelines(before.values.tobytes() for _ in range(taken))
-                    if attribute.name in moved:
-                        moved[attribute.name].write(attribute.values.tobytes())
-                taken += 1
-
-            yield take
-            for frame in kept:
-                write(frame)
+        yield take
         if taken != (count or taken):
             raise CorruptError(f"{taken} of {count} frames came")
+        with archive.open(zipfile.ZipInfo("faces.npy"), "w") as entry:
+            np.lib.format.write_array(entry, faces)
+        with archive.open(zipfile.ZipInfo("positions.npy"), "w", force_zip64=True) as entry:
+            append(entry, positions, shape, "<f8")
         for attribute in first:
             with archive.open(f"{attribute.domain}/{attribute.name}.npy", "w", force_zip64=True) as entry:
                 if attribute.name in moved:
-                    begin(entry, (taken, *attribute.values.shape), attribute.values.dtype.str)
-                    moved[attribute.name].seek(0)
-                    shutil.copyfileobj(moved[attribute.name], entry)
+                    append(entry, moved[attribute.name], attribute.values.shape, attribute.values.dtype.str)
                 else:
                     np.lib.format.write_array(entry, attribute.values)
             if attribute.indices is not None:
