@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import types
-import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -34,7 +33,6 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, changed
     from bsm.codec.static.targets import Target
 
-    keywords = _with_effort(keywords)
     base: EncodeOptions = EncodeOptions() if preset is None else named("preset", PRESETS, preset)
     asked = [name for name, value in keywords.items() if value is not None]
     bounds = [name for name in asked if name in (*BOUNDS, *TARGETS, "contract", "target")]
@@ -83,7 +81,6 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
     name = "balanced" if preset is None else preset
     if name in ("none", "lossless", "grid14", "paper"):
         raise OptionError(f"a sequence cannot have preset {name}: GOPs round frames together; try near-lossless")
-    keywords = _with_effort(keywords)
     effort = keywords.pop("effort", "normal")
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, Target)
@@ -103,14 +100,6 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
     elif not (together or quick or {"target", "step", "promise"} & {key for key in given if given[key] is not None}):
         given["promise"] = PROMISES[name]
     return replace(base, **given)
-
-
-def _with_effort(keywords: dict[str, Any]) -> dict[str, Any]:
-    """Keywords with `effort` in place of its former name `quick`."""
-    if (quick := keywords.pop("quick", None)) is None:
-        return keywords
-    warnings.warn('the keyword quick is now effort="quick"', DeprecationWarning, stacklevel=4)
-    return {**({"effort": "quick"} if quick else {}), **keywords}
 
 
 def denoise_options(**keywords: Any) -> DenoiseOptions | None:

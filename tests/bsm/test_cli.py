@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bsm.cli import COMMANDS, main
-from bsm.commands.flags import ENCODE_FLAGS, SETTINGS
+from bsm.commands.flags import FLAGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
@@ -228,8 +228,8 @@ def test_the_flags_are_fields_and_show_their_defaults():
     # A field of both has the static default: it is the one that is shown.
     owners = (SequenceOptions, EncodeOptions, Paper)
     defaults = {field.name: field.default for owner in owners for field in fields(owner)}
-    assert all(defaults[flag.field] is not MISSING for flag in (*ENCODE_FLAGS, *SETTINGS))
-    for flag in (*ENCODE_FLAGS, *SETTINGS):
+    assert all(defaults[flag.field] is not MISSING for flag in (*FLAGS["coding"], *FLAGS["settings"]))
+    for flag in (*FLAGS["coding"], *FLAGS["settings"]):
         default = defaults[flag.field]
         shown = flag.help.partition("(default")[2]
         if isinstance(default, bool):

@@ -15,7 +15,8 @@ from bsm import DenoiseOptions, MeshError, TriangleMesh, api
 from bsm.codec import denoise as library
 from bsm.codec.denoise import filters, normals, rehearsal
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
-from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
+from bsm.commands.denoise import GOALS
+from bsm.commands.flags import FLAGS
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from tests.bsm import program
 from tests.shapes import mnd, theta, torus
@@ -178,8 +179,8 @@ def test_frames_that_are_none_are_refused(frames, options):
 
 
 def test_the_command_knows_all_choices_of_the_library():
-    assert set(FINE) == set(normals.FINE_STEPS)
-    assert set(HAND_OVERS) == set(filters.HAND_OVERS)
+    choices = {flag.field: set(flag.metavar.split("|")) for flag in FLAGS["denoise"]}
+    assert choices["fine"] == set(normals.FINE_STEPS) and choices["hand_over"] == set(filters.HAND_OVERS)
     assert set(GOALS) <= set(rehearsal.GOALS)
 
 

@@ -10,7 +10,6 @@ from bsm.codec.sequence.options import PROMISES
 from bsm.codec.static.options import BALANCED
 from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
-from tests.shapes import torus
 
 
 def test_without_keywords_everything_is_the_default():
@@ -62,8 +61,8 @@ def test_targets(keyword, kind):
 
 
 def test_the_command_line_has_the_same_targets():
-    assert [target.field for target in flags.TARGETS] == list(TARGETS)
-    assert [target.field for target in flags.BOUNDS] == list(BOUNDS)
+    assert [target.field for target in flags.FLAGS["targets"]] == list(TARGETS)
+    assert [target.field for target in flags.FLAGS["bounds"]] == list(BOUNDS)
 
 
 def test_sequences():
@@ -177,14 +176,3 @@ def test_quick_sequences_search_for_nothing() -> None:
     for keywords in ({"look": 1.0}, {"kg": 0.1}):
         with pytest.raises(bsm.OptionError, match="does not search for a step"):
             sequence_options(effort="quick", **keywords)
-
-
-def test_the_former_name_of_an_effort_warns_and_works():
-    mesh = torus(20, 12)
-    with pytest.warns(DeprecationWarning, match='effort="quick"'):
-        assert bsm.encode(mesh, quick=True) == bsm.encode(mesh, effort="quick")
-    frames = np.stack([mesh.positions] * 3)
-    with pytest.warns(DeprecationWarning, match='effort="quick"'):
-        assert bsm.encode_sequence(frames, mesh.faces, quick=True) == bsm.encode_sequence(
-            frames, mesh.faces, effort="quick"
-        )

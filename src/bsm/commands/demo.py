@@ -11,7 +11,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
-from bsm.commands.flags import add_preset_flags, adder, options_of, within
+from bsm.commands.flags import add_preset_flags, adder, keywords_of, within
 from bsm.console import Console, print_json
 from bsm.evaluation.sample import knot
 from bsm.files.output import refuse_to_overwrite, write_output
@@ -37,7 +37,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     vertices, faces = len(sample.positions), len(sample.faces)
     plain = 12 * (vertices + faces)  # as float32 and int32
     console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
-    encoder, begin = Encoder(sample, encode_options(**options_of(args))), time.perf_counter()
+    encoder, begin = Encoder(sample, encode_options(**keywords_of(args))), time.perf_counter()
     with console.progress("encoding") as progress:
         result = encoder.result(progress)
     stream, error, encoding = b"".join(result.frames), result.comparison, time.perf_counter() - begin

@@ -15,7 +15,7 @@ import numpy as np
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.commands.flags import add_inputs, adder, asked, refuse_two_on_one_pipe
+from bsm.commands.flags import add_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files import mesh as meshes
 from bsm.files import table
@@ -33,12 +33,9 @@ from bsm.lengths import length, unit_of
 if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
 
-FINE = ("guided", "bilateral-normal")
-HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
 FINISHES = {"learnt": "learnt normals", "flat": "few, sharp bends"}
 STREAM = "bsm"
-_OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,19 +68,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "Without these options, bsm chooses the method by the noise of the mesh, or of the first frame.\n"
         "If you give one, the others have the values of the paper. A result that loses detail is written\n"
         "only with --force.",
-        argument_default=argparse.SUPPRESS,
     )
-    add = adder(ways)
-    add("--fine", "", "method of the fine step (default guided)", choices=FINE)
-    given = (
-        "input of the fine step. positions: those of the coarse step. heights: noisy positions, moved to the coarse "
-    )
-    given += "surface along its normals. normals: noisy positions, smoothed along coarse normals. none: no coarse step"
-    add("--hand-over", "", given, choices=HAND_OVERS)
-    add("--iterations", "N", "iterations of the fine step; 0: no fine step (default: by the method)", type=int)
-    share = "fraction of a block's frequencies that the coarse step keeps, c over n_d (default 0.1)"
-    add("--keep", "FRACTION", share, type=float)
-    add("--block-size", "N", "approximate vertices of a block before overlap (default 500)", type=int)
+    add_flags(ways, "denoise")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -95,8 +81,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     beside = "" if args.output else ".denoised"
     jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
     refuse_two_on_one_pipe(args, jobs[0].output)
-    given = {name: getattr(args, name) for name in _OPTIONS if hasattr(args, name)}
-    return run_jobs(asked(Batch, args), asked(DenoiseJob, args, output="", options=given), console, denoise_one, jobs)
+    job = asked(DenoiseJob, args, output="", options=options_of(args, "denoise"))
+    return run_jobs(asked(Batch, args), job, console, denoise_one, jobs)
 
 
 def denoise_one(args: DenoiseJob, console: Console) -> Facts:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError, counted
-from bsm.commands.flags import IMAGES, add_encode_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
+from bsm.commands.flags import IMAGES, add_encode_flags, add_inputs, adder, asked, keywords_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.images import ImageRule, shared_images
 from bsm.files.mesh import format_of_name
@@ -85,7 +85,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError("--permutation is for one input")
         refuse_collisions(args.inputs, [jobs[0].output, args.permutation, args.report or ""])
     refuse_two_on_one_pipe(args, jobs[0].output)
-    many, options = asked(Batch, args), options_of(args)
+    many, options = asked(Batch, args), keywords_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
     metadata = {"up": args.up} if args.up else {}
     for name, sign, value in (text.partition("=") for text in args.meta):

@@ -1,9 +1,12 @@
 """Options that several commands take: inputs and outputs, limits."""
 
 import argparse
+import csv
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from pathlib import Path
 from typing import Any, TypeVar
 
 from bsm.bitstream.errors import OptionError
@@ -43,8 +46,8 @@ class HelpAll(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser.print_help()
         print("\nsettings, --set NAME=VALUE:")
-        width = max(len(f"{setting.field}={setting.metavar}") for setting in SETTINGS)
-        for setting in SETTINGS:
+        width = max(len(f"{setting.field}={setting.metavar}") for setting in FLAGS["settings"])
+        for setting in FLAGS["settings"]:
             print(f"  {f'{setting.field}={setting.metavar}':{width}}  {setting.help}")
         parser.exit()
 
@@ -78,7 +81,7 @@ def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
 def named_setting(text: str) -> tuple[str, Any]:
     """NAME=VALUE as a field of `EncodeOptions` and its value."""
     name, _, value = text.partition("=")
-    known = {setting.field: setting for setting in SETTINGS}
+    known = {setting.field: setting for setting in FLAGS["settings"]}
     name = name.strip().replace("-", "_")
     if (setting := known.get(name)) is None:
         raise argparse.ArgumentTypeError(f"unknown setting {name!r}{suggestion(name, known)}; see --help-all")
@@ -92,48 +95,10 @@ def named_setting(text: str) -> tuple[str, Any]:
         raise argparse.ArgumentTypeError(f"{name}={setting.metavar} is expected, not {text!r}") from None
 
 
-ENCODE_FLAGS = (
-    Flag("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
-    Flag("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
-    Flag("grid_origin", numbers(3), "X,Y,Z", "a point of the grid (default 0,0,0)"),
-    Flag("effort", str, "quick|normal|best", "quick: faster, larger files; best: slower, smaller (default normal)"),
-    Flag("keep_order", bool, "", "store the order of vertices and faces; PC2 and MDD keep that of vertices"),
-    Flag("threads", int, "N", "threads to use (default: one per core)"),
-)
-
-SETTINGS = (
-    Flag("congruence", lambda text: text == "yes", "yes|no", "use congruent parts; no: format 1.0 (default yes)"),
-    Flag("limits", str, "default|service|wide", "limits that decoders must accept (default: default)"),
-    Flag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: by rate)"),
-    Flag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
-    Flag("step", float, "S", "quantization step, relative to the diagonal; replaces the promise"),
-    Flag("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
-    Flag("block_size", int, "N", "approximate vertices of a block before overlap (default 450)"),
-    Flag("partition", str, "derived|metis", "how to cut the mesh into blocks (default derived)"),
-    Flag("key_seed", str, "cosines|svd", "first dictionary of a chain (default cosines; with bits, svd)"),
-    Flag("key_interval", int, "K", "every K-th block starts a chain; 0: only the first (default 8)"),
-    Flag("power", int, "Z", "exponent of the iterated matrix (default 3)"),
-    Flag("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    Flag("doi", numbers(2), "EPS_L,EPS_H", "choose coefficients so that each block is off by so many mean edges"),
-)
-"""Advanced settings of the codec: `--set NAME=VALUE`."""
-
-
 IMAGES = "recompress images with Pillow: webp, jpeg, png; webp:85 sets the quality, webp:85@1024 also the longest side"
-PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none", "paper")
-PROMISES = (
-    "The encoder checks the decoded result before it writes a file. All constraints apply together.\n\n"
-    "preset         look  vertex  (look distance; largest error, relative to the diagonal of its component)\n"
-    "small          3     2 %     a preview: the shape is right, detail is lost\n"
-    "balanced       1     1 %     the default: the same at a glance in smooth shading\n"
-    "fine           0.5   0.5 %   closer; for flat shading\n"
-    "near-lossless  0.25  0.05 %  a bound for measuring, of the diagonal of the whole mesh\n"
-    "grid14                       exact positions on a grid of 14 bits per axis\n"
-    "lossless                     exact positions in single precision, exact attributes\n"
-    "none                         only the bounds and targets that you give\n"
-    "paper                        no promise: the codec of the paper, for research"
-)
+PROMISES = Path(__file__).with_name("presets.txt").read_text("utf-8").rstrip()
 """A table of the presets; written out, because importing their definitions takes time."""
+PRESETS = tuple(re.findall(r"^([\w-]+)  ", PROMISES, re.MULTILINE))[1:]
 
 
 def number_or_length(text: str) -> float | str:
@@ -150,31 +115,27 @@ def named_quality(text: str) -> tuple[str, str]:
     return name, quality
 
 
-BOUNDS = (
-    Flag("look", number_or_length, "D", "largest look distance from the original: 1 is balanced, 3 a preview"),
-    Flag("max_error", number_or_length, "REL", "largest vertex error: 0.1%% (of the diagonal), or a length (0.05mm)"),
-)
-TARGETS = (
-    Flag("nmsve_db", float, "X", "largest normalized mean squared visual error, dB"),
-    Flag("theta", float, "DEG", "largest mean angle between face normals before and after, degrees"),
-    Flag("bpv", float, "X", "largest number of bits per vertex, of the whole file"),
-    Flag("size", number_or_length, "BYTES", "largest file (20000, 20kB)"),
-)
-OF_SEQUENCES = (
-    Flag("kg", float, "PERCENT", "largest error of Karni and Gotsman, percent"),
-    Flag("bpvf", float, "X", "largest number of bits per vertex and frame, of the whole file"),
-    Flag("runs", bool, "", "let the faces change from frame to frame"),
-    Flag("gop", int, "N", "largest group of frames that are coded together (default 256 to 512)"),
-    Flag("low_delay", int, "N", "send N frames at a time, and a key frame every --gop frames"),
-    Flag("frame_rate", float, "FPS", "frames per second: metadata; sampling rate of glTF and USD animations"),
-)
+_TYPES: dict[str, Callable[[str], Any]] = {
+    **{"int": int, "float": float, "str": str, "bool": bool, "length": number_or_length},
+    **{"yes": lambda text: text == "yes", "2": numbers(2), "3": numbers(3)},
+}
+FLAGS: dict[str, list[Flag]] = {}
+"""The rows of options.csv, by group; those of the group settings are given by `--set NAME=VALUE`."""
+for _row in csv.DictReader(Path(__file__).with_name("options.csv").read_text("utf-8").splitlines()):
+    _flag = Flag(_row["option"], _TYPES[_row["type"]], _row["value"], _row["help"])
+    FLAGS.setdefault(_row["group"], []).append(_flag)
+
+
+def add_flags(group: argparse._ActionsContainer, named: str) -> None:
+    """Add the flags of a group of options.csv."""
+    for flag in FLAGS[named]:
+        flag.add(group)
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     add_preset_flags(parser)
     group = parser.add_argument_group("coding")
-    for setting in ENCODE_FLAGS:
-        setting.add(group)
+    add_flags(group, "coding")
     add, unset = adder(group), {"default": argparse.SUPPRESS}
     repeated = {"action": "append", **unset}
     add("--quick", "", "same as --effort quick", dest="effort", action="store_const", const="quick", **unset)
@@ -190,8 +151,7 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
         "Inputs: a folder or a pattern of meshes; several meshes with -o NAME.bsm; npz, PC2, MDD, USD; GLB with\n"
         "--animation; npy arrays on a pipe (the faces, then the positions of each frame).",
     )
-    for setting in OF_SEQUENCES:
-        setting.add(group)
+    add_flags(group, "sequences")
     add = adder(group)
     add("--animation", "NAME", "encode this animation of a GLB or glTF, by name or number (0)")
     add("--mesh", "FILE", "mesh of a PC2 or MDD (default: the file of the same name beside it)", dest="cache_mesh")
@@ -201,21 +161,22 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("quality and size", PROMISES)
     group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help="see above (default: balanced)")
-    for setting in BOUNDS:
-        setting.add(group)
-    targets = group.add_mutually_exclusive_group()
-    for setting in TARGETS:
-        setting.add(targets)
+    add_flags(group, "bounds")
+    add_flags(group.add_mutually_exclusive_group(), "targets")
 
 
-_KEYWORDS = ("preset", *(setting.field for setting in (*BOUNDS, *TARGETS, *ENCODE_FLAGS, *OF_SEQUENCES)))
+def options_of(args: argparse.Namespace, *groups: str) -> dict[str, Any]:
+    """Return the options of groups that are given on a command line."""
+    known = (flag.field for group in groups for flag in FLAGS[group])
+    return {name: getattr(args, name) for name in known if hasattr(args, name)}
 
 
-def options_of(args: argparse.Namespace) -> dict[str, Any]:
-    given = {name: getattr(args, name) for name in _KEYWORDS if hasattr(args, name)}
-    if hasattr(args, "attributes"):
-        given["attributes"] = dict(args.attributes)
-    return {**given, **dict(getattr(args, "set", ()))}
+def keywords_of(args: argparse.Namespace) -> dict[str, Any]:
+    """Return the keywords of `bsm.options` that a command line gives for encoding."""
+    given = options_of(args, "bounds", "targets", "coding", "sequences")
+    given |= {"preset": args.preset} if hasattr(args, "preset") else {}
+    given |= {"attributes": dict(args.attributes)} if hasattr(args, "attributes") else {}
+    return given | dict(getattr(args, "set", ()))
 
 
 _Asked = TypeVar("_Asked")
