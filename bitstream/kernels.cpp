@@ -24,7 +24,7 @@ static const std::map<std::string_view, BankPlan> PLANS = {{"code_labels", LABEL
 
 #define CONSTANT(name) {#name, name}
 static const std::map<std::string_view, int> CONSTANTS = {CONSTANT(ABOVE), CONSTANT(BEYOND), CONSTANT(NEIGHBORS),
-    CONSTANT(MAX_LEVEL), CONSTANT(PRICED), CONSTANT(TARGET_UNIT), CONSTANT(TRELLIS_STATES), CONSTANT(CODER_POSITION),
+    CONSTANT(MAX_LEVEL), CONSTANT(TARGET_UNIT), CONSTANT(TRELLIS_STATES), CONSTANT(CODER_POSITION),
     CONSTANT(MOST_COMPONENTS), CONSTANT(MAJOR), CONSTANT(SHORT_PAYLOAD), CONSTANT(MOST_NAME),
     CONSTANT(MOST_COPIES), CONSTANT(FREE_COPIES), CONSTANT(METHODS), CONSTANT(RUNS), CONSTANT(WITH_ATTRIBUTES)};
 
@@ -54,5 +54,5 @@ void bind_bitstream(nb::module_ &m) {
         int64_t count = least(levels.rows * levels.columns, points.rows * points.columns);
         values_of_levels(levels.data, count, 1.0, points.data);
     }, "levels"_a, "points"_a, Unlocked());
-    CHECKED(code_block) CHECKED(nearest_levels) CHECKED(code_matrix) CHECKED(price_matrix)
+    CHECKED(code_block) CHECKED(nearest_levels) CHECKED(code_matrix)
 }

@@ -12,16 +12,9 @@ import numpy.typing as npt
 from bsm._core import bitstream as _kernels
 from bsm._core.bitstream import bank_plan, constant, priors
 from bsm.bitstream.entropy import range_coder as entropy
-from bsm.bitstream.entropy.range_coder import ONE
 from bsm.bitstream.errors import OptionError
 
 TARGET_UNIT = constant("TARGET_UNIT")  # targets are in 1 / TARGET_UNIT of a quantization step
-
-_BIT = 256
-_SHIFT = 4
-_PROBABILITIES = np.maximum(np.arange((ONE >> _SHIFT) + 1), 0.5) * (1 << _SHIFT) / ONE
-COSTS = np.rint(_BIT * -np.log2(np.minimum(_PROBABILITIES, 1.0))).astype(np.int64)
-"""Cost of a decision by its probability, in 1 / 256 bit."""
 
 
 def nearest_levels(targets: npt.NDArray[np.int64]) -> Levels:

@@ -149,13 +149,25 @@ extern INSIDE const BankPlan BLOCK_BANK;
 int64_t code_block(Coder coder, Bank bank, Past past, ConstInts2 expectations, Ints2 levels);
 
 /* Entropy coding of a sequence's levels. See matrices.py. */
-enum { PRICED = 6 }; /* magnitudes whose prices are computed */
+enum { CLASSES = 12 };
+
+/* Magnitude class 0 .. 11 of a sum of magnitudes. */
+INLINE int64_t class_of(int64_t value) {
+    if (value < 5) return value;
+    return 5 + (value >= 7) + (value >= 10) + (value >= 15) + (value >= 25) + (value >= 50) + (value >= 150);
+}
+
+INLINE int64_t magnitude_of(int64_t level) { return level < 0 ? -level : level; }
+
+/* Magnitude in a matrix, zero outside. */
+INLINE int64_t magnitude_at(const int32_t *data, int64_t rows, int64_t columns, int64_t row, int64_t column) {
+    if (row < 0 || column < 0 || row >= rows || column >= columns) return 0;
+    return magnitude_of(data[row * columns + column]);
+}
 
 extern INSIDE const BankPlan MATRIX_BANK;
 int64_t code_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow);
-int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, int64_t turn, int64_t few, Longs slow, ConstLongs costs, Shorts prices);
 
 /* Choosing levels. See nearest.c. */
 enum { TARGET_UNIT = 256 }; /* targets are in 1 / TARGET_UNIT of a step */

@@ -10,36 +10,19 @@ enum {
     SPAN,
     TOGETHER = 8, /* rows that share a flag */
     INPUTS = 6,
-    CLASSES = 12,
     PLACES = 40,
     TABLE = CLASSES * CLASSES * SPAN, /* slots of each of the first five inputs */
     MATRIX_SLOTS = 5 * TABLE + CLASSES * PLACES * SPAN,
     WEIGHT_SETS = 3,
-    COST_SHIFT = 4, /* a cost for each probability, less these bits */
-    COSTS = (ONE >> COST_SHIFT) + 1,
 };
 INSIDE const BankPlan MATRIX_BANK = {
     .slots = MATRIX_SLOTS, .selectors = WEIGHT_SETS * SPAN, .inputs = INPUTS, .limit = 400, .rate = 10};
-
-/* Magnitude class 0 .. 11 of a sum of magnitudes. */
-INLINE int64_t class_of(int64_t value) {
-    if (value < 5) return value;
-    return 5 + (value >= 7) + (value >= 10) + (value >= 15) + (value >= 25) + (value >= 50) + (value >= 150);
-}
 
 /* Bits of an index, 0 .. 11. */
 INLINE int64_t octave(int64_t value) {
     int64_t bits = 0;
     for (; value > 0 && bits < CLASSES - 1; value >>= 1) bits++;
     return bits;
-}
-
-INLINE int64_t magnitude_of(int64_t level) { return level < 0 ? -level : level; }
-
-/* Magnitude in a matrix, zero outside. */
-INLINE int64_t at(const int32_t *data, int64_t rows, int64_t columns, int64_t row, int64_t column) {
-    if (row < 0 || column < 0 || row >= rows || column >= columns) return 0;
-    return magnitude_of(data[row * columns + column]);
 }
 
 /* Sum of the magnitudes in some rows, of those that there are. */
@@ -83,35 +66,11 @@ INLINE int32_t code_level(
     return (int32_t)(negative ? -magnitude : magnitude);
 }
 
-INLINE int64_t cost_of(const Mixer *mixer, const int64_t *costs, const int64_t *contexts, int64_t selector, int node,
-    int bit) {
-    int32_t stretched[INPUTS];
-    uint32_t probability = mixed_probability(mixer, INPUTS, contexts, node, selector, stretched);
-    return costs[(bit ? probability : ONE - probability) >> COST_SHIFT];
-}
-
-/* What the first magnitudes of both grids would cost here. */
-INLINE void note_prices(
-    const Mixer *mixer, const int64_t *costs, const int64_t *contexts, int64_t selector, int16_t *prices) {
-    int64_t larger[PRICED];
-    for (int k = 2, sum = 0; k < PRICED; k++) {
-        larger[k] = sum + cost_of(mixer, costs, contexts, selector, 1 + k, 0);
-        sum += (int)cost_of(mixer, costs, contexts, selector, 1 + k, 1);
-    }
-    for (int grid = 0; grid < 2; grid++, prices += PRICED) {
-        int64_t some = costs[ONE >> (COST_SHIFT + 1)] + cost_of(mixer, costs, contexts, selector, zero_node(grid), 1);
-        int64_t more = some + cost_of(mixer, costs, contexts, selector, one_node(grid), 1);
-        prices[0] = (int16_t)cost_of(mixer, costs, contexts, selector, zero_node(grid), 0);
-        prices[1] = (int16_t)(some + cost_of(mixer, costs, contexts, selector, one_node(grid), 0));
-        for (int k = 2; k < PRICED; k++) prices[k] = (int16_t)(more + larger[k]);
-    }
-}
-
-/* Code rows, as many together as it takes to reach the last of `rows`; `prices` is filled if there are costs, of all.
- * Of the first row `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns,
- * `few`, of it and those behind it (S 4.2). The others are 0. */
-INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, int64_t turn, int64_t few, Longs slow, const int64_t *costs, int16_t *prices) {
+/* Code rows, as many together as it takes to reach the last of `rows`; returns how many were coded. Of the first row
+ * `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns, `few`, of it and
+ * those behind it (S 4.2). The others are 0. `slow` is scratch, an entry a column. */
+int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
+    int64_t stair, int64_t turn, int64_t few, Longs slow) {
     RangeCoder coder;
     Mixer mixer;
     int64_t columns = levels.columns;
@@ -121,20 +80,20 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
         return MISUSED;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
     int64_t behind = sum_of(reference.data, reference.rows, columns, 0, reference.rows), most = columns, j = 0;
-    int state = 0, more = 1;
+    int state = 0;
     for (; j < levels.rows && !overran(&coder); j++) {
-#define A(row, column) at(levels.data, levels.rows, columns, row, column)
-#define B(row, column) at(reference.data, reference.rows, columns, row, column)
+#define A(row, column) magnitude_at(levels.data, levels.rows, columns, row, column)
+#define B(row, column) magnitude_at(reference.data, reference.rows, columns, row, column)
         int64_t band = octave(j), selector = SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2), mean = 0;
         int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), whole = least(columns, lead + stair * j);
-        if (j % TOGETHER == 0 && more) {
-            more = code_more(&coder, &mixer, levels, reference, j, behind, place, selector, j < rows);
+        if (j % TOGETHER == 0) {
+            int more = code_more(&coder, &mixer, levels, reference, j, behind, place, selector, j < rows);
             behind -= sum_of(reference.data, reference.rows, columns, j, j + TOGETHER);
+            if (!more) break;
         }
-        if (!more && !costs) break;
-        if (j == turn && more) most = code_uniform(&coder, few, columns + 1);
+        if (j == turn) most = code_uniform(&coder, few, columns + 1);
         int64_t end = least(whole, most);
-        for (int64_t i = 0; i < (costs ? whole : end); i++) {
+        for (int64_t i = 0; i < end; i++) {
             int64_t above = 2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i);
             int64_t left = 2 * A(j, i - 1) + A(j, i - 2);
             int64_t around = A(j - 1, i + 1) + A(j - 1, i - 1);
@@ -149,8 +108,6 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
                 5 * TABLE + SPAN * (PLACES * class_of(left + around) + place),
             };
             int32_t *level = levels.data + j * columns + i;
-            if (costs) note_prices(&mixer, costs, contexts, selector, prices + 2 * PRICED * (j * columns + i));
-            if (i >= end) continue;
             *level = code_level(&coder, &mixer, contexts, selector, trellis_grid(state), *level);
             state = trellis_following(state, *level);
             int64_t magnitude = least(magnitude_of(*level), 4096);
@@ -166,19 +123,4 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
     }
     close_coder(&coder, given);
     return j;
-}
-
-/* Code the first of some rows, those that have levels among them; returns how many were coded. `slow` is scratch, an
- * entry a column. */
-int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, int64_t turn, int64_t few, Longs slow) {
-    return follow_matrix(given, bank, levels, reference, rows, lead, stair, turn, few, slow, 0, 0);
-}
-
-/* The same, and what the magnitudes 0 .. PRICED - 1 of both grids would have cost at each place, all rows included:
- * `costs` are of probabilities, see COST_SHIFT. */
-int64_t price_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, int64_t turn, int64_t few, Longs slow, ConstLongs costs, Shorts prices) {
-    if (costs.size != COSTS || prices.size != 2 * PRICED * levels.rows * levels.columns) return MISUSED;
-    return follow_matrix(given, bank, levels, reference, rows, lead, stair, turn, few, slow, costs.data, prices.data);
 }

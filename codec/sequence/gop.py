@@ -95,7 +95,7 @@ class FrameHistory:
 
 
 OVERHEAD = 14  # bytes of a GOP besides its levels, about
-PLACES, SENT, CLEARLY = 8, 0.4, 0.95
+PLACES, SENT, CLEARLY = 8, 0.35, 0.95
 """Places where a cut is looked for at first; bytes of one more component over those of all on average, about; and the
 share of the numbers with which a cut is worth an attempt."""
 LIKE = 0.5

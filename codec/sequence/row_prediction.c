@@ -116,8 +116,25 @@ KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 mome
  * the end of a row the best survivor stays: what the rows behind are predicted from.
  */
 
-enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, LARGEST_LEVEL = (1 << 23) - 1 };
+enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, LARGEST_LEVEL = (1 << 23) - 1, PRICED = 6 };
 #define NEVER __builtin_inf()
+
+/* What magnitudes cost on either grid, in 1 / BIT_UNIT of a bit, by the class of what is known around them: means of
+ * what the coder takes. */
+static const int16_t PRICES[CLASSES][2][PRICED] = {
+    {{10, 1900, 3200, 4100, 4300, 4300}, {30, 1400, 2900, 3800, 4000, 4000}},
+    {{6, 2244, 3668, 4538, 4794, 4845}, {64, 1053, 2955, 3825, 4081, 4133}},
+    {{23, 1624, 3081, 4082, 4419, 4607}, {131, 791, 2464, 3466, 3803, 3990}},
+    {{37, 1295, 2678, 3750, 4192, 4445}, {185, 659, 2124, 3197, 3638, 3891}},
+    {{52, 1150, 2502, 3608, 4076, 4345}, {238, 587, 1953, 3059, 3527, 3796}},
+    {{84, 973, 2236, 3326, 3885, 4169}, {316, 519, 1704, 2793, 3352, 3636}},
+    {{132, 805, 1922, 2933, 3587, 3887}, {423, 463, 1419, 2430, 3084, 3384}},
+    {{217, 672, 1524, 2314, 2959, 3315}, {561, 452, 1128, 1918, 2563, 2919}},
+    {{387, 591, 1125, 1630, 2127, 2473}, {738, 514, 882, 1386, 1883, 2230}},
+    {{652, 645, 912, 1177, 1453, 1695}, {921, 696, 790, 1055, 1331, 1574}},
+    {{1051, 899, 991, 1060, 1168, 1258}, {1098, 1014, 957, 1025, 1134, 1223}},
+    {{1685, 1458, 1473, 1484, 1463, 1460}, {1447, 1650, 1472, 1483, 1463, 1460}},
+};
 
 /* Survivors of all states, side by side. */
 typedef struct {
@@ -160,15 +177,26 @@ INLINE void weigh_levels(double before, double scaled, int grid, const int16_t *
     }
 }
 
-/* Fills `levels` and `decoded` from `targets`, and moments as the decoder has them afterwards. `prices` are those of
- * price_matrix, `weight` the squared steps that a bit is worth. Scratch: `factor` and `row` as of follow_rows,
- * `expected` of 2 STATES + 1 rows, and of a row of STATES for each coded column `values`, `ways` and `origins`. */
-KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts prices, double weight, Ints2 levels,
-    Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row, Doubles2 expected, Doubles2 values,
-    Ints2 ways, Bytes2 origins) {
+/* The prices at a place of a matrix, of which the rows above are there; `usual` is slow_i of S 4.3. */
+INLINE const int16_t (*prices_at(Ints2 levels, ConstInts2 reference, int64_t j, int64_t i, int64_t usual))[PRICED] {
+#define A(row, column) magnitude_at(levels.data, levels.rows, levels.columns, row, column)
+#define B(row) magnitude_at(reference.data, reference.rows, levels.columns, row, i)
+    return PRICES[class_of(2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i) + A(j - 1, i + 1) + A(j - 1, i - 1) + 2 * B(j)
+        + B(j - 1) + B(j + 1) + (usual >> 4))];
+#undef A
+#undef B
+}
+
+/* Fills `levels` and `decoded` from `targets`, and moments as the decoder has them afterwards. `weight` is the squared
+ * steps that a bit is worth; `lead` and `stair` are as of code_matrix. Scratch: `factor` and `row` as of follow_rows,
+ * `expected` of 2 STATES + 1 rows, for each coded column an entry of `slow`, and a row of STATES of the others. */
+KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstInts2 reference, int64_t lead, int64_t stair,
+    double weight, Ints2 levels, Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row,
+    Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins, Longs slow) {
     int64_t count = known.columns, size = moments.rows, width = moments.columns, coded = width - count;
     double *now = row.data, half_step = 0.5 * step, bit = 4.0 * weight / BIT_UNIT;
     int state = 0;
+    for (int64_t i = 0; i < coded; i++) slow.data[i] = 0;
     for (int64_t j = 0; j < levels.rows; j++) {
         if (is_renewed(j)) factorize_moments(moments, RIDGE, factor.data);
         Survivors both[2], *new = &both[0];
@@ -184,7 +212,7 @@ KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts 
         for (int64_t i = 0; i < coded; i++) {
             int64_t b = count + i;
             double target = targets.data[j * coded + i];
-            const int16_t *here = prices.data + 2 * PRICED * (j * coded + i);
+            const int16_t(*here)[PRICED] = prices_at(levels, reference, j, i, slow.data[i]);
             int32_t *way = ways.data + STATES * i;
             uint8_t *origin = origins.data + STATES * i;
             double even[STATES], odd[STATES], *value = values.data + STATES * i;
@@ -193,8 +221,9 @@ KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts 
             new = &both[~i & 1];
             for (int s = 0; s < STATES; s++) {
                 double scaled = (target - old->expect[s][b]) / half_step;
-                const int16_t *own = here + PRICED * trellis_grid(s);
-                weigh_levels(old->cost[s], scaled, trellis_grid(s), own, bit, &even[s], &odd[s], found[s]);
+                int grid = trellis_grid(s);
+                weigh_levels(old->cost[s], scaled, grid, here[grid], bit, &even[s], &odd[s], found[s]);
+                if (i >= lead + stair * j) odd[s] = NEVER;
             }
             double *room = expected.data + width * (1 + (i & 1 ? STATES : 0));
             _Pragma("GCC unroll 8") for (int s = 0; s < STATES; s++) {
@@ -223,6 +252,7 @@ KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts 
             int64_t at = STATES * i + best;
             levels.data[j * coded + i] = ways.data[at];
             decoded.data[j * coded + i] = now[count + i] = values.data[at];
+            slow.data[i] += (64 * least(magnitude_of(ways.data[at]), 4096) - slow.data[i]) >> 2;
             best = origins.data[at];
         }
         learn_row(moments, step, j, now);

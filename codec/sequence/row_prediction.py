@@ -6,8 +6,8 @@ import numpy as np
 
 from bsm._core import codec as _kernels
 from bsm.bitstream.coefficients.adaptive import STATES
-from bsm.bitstream.coefficients.matrices import Lead, Prices, first_prices, price_levels, write_levels
-from bsm.bitstream.entropy.range_coder import Bank, copy_bank, finish_writing, start_writing
+from bsm.bitstream.coefficients.matrices import Lead, write_levels
+from bsm.bitstream.entropy.range_coder import Bank, finish_writing, start_writing
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.signal.transform import LARGEST_LEVEL
@@ -31,25 +31,21 @@ class Loop:
         return self
 
     def search(
-        self, known: Matrix, targets: Matrix, step: float, prices: Prices, weight: float
+        self, known: Matrix, targets: Matrix, step: float, reference: Levels, lead: Lead | None
     ) -> tuple[Levels, Matrix]:
         """Choose levels for `targets`, shape (c, r), given `known`, shape (c, k)."""
         levels, decoded = np.zeros(targets.shape, np.int32), np.empty(targets.shape)
         coded, width = targets.shape[1], self._moments.shape[1]
         self._check(known, targets)
-        given = np.ascontiguousarray(known), np.ascontiguousarray(targets), prices.reshape(-1), weight
+        given = np.ascontiguousarray(known), np.ascontiguousarray(targets), reference
+        ways = *(lead or (coded, 0)), WEIGHT
         scratch = np.zeros(self._moments.shape), np.empty(width), np.empty((2 * STATES + 1, width))
         tables = np.empty((coded, STATES)), np.empty((coded, STATES), np.int32), np.zeros((coded, STATES), np.uint8)
-        _kernels.search_rows(*given, levels, decoded, self._moments, step, *scratch, *tables)
+        slow = np.empty(coded, np.int64)
+        _kernels.search_rows(*given, *ways, levels, decoded, self._moments, step, *scratch, *tables, slow)
         if levels.size and max(levels.max(), -levels.min()) >= LARGEST_LEVEL:
             raise OptionError(f"a step of {step:g} is too fine for motion that far; choose a coarser one")
         return levels, decoded
-
-    def copy(self) -> Loop:
-        """An independent copy of the present state."""
-        twin = Loop(self._known, 0)
-        twin._moments = self._moments.copy()
-        return twin
 
     def _check(self, known: Matrix, others: Matrix) -> None:
         if known.shape != (len(others), self._known) or others.shape[1] != self._moments.shape[1] - self._known:
@@ -62,7 +58,7 @@ class LevelWriter:
     def __init__(self, bank: Bank, columns: int) -> None:
         self.levels: list[Levels] = []
         self._columns = columns
-        self._bank, self._ahead, self._coder = bank, copy_bank(bank), start_writing(0)
+        self._bank, self._coder = bank, start_writing(0)
         self._none = np.zeros((0, columns), np.int32)
 
     def write(
@@ -74,18 +70,14 @@ class LevelWriter:
         reference: Levels | None = None,
         lead: Lead | None = None,
     ) -> Matrix:
-        """Choose and note the levels of a matrix, twice: prices depend on the neighbors, which depend on prices."""
+        """Choose and note the levels of a matrix."""
         if reference is None:
             reference = self.levels[-1] if self.levels else self._none
-        prices = first_prices(len(targets), self._columns, lead)
-        levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
-        prices = price_levels(self._ahead, levels, reference, lead)
-        levels, decoded = loop.search(known, targets, step, prices, WEIGHT)
-        self._coder = write_levels(self._coder, self._ahead, levels, reference, lead)
+        levels, decoded = loop.search(known, targets, step, reference, lead)
+        self._coder = write_levels(self._coder, self._bank, levels, reference, lead)
         self.levels.append(levels)
         return decoded
 
     def finish(self) -> bytes:
-        """Return the payload; the bank advances past it."""
-        self._bank.slots[...], self._bank.weights[...] = self._ahead.slots, self._ahead.weights
+        """Return the payload."""
         return finish_writing(self._coder)

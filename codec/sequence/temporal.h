@@ -6,9 +6,9 @@
 void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 moments, double step, Doubles mean, Doubles row);
 void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded, Doubles2 moments, double step,
     Doubles2 factor, Doubles row, Doubles expected);
-void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts prices, double weight, Ints2 levels,
-    Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row, Doubles2 expected, Doubles2 values,
-    Ints2 ways, Bytes2 origins);
+void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstInts2 reference, int64_t lead, int64_t stair,
+    double weight, Ints2 levels, Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row,
+    Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins, Longs slow);
 /* BENDING: the columns that GOPs know of positions about a part: they, their squares and their cubes (S 3.7).
  * INHERITED: components of a GOP that those of the next one are predicted from: motion is repeated in other mixtures.
  * BATCH: frames that are made at a time, as many as a vector has numbers.

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from bsm import CorruptError, OptionError
-from bsm.bitstream.coefficients.adaptive import points_of_levels
-from bsm.bitstream.coefficients.matrices import PRICED, make_level_bank, price_levels
+from bsm.bitstream.coefficients.matrices import make_level_bank
 from bsm.bitstream.coefficients.packed import compress, pack_coefficients, unpack_coefficients
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, write_gop_body
 from tools.payloads import encode_levels
@@ -31,24 +30,6 @@ def test_small_magnitudes_cost_about_their_entropy():
     payload = encode_levels(make_level_bank(), [matrix], [empty(50)])
     entropy = -(0.8 * np.log2(0.8) + 0.2 * np.log2(0.1)) * matrix.size / 8
     assert len(payload) < 1.05 * entropy
-
-
-def test_prices_are_what_coding_takes():
-    matrix = np.clip(decaying(5), 1 - PRICED, PRICED - 1)
-    bank = make_level_bank()
-    encode_levels(bank, [decaying(6)], [empty(20)])
-    slots, weights = bank.slots.copy(), bank.weights.copy()
-    prices = price_levels(bank, matrix, empty(20))
-    assert np.array_equal(bank.slots, slots) and np.array_equal(bank.weights, weights)
-    points = points_of_levels(matrix)
-    grids = np.where(matrix, points % 2, 0)  # zero is on both
-    paid = np.take_along_axis(
-        np.take_along_axis(prices, grids[..., None, None].astype(np.intp), 2)[:, :, 0],
-        np.abs(matrix)[..., None].astype(np.intp),
-        2,
-    )
-    total = paid[matrix != 0].sum() + prices[matrix == 0][:, :, 0].mean(axis=1).sum()
-    assert total / 256 / 8 == pytest.approx(len(encode_levels(bank, [matrix], [empty(20)])), rel=0.03)
 
 
 MOVING = GopField(3, 0.5, 3, np.array([7, 3, 40], np.int32), b"basis", b"levels")

@@ -104,7 +104,7 @@ def test_the_encoder_reports_errors_of_decoded_frames(changes: dict[str, Any]) -
     seen = looks(original, decoded, found)
     # Short GOPs are drawn as a whole; without a promise only the frame is that has the largest normal error.
     expected = max(seen) if chosen.promise else seen[int(np.argmax(wrong))]
-    assert encoder.worst_look == pytest.approx(expected, rel=1e-6)
+    assert encoder.worst_look == pytest.approx(expected, rel=1e-4)
 
 
 def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.MonkeyPatch) -> None:
