@@ -179,7 +179,7 @@ def test_frames_that_are_none_are_refused(frames, options):
 
 
 def test_the_command_knows_all_choices_of_the_library():
-    choices = {flag.field: set(flag.metavar.split("|")) for flag in FLAGS["denoise"]}
+    choices = {flag.field: set(flag.value.split("|")) for flag in FLAGS["denoise method"]}
     assert choices["fine"] == set(normals.FINE_STEPS) and choices["hand_over"] == set(filters.HAND_OVERS)
     assert set(GOALS) <= set(rehearsal.GOALS)
 

@@ -19,7 +19,7 @@ from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import Reference, folded_edges, rms_over_edge, surface_distance
 from bsm.codec.look.measure import AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
-from bsm.commands.flags import add_limits_flag, adder, limits_of
+from bsm.commands.flags import add_flags, limits_of
 from bsm.comparison import Pair, compare_meshes, one_each, order_of_used, pair, paired_frames, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.exits import exit_of, worded
@@ -44,53 +44,11 @@ SHOWN = 99.0  # percentile of the distances that has the last color: single vert
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = adder(parser)
-    add("original", "A", "original: mesh file, stream or sequence")
-    add("decoded", "B", "the mesh to compare: mesh file, stream or sequence")
-    add("--permutation", "FILE.npy", "the file that encode wrote: vertex p[j] of A is vertex j of B")
-    surface = "for meshes, also print the mean normal difference, the rms error in mean edges, and the distance "
-    add("--surface", "", f"{surface}between the surfaces. The faces may differ")
-    alike = "also measure the look distance; at 1, both look the same in smooth shading. The faces may differ. "
-    add("--look", "", f"{alike}A sequence is compared frame by frame")
-    drawn = "draw both and their difference, from the side where it is largest (implies --look); for sequences, "
-    add("--picture", "FILE.png", f"{drawn}a curve of the error of each frame")
-    colored = "draw the error of each vertex of A in colors, from blue to red: a picture (.png), or A as a mesh with "
-    add("-r --recursive", "", "A and B are folders: compare each file in A and below with that of its name in B")
-    add("--map", "FILE", f"{colored}colors (.ply, .obj, .glb)")
-    add_limits_flag(parser)
-    add("--json", "", "print the result as JSON")
+    add_flags(parser, "compare", "limits")
 
 
-EXPLAINED = {
-    "nmsve": "normalized mean squared visual error over the diagonal; 0 is best",
-    "nmsve_db": "nmsve in decibels; lower is better",
-    "nmsve_paper_db": "the same as the paper prints it: not divided by the diagonal",
-    "theta_deg": "mean angle between normals of faces, degrees",
-    "angle_deg": "the same, weighted by area",
-    "rms": "root mean square of vertex errors, in the unit of the mesh",
-    "rms_relative": "root mean square of vertex errors, as a fraction of the diagonal",
-    "max_error": "largest vertex error, in the unit of the mesh",
-    "max_error_relative": "largest vertex error, as a fraction of the diagonal",
-    "flattened": "triangles that lost their area",
-    "merged": "vertices that rounding put at one place",
-    "folded_before": "edges folded by over 90 degrees in the original",
-    "folded_after": "the same in the decoded mesh",
-    "mnd": "mean difference of unit normals of faces",
-    "rms_over_edge": "root mean square of vertex errors, in mean edge lengths",
-    "hausdorff": "largest distance between the surfaces",
-    "surface_distance": "mean distance between the surfaces",
-    "hausdorff_relative": "the largest, as a fraction of the diagonal",
-    "look": "look distance; at 1, both look the same in smooth shading",
-    "look_flat": "the same in flat shading",
-    "look_checker": "the same with the texture coordinates of a checkerboard",
-    "look_colors": "the same in vertex colors",
-    "kg": "error of Karni and Gotsman, percent",
-    "flicker": "error of accelerations, percent of the accelerations of the original",
-    "look_worst": "look distance of the worst frame; at 1, both look the same in smooth shading",
-    "look_mean": "mean look distance",
-    "unlike_worst": "largest mean difference of shades of a frame",
-    "bpvf_total": "bits per vertex and frame of the whole file",
-}
+_FIGURES = Path(__file__).with_name("figures.txt").read_text("utf-8").splitlines()
+EXPLAINED = dict(line.split(": ", 1) for line in _FIGURES)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

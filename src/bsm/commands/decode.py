@@ -17,7 +17,7 @@ from bsm import __version__
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits_of, refuse_two_on_one_pipe
+from bsm.commands.flags import add_flags, add_inputs, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console, printable
 from bsm.files.formats.metadata import Written
@@ -61,7 +61,6 @@ class DecodeJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = adder(parser)
     add_inputs(
         parser,
         "stream, scene of glTF with streams, or - for standard input",
@@ -69,18 +68,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "(default), PC2, MDD, GLB, USD, a folder for its frames, or a pattern such as walk/%%04d.obj",
     )
     same = "format of the output (default: by its name, else ply); with -r also same: names and formats of the sources"
-    add("--format", "", same, choices=(*SEQUENCE_FORMATS, "same"))
-    part = adder(parser.add_mutually_exclusive_group())
-    part("--blocks", "N", "stop after N blocks, and write that part", type=int)
-    part("--layers", "N", "stop after N layers: 1 is the base, each refinement adds one", type=int)
-    part("--tolerant", "", "continue after damage; list the lost parts and leave them out")
-    add("--permutation", "FILE.npy", "restore the order of the input; the file that encode wrote with the same option")
-    add("--unit-out", "UNIT", "scale coordinates from the unit of the stream to m, cm, mm, in, ft, ...")
-    add("--float32", "", "round coordinates to single precision, even where their format or place asks for double")
-    add_limits_flag(parser)
-    add("-r --recursive", "", "decode every stream in folders and their subfolders; OUT gets the same folders")
-    numbered = "decode frames A to B - 1 only, counted from 0: 0:1 is the first, which may be written as a mesh"
-    adder(parser.add_argument_group("sequences"))("--frames", "A:B", numbered)
+    adder(parser)("--format", "", same, choices=(*SEQUENCE_FORMATS, "same"))
+    add_flags(parser.add_mutually_exclusive_group(), "decode a part")
+    add_flags(parser, "decode", "limits")
+    add_flags(parser.add_argument_group("sequences"), "decode sequences")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

@@ -11,7 +11,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
-from bsm.commands.flags import add_preset_flags, adder, keywords_of, within
+from bsm.commands.flags import add_flags, add_preset_flags, keywords_of
 from bsm.console import Console, print_json
 from bsm.evaluation.sample import knot
 from bsm.files.output import refuse_to_overwrite, write_output
@@ -20,10 +20,7 @@ from bsm.pictures import bounds_of, colors_of, png, render, with_titles
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = adder(parser)
-    add("-o --output", "FOLDER", "folder for the results (default: the current one)", default=".")
-    add("--vertices", "N", "number of vertices of the sample (default 20000)", type=within(1), default=20_000)
-    add("--json", "", "print the result as JSON")
+    add_flags(parser, "demo")
     add_preset_flags(parser)
 
 

@@ -61,15 +61,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--format", "", "format of the input and of a piped output", choices=(*table.MESH_FORMATS, "npy"))
     goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
     add("--for", "", goal, dest="goal", choices=GOALS, default=GOALS[0])
-    add("--strength", "S", "fraction of every movement, 0 to 1 (default 1)", type=float, default=1.0)
-    add("--look", "", "print the look distance between the input and the result")
+    add_flags(parser, "denoise")
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "Without these options, bsm chooses the method by the noise of the mesh, or of the first frame.\n"
         "If you give one, the others have the values of the paper. A result that loses detail is written\n"
         "only with --force.",
     )
-    add_flags(ways, "denoise")
+    add_flags(ways, "denoise method")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -81,7 +80,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     beside = "" if args.output else ".denoised"
     jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
     refuse_two_on_one_pipe(args, jobs[0].output)
-    job = asked(DenoiseJob, args, output="", options=options_of(args, "denoise"))
+    job = asked(DenoiseJob, args, output="", options=options_of(args, "denoise method"))
     return run_jobs(asked(Batch, args), job, console, denoise_one, jobs)
 
 

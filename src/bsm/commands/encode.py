@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError, counted
-from bsm.commands.flags import IMAGES, add_encode_flags, add_inputs, adder, asked, keywords_of, refuse_two_on_one_pipe
+from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, keywords_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.images import ImageRule, shared_images
 from bsm.files.mesh import format_of_name
@@ -27,30 +27,15 @@ _OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json",
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add = adder(parser)
     add_inputs(
         parser,
         "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence (see below)",
         "output file, - for a pipe, or folder for several inputs (default: IN with .bsm). Several inputs to one .bsm "
         "are the frames of a sequence",
     )
-    add("-r --recursive", "", "encode every mesh file in folders and their subfolders; OUT gets the same folders")
     formats = tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ)))
     known = "format of the input, as a suffix without the dot (default: by its name or content)"
-    add("--format", "FORMAT", known, choices=formats)
-    add("--untrusted", "", "read files from strangers: in a process of its own, which ends at 1 GiB or 10 s (Linux)")
-    add("--dry-run", "", "encode, check and report, but write no file")
-    fewer = "try fewer triangles in steps of 16 %%, and keep the smallest file that keeps the promise to the "
-    fewer += "original: its look, and the vertex bound as the largest distance between the surfaces"
-    add("--simplify", "", fewer)
-    add("--images", "RULE", f"keep, none, link (files in the folder images), or {IMAGES}")
-    add("--permutation", "FILE.npy", "write the input vertex of each decoded vertex")
-    meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
-    add("--meta", "NAME=TEXT", meta, action="append", default=[])
-    add("--up", "", "store the up axis (same as --meta up=y)", choices=("y", "z"))
-    made = "store the version of bsm, the preset and its bounds, and the SHA-256 of the input. Without the flag, only "
-    made += "for meshes decoded from such a stream"
-    add("--provenance", "", made, action=argparse.BooleanOptionalAction)
+    adder(parser)("--format", "FORMAT", known, choices=formats)
     add_encode_flags(parser)
 
 

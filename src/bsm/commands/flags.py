@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from itertools import groupby
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,19 +18,30 @@ from bsm.files.output import refuse_terminal
 
 @dataclass(frozen=True)
 class Flag:
-    """A keyword of `bsm.options` on the command line: `--field VALUE`, or `--set field=VALUE`."""
+    """A row of options.csv: an option, or the keyword of a setting; "unset": without a value the namespace has none."""
 
-    field: str
-    type: Callable[[str], Any]
-    metavar: str
+    group: str
+    names: str
+    kind: str
+    value: str
+    default: str
     help: str
 
+    @property
+    def field(self) -> str:
+        return self.names.split()[-1].removeprefix("--").replace("-", "_")
+
+    def parse(self, text: str) -> Any:
+        return _TYPES.get(self.kind, str)(text)
+
     def add(self, group: argparse._ActionsContainer) -> None:
-        """Add it as a flag. Without a value the namespace has no such name: defaults are elsewhere."""
-        how: dict[str, Any] = {"action": argparse.BooleanOptionalAction} if self.type is bool else {"type": self.type}
-        how |= {"choices": self.metavar.split("|")} if "|" in self.metavar else {}
-        add = adder(group)
-        add(f"--{self.field.replace('_', '-')}", self.metavar, self.help, default=argparse.SUPPRESS, **how)
+        how: dict[str, Any] = {**_ACTIONS.get(self.kind, {"type": _TYPES.get(self.kind)} if self.value else {})}
+        how |= {"choices": self.value.split("|")} if "|" in self.value else {}
+        if self.default == "required":
+            how |= {"required": True}
+        elif self.default:
+            how |= {"default": argparse.SUPPRESS if self.default == "unset" else self.parse(self.default)}
+        adder(group)(self.names, self.value, self.help, **how)
 
 
 def adder(parser: argparse._ActionsContainer) -> Callable[..., argparse.Action]:
@@ -46,9 +58,9 @@ class HelpAll(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser.print_help()
         print("\nsettings, --set NAME=VALUE:")
-        width = max(len(f"{setting.field}={setting.metavar}") for setting in FLAGS["settings"])
+        width = max(len(f"{setting.field}={setting.value}") for setting in FLAGS["settings"])
         for setting in FLAGS["settings"]:
-            print(f"  {f'{setting.field}={setting.metavar}':{width}}  {setting.help}")
+            print(f"  {f'{setting.field}={setting.value}':{width}}  {setting.help}")
         parser.exit()
 
 
@@ -85,17 +97,16 @@ def named_setting(text: str) -> tuple[str, Any]:
     name = name.strip().replace("-", "_")
     if (setting := known.get(name)) is None:
         raise argparse.ArgumentTypeError(f"unknown setting {name!r}{suggestion(name, known)}; see --help-all")
-    value, choices = value.strip(), setting.metavar.split("|")
+    value, choices = value.strip(), setting.value.split("|")
     if len(choices) > 1 and value not in choices:
         wrong = f"unknown value {value!r} of {name}{suggestion(value, choices)} ({', '.join(choices)})"
         raise argparse.ArgumentTypeError(wrong)
     try:
-        return name, setting.type(value)
+        return name, setting.parse(value)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{name}={setting.metavar} is expected, not {text!r}") from None
+        raise argparse.ArgumentTypeError(f"{name}={setting.value} is expected, not {text!r}") from None
 
 
-IMAGES = "recompress images with Pillow: webp, jpeg, png; webp:85 sets the quality, webp:85@1024 also the longest side"
 PROMISES = Path(__file__).with_name("presets.txt").read_text("utf-8").rstrip()
 """A table of the presets; written out, because importing their definitions takes time."""
 PRESETS = tuple(re.findall(r"^([\w-]+)  ", PROMISES, re.MULTILINE))[1:]
@@ -116,23 +127,26 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 _TYPES: dict[str, Callable[[str], Any]] = {
-    **{"int": int, "float": float, "str": str, "bool": bool, "length": number_or_length},
-    **{"yes": lambda text: text == "yes", "2": numbers(2), "3": numbers(3)},
+    **{"int": int, "float": float, "length": number_or_length, "yes": lambda text: text == "yes"},
+    **{"2": numbers(2), "3": numbers(3), "count": within(0), "positive": within(1), "port": within(0, 65535)},
 }
-FLAGS: dict[str, list[Flag]] = {}
+_ACTIONS: dict[str, dict[str, Any]] = {
+    "onoff": {"action": argparse.BooleanOptionalAction},
+    "list": {"action": "append", "default": []},
+}
+_ROWS = csv.DictReader(Path(__file__).with_name("options.csv").read_text("utf-8").splitlines())
+FLAGS = {group: list(rows) for group, rows in groupby((Flag(**row) for row in _ROWS), lambda flag: flag.group)}
 """The rows of options.csv, by group; those of the group settings are given by `--set NAME=VALUE`."""
-for _row in csv.DictReader(Path(__file__).with_name("options.csv").read_text("utf-8").splitlines()):
-    _flag = Flag(_row["option"], _TYPES[_row["type"]], _row["value"], _row["help"])
-    FLAGS.setdefault(_row["group"], []).append(_flag)
 
 
-def add_flags(group: argparse._ActionsContainer, named: str) -> None:
-    """Add the flags of a group of options.csv."""
-    for flag in FLAGS[named]:
-        flag.add(group)
+def add_flags(parser: argparse._ActionsContainer, *groups: str) -> None:
+    """Add the flags of groups of options.csv."""
+    for flag in (flag for group in groups for flag in FLAGS[group]):
+        flag.add(parser)
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
+    add_flags(parser, "encode")
     add_preset_flags(parser)
     group = parser.add_argument_group("coding")
     add_flags(group, "coding")
@@ -184,17 +198,13 @@ _Asked = TypeVar("_Asked")
 
 def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | None = None) -> None:
     """Declare the inputs, the number of jobs and, if the command writes, the output."""
-    add, many = adder(parser), adder(parser.add_argument_group("many inputs"))
+    add, many = adder(parser), parser.add_argument_group("many inputs")
     add("inputs", "IN", f"{about_them}; or a URL (s3://bucket/name)", nargs="+")
     if output:
         add("-o --output", "OUT", output)
-    add("-j --jobs", "N", "work on N inputs at a time; 0: one per core (default 1)", type=within(0), default=1)
-    add("--json", "", "print the result as JSON")
-    many("--dask", "ADDRESS", "run on the Dask cluster of this scheduler")
-    if output:
-        many("--report", "FILE.json", "write the result of each input to a file, print a table")
-        many("--resume", "", "continue the run of --report: skip inputs whose output is complete and up to date")
-    else:
+    add_flags(parser, "inputs")
+    add_flags(many, "many inputs", *(["many outputs"] if output else []))
+    if not output:
         parser.set_defaults(output=None, report=None, resume=False)
 
 
@@ -212,9 +222,7 @@ def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
 
 
 def add_limits_flag(parser: argparse.ArgumentParser) -> None:
-    granted = "memory and time that a stream may take. default: in proportion to its vertices and bytes. service: at "
-    granted += "most 1 GiB and 10 s, for untrusted files of up to a million vertices. wide: for your own files only"
-    parser.add_argument("--limits", choices=tuple(NAMED_LIMITS), default="default", help=granted)
+    add_flags(parser, "limits")
 
 
 def limits_of(name: str) -> Limits:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bsm.bitstream.errors import HarmError, OptionError
-from bsm.commands.flags import IMAGES, adder, within
+from bsm.commands.flags import add_flags, adder
 from bsm.console import Console
 from bsm.files.images import ImageRule, with_linked_images
 from bsm.files.mesh import read_mesh, size_with_parts, written_mesh
@@ -26,22 +26,12 @@ VISIBLE = 0.01  # of the diagonal of a component: an error that is worth a note
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    scene = (
-        ".glb, .gltf with the files beside it, any mesh file, or the stream of a sequence, which is wrapped in a scene"
-    )
-    add("input", "SCENE", scene)
-    add("-o --output", "OUT.glb", "the compressed scene", required=True)
     promised = "quality of each mesh (default: grid14, as exact as Draco with 14 bits)"
     add("--preset", "", promised, choices=PRESETS, default=PRESETS[-1])
     quick = "code only grids: pages decode them several times as fast, with a small decoder "
     quick += f"(default: for scenes of {MANY} primitives and more)"
     add("--quick", "", quick, action=argparse.BooleanOptionalAction)
-    kept = "quality of an attribute in the words of glTF (TEXCOORD_0=14bits, _ID=exact, COLOR_0=none); repeatable"
-    add("--attribute", "NAME=QUALITY", kept, action="append", default=[])
-    add("--one-grid", "", "one grid for all meshes with equal scale and rotation, so that touching meshes still touch")
-    add("-j --jobs", "N", "threads, each for a primitive (0: one per core; default 1)", type=within(0), default=1)
-    add("--fallback", "", "also write OUT.fallback.bin with plain arrays, for viewers without the extension")
-    add("--images", "RULE", IMAGES)
+    add_flags(parser, "glb")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:

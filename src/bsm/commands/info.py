@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from bsm.bitstream.errors import counted
-from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
+from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import by_name
@@ -27,7 +27,7 @@ class InfoJob(Task):
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(parser, "stream, scene of glTF with streams, folder of tiles, or - for standard input")
-    add_limits_flag(parser)
+    add_flags(parser, "limits")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

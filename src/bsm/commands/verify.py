@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from bsm.bitstream.errors import FormatError, OptionError, counted
-from bsm.commands.flags import add_inputs, add_limits_flag, adder, asked, limits_of
+from bsm.commands.flags import add_flags, add_inputs, asked, limits_of
 from bsm.console import Console
 from bsm.exits import worded
 from bsm.files.inspection import StreamInfo, inspect_stream
@@ -28,9 +28,7 @@ class VerifyJob(Task):
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(parser, "stream, folder of tiles, or - for standard input")
-    add_limits_flag(parser)
-    adder(parser)("-r --recursive", "", "check every stream in folders and their subfolders")
-    parser.add_argument("--quick", action="store_true", help="check structure and checksums only; do not decode")
+    add_flags(parser, "verify", "limits")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 from threading import Thread
 
 from bsm.bitstream.errors import FormatError, OptionError
-from bsm.commands.flags import add_limits_flag, adder, limits_of, within
+from bsm.commands.flags import add_flags, adder, limits_of
 from bsm.console import Console, Progress
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import write_output
@@ -24,13 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     shown = "stream, - for a pipe, or folder of tiles. Meshes and sequences are encoded and compared. Without "
     add("inputs", "IN", f"{shown}inputs, opens an empty page; drop a mesh on it", nargs="*")
     add("--preset", "", "preset for meshes and sequences (default: balanced)", choices=PRESETS, default="balanced")
-    add("--original", "FILE", "mesh, sequence or stream to compare the input with; the faces may differ")
-    add("--follow", "", "keep reading files that are still being written")
-    add_limits_flag(parser)
-    add("--save", "PAGE.html", "write a page that contains the streams and needs no server")
-    add("--static", "FOLDER", "write the page as files for any web server; it encodes meshes that are dropped on it")
-    add("--port", "N", "port of the server (default: a free one)", type=within(0, 65535), default=0)
-    add("--no-open", "", "print the address; do not open a browser")
+    add_flags(parser, "view", "limits")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
