@@ -20,6 +20,7 @@ from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.conventions import shares_of
 from bsm.files.formats.appearance import Appearance, appearance
 from bsm.files.formats.metadata import images_in, kind_of_image, materials_in
 from bsm.files.formats.polygons import Array, unused_name
@@ -82,9 +83,8 @@ def _add(made: Any, attribute: Attribute) -> None:
 
 
 def _add_color(made: Any, name: str, values: Array, domain: str) -> None:
-    largest = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}.get(values.dtype, 1.0)
     table = np.ones((len(values), 4), np.float32)
-    table[:, : values.shape[1]] = values / largest
+    table[:, : values.shape[1]] = shares_of(values)
     kind = "BYTE_COLOR" if values.dtype == np.uint8 else "FLOAT_COLOR"
     layer = made.attributes.new(name, kind, domain)
     layer.data.foreach_set("color_srgb" if kind == "BYTE_COLOR" else "color", table.reshape(-1))

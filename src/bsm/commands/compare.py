@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import errno
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -24,7 +24,7 @@ from bsm.comparison import Pair, compare_meshes, one_each, order_of_used, pair, 
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.exits import exit_of, worded
 from bsm.files.images import largest_side
-from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import by_name, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
@@ -149,15 +149,13 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
     for line in (
         *([sentence(compared, _unit(original, decoded))] if "max_error" in compared else []),
         *explained(compared | looks),
-        *_of_attributes(attributes),
+        *(f"{printable(name)}: {_listed(errors)}" for name, errors in attributes.items()),
     ):
         print(line)
 
 
-def _of_attributes(attributes: dict[str, dict[str, float] | None]) -> Iterator[str]:
-    for name, errors in attributes.items():
-        text = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
-        yield f"{printable(name)}: {'missing' if text is None else text}"
+def _listed(errors: dict[str, float] | None) -> str:
+    return "missing" if errors is None else ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
 
 
 def explained(numbers: dict[str, Any]) -> list[str]:
@@ -263,7 +261,8 @@ def _pieces_of(frames: Iterable[tuple[Positions, Faces]]) -> Pieces:
 def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Pieces | None:
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
-        moving = _moving(path) if Path(path).is_file() and is_scene(path) else None
+        scene = Path(path).is_file() and is_scene(path)
+        moving = by_name("bsm.gltf.document", "read_document")(path).moving if scene else None
         if moving or (Path(path).is_file() and is_stream(path)):
             header, chunks = peek_header(iter([moving]) if moving else read_chunks(path))
             if header is None or not header.gop_frames:
@@ -276,13 +275,6 @@ def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -
         if source.meshes is None:
             return [(np.array(list(source.frames)), source.faces)]
         return _pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
-
-
-def _moving(path: str) -> bytes | None:
-    """The stream whose frames a glTF scene shows, None if it shows none."""
-    from bsm.gltf.document import read_document
-
-    return read_document(path).moving
 
 
 def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import urllib.parse
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import closing, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, TypeAlias, Union, cast
 
@@ -277,14 +277,11 @@ class Input:
         return taken
 
     def read_all(self) -> bytes:
-        pieces: list[bytes] = []
-        size = 0
-        for piece in self.chunks():
-            pieces.append(piece)
-            size += len(piece)
-            if size > _MAX_BYTES:
-                raise errors.LimitError(f"the file is larger than {_MAX_BYTES} bytes")
-        return b"".join(pieces)
+        with closing(self):
+            data = self.read(_MAX_BYTES + 1)
+        if len(data) > _MAX_BYTES:
+            raise errors.LimitError(f"the file is larger than {_MAX_BYTES} bytes")
+        return data
 
     def _hold(self, size: int) -> None:
         pieces, held = [self._held], len(self._held)

@@ -6,7 +6,6 @@ import re
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from hashlib import sha256
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -23,8 +22,9 @@ from bsm.files.images import ImageRule, is_link, largest_side, with_links, with_
 from bsm.files.mesh import read_mesh, size_with_parts
 from bsm.files.motion.frames import Frames, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite, write_output
-from bsm.files.pipes import read_chunks, size_of
+from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
+from bsm.jobs.report import digest_of
 from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import asked_unit, in_own_unit
 from bsm.libraries import PROVENANCE, has_provenance, with_metadata, with_texels
@@ -274,8 +274,5 @@ def _words(path: str, given: Mapping[str, Any], options: Any, generation: int) -
     parts += [f"{name}={value}" for name, value in plain.items() if value is not False]
     parts += [f"generation={generation}"] if generation > 1 else []
     if Path(path).is_file():
-        digest = sha256()
-        for chunk in read_chunks(path):
-            digest.update(chunk)
-        parts.append(f"sha256={digest.hexdigest()}")
+        parts.append(f"sha256={digest_of(path)}")
     return " ".join(parts)
