@@ -39,7 +39,7 @@ PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
 BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack|tools\.measure house"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bunny_34834"
-HELP_ONLY = r"tools\.(?:release|blender|charges|vectors|processors|replicate)|measure speed|s3://|bsm view"
+HELP_ONLY = r"tools\.(?:release|pictures|blender|charges|vectors|processors|replicate)|measure speed|s3://|bsm view"
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
 PLACES = {
     "COMMAND": "encode",
@@ -215,7 +215,7 @@ def test_commands(command, folder):
 @pytest.mark.parametrize("command", [c for c in COMMANDS if re.search(NEEDS_FOLDER, c) and not re.search(HELP_ONLY, c)])
 def test_commands_on_real_meshes(command, folder, meshes):
     places = {"MESHES": meshes / "static", "SEQUENCES": meshes / "dynamic", "FOLDER": meshes, "MESH...": "bunny.ply"}
-    if "denoise" in command:
+    if "denois" in command:
         places["MESHES"] = meshes
     for placeholder, value in places.items():
         command = command.replace(placeholder, str(value))

@@ -105,8 +105,10 @@ def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_gener
     assert bsm.decode(bsm.encode(bsm.load(source), metadata=own)).metadata == own
 
 
-@pytest.mark.parametrize("kind", ["ply", "obj", "off", "stl", "glb"])
+@pytest.mark.parametrize("kind", ["ply", "obj", "off", "stl", "glb", "3mf", "vtp", "npz"])
 def test_a_decoded_file_says_so_and_the_next_stream_which_generation_it_is(kind, tmp_path, capsys, monkeypatch):
+    if kind == "3mf":
+        pytest.importorskip("lib3mf", reason="needs lib3mf (extra formats)")
     monkeypatch.chdir(tmp_path)
     bsm.save(torus(20, 12), "a.ply")
     assert "generation" not in printed(capsys, "encode", "a.ply").err

@@ -65,6 +65,9 @@ def test_a_scene_of_which_nothing_is_coded_is_said_first_and_not_written(tmp_pat
     assert main(["glb", str(source), "-o", str(target)]) == 11
     assert capsys.readouterr().err.startswith(f"bsm: {source}: nothing was coded: points or lines; --force")
     assert not target.exists() and main(["glb", str(source), "-f", "-o", str(target)]) == 0 and target.exists()
+    source.write_bytes(built.bytes[:-4])
+    assert main(["glb", str(source), "-f", "-o", str(target)]) == 12
+    assert capsys.readouterr().err.splitlines()[-1].startswith(f"bsm: {source}: this GLB should have")
 
 
 def rewritten(built, options=FINE, **more):

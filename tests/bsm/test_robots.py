@@ -7,6 +7,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.files.images import shared_images
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.shapes import torus
 
@@ -38,6 +39,7 @@ def files_of(folder):
 
 def test_a_shared_image_is_stored_once_and_a_folder_comes_back_under_its_names(robot, capsys):
     assert main(["encode", "-r", "robot", "-o", "small"]) == 0
+    assert len(shared_images([Path("none.obj"), *Path("robot").rglob("*.obj")])) == 1, "a file that cannot be read"
     said, image = capsys.readouterr().err, Path("robot/skin.png").read_bytes()
     assert "1 image of several meshes" in said and ", 0.25 texels" in said and f"6 of 6 files, {robot} -> " in said
     assert [path.read_bytes() for path in Path("small/images").iterdir()] == [image]
@@ -45,7 +47,8 @@ def test_a_shared_image_is_stored_once_and_a_folder_comes_back_under_its_names(r
     assert max(streams) < len(image) and f"-> {sum(streams) + len(image)} bytes" in said
     assert main(["compare", "-r", "robot", "small"]) == 0
     assert "6 of 6 files compared" in capsys.readouterr().out
-    assert main(["decode", "-r", "small", "-o", "back", "--format", "same"]) == 0
+    Path("small/cut.bsm").write_bytes(Path("small/foot.bsm").read_bytes()[:99])
+    assert main(["decode", "-r", "small", "-o", "back", "--format", "same"]) == 12
     assert files_of("back") == files_of("robot")
     assert read_mesh("back/arm/foot.obj").mesh.metadata["image.0.data"] == image
     assert main(["compare", "-r", "robot", "back"]) == 0
@@ -74,4 +77,5 @@ def test_coordinates_are_scaled_to_the_unit_that_is_asked_for(robot):
     np.testing.assert_allclose(scaled, 0.0254 * own, rtol=0.02)
     assert main(["decode", "hand.bsm", "-f", "-o", "hand.ply", "--unit-out", "parsec"]) == 2
     assert main(["encode", "robot/hand.STL", "-f", "-o", "hand.bsm"]) == 0
-    assert main(["decode", "hand.bsm", "-f", "-o", "hand.ply", "--unit-out", "m"]) == 2
+    assert main(["decode", "hand.bsm", "-f", "-o", "hand.ply", "--unit-out", "m"]) == 0
+    np.testing.assert_allclose(np.ptp(read_mesh("hand.ply").mesh.positions, axis=0), own, rtol=0.02)

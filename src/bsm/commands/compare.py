@@ -70,7 +70,7 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
             facts["output"] = other = _same_name(path, args)
             original, decoded = (_load(name, args, console).without_isolated_vertices()[0] for name in (path, other))
             facts |= _compared(original, decoded, pair(original, decoded), args, console)
-            facts |= {"unit": unit} if (unit := _unit(original, decoded)) else {}
+            facts |= {"unit": unit} if (unit := unit_of(original.metadata) or unit_of(decoded.metadata)) else {}
             said = sentence(facts, unit)
         except (BsmError, OSError) as error:
             facts |= {"error": worded(error), "exit": exit_of(error).code}
@@ -85,11 +85,6 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         worst = largest_error(good)
         print(f"{len(good)} of {counted(files=len(done))} compared{f'; largest vertex error {worst}' if worst else ''}")
     return next((int(facts["exit"]) for facts in done if "error" in facts), 0)
-
-
-def _unit(original: TriangleMesh, decoded: TriangleMesh) -> str:
-    """The unit of a pair: a stream may have one, and its STL none."""
-    return unit_of(original.metadata) or unit_of(decoded.metadata)
 
 
 def _same_name(path: str, args: argparse.Namespace) -> str:
@@ -145,17 +140,13 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
         shown = {"look": asdict(seen) | more} if seen else {}
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
+    unit = unit_of(original.metadata) or unit_of(decoded.metadata)
     looks = {"look": seen.distance, **{f"look_{name}": value for name, value in more.items()}} if seen else {}
-    for line in (
-        *([sentence(compared, _unit(original, decoded))] if "max_error" in compared else []),
-        *explained(compared | looks),
-        *(f"{printable(name)}: {_listed(errors)}" for name, errors in attributes.items()),
-    ):
+    for line in (*([sentence(compared, unit)] if "max_error" in compared else []), *explained(compared | looks)):
         print(line)
-
-
-def _listed(errors: dict[str, float] | None) -> str:
-    return "missing" if errors is None else ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
+    for name, errors in attributes.items():
+        words = (f"{what} {value:.4g}" for what, value in errors.items()) if errors else ["missing"]
+        print(f"{printable(name)}: {', '.join(words)}")
 
 
 def explained(numbers: dict[str, Any]) -> list[str]:

@@ -24,7 +24,6 @@ from bsm.files.sequence import open_sequence
 GROUPS = ("ours", "paper", "draco")
 _NEEDS = {"ours": (), "draco": ("DracoPy",)}
 _PAPER_NEEDS = ("pymetis", "zstandard")
-_UNITS = {"theta_deg": "°", "nmsve_db": " dB"}
 Table = tuple[Sequence[str], Sequence[Sequence[str]]]
 """Columns, and rows of cells."""
 Save = Callable[[dict[str, Table], Iterable[rates.Picture]], None]
@@ -136,7 +135,7 @@ def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Co
 
 def _chosen(names: str, vertices: int, blocks: int | None) -> list[rates.Curve]:
     paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {"ours": (rates.our_curve(),), "paper": paper, "draco": (rates.draco_curve(),)}
+    groups = {"ours": (rates.our_curve(),), "paper": paper, "draco": (rates.DRACO,)}
     groups |= {line.name: (line,) for line in paper}
     unknown = [name for name in names.split(",") if name not in groups]
     if unknown:
@@ -147,7 +146,8 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[rates.Curve]:
 def _measured(results: Sequence[dict[str, Any]]) -> Table:
     def setting(result: dict[str, Any], point: dict[str, Any]) -> str:
         target = point["settings"].get("target")
-        return f"{result['codec']}, {target['value']:g}{_UNITS[target['kind']]}" if target else str(result["codec"])
+        asked = f", {target['value']:g}{rates.UNITS[target['kind']]}" if target else ""
+        return f"{result['codec']}{asked}"
 
     digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "nmsve_paper_db": 2, "theta_deg": 2}
     digits |= {"encode_seconds": 3, "decode_seconds": 3}
@@ -168,7 +168,7 @@ def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:
     rows = [
         (
             *(row["mesh"], row["codec"], *(rates.number(row["bytes_at_theta"][angle], 3) for angle in ("7", "10"))),
-            *("-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %" for name in _UNITS),
+            *("-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %" for name in rates.UNITS),
         )
         for row in comparisons
     ]

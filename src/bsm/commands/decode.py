@@ -5,6 +5,7 @@ import re
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain, islice
 from pathlib import Path
@@ -14,8 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm import __version__
-from bsm.bitstream.container.header import Header
-from bsm.bitstream.errors import OptionError, counted
+from bsm.bitstream.errors import BsmError, OptionError, counted
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_flags, add_inputs, adder, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
@@ -39,7 +39,6 @@ from bsm.jobs.task import Facts, Job, Task, anywhere, came_to
 from bsm.lengths import metres, unit_of
 from bsm.libraries import PROVENANCE
 
-SAYING = ("ply", "obj", "off", "stl", "glb")  # formats of files that say that they were decoded
 WITH_FLOATS = 2  # of `Header.light`
 NO_FRAMES = "the stream does not contain these frames; they count from 0, and bsm info says how many there are"
 
@@ -102,7 +101,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _as_source(job: Job) -> Job:
     """Give the output the name of the file that a stream was made of; a format that is not written becomes OBJ."""
-    name = str(inspect_stream(read_chunks(job.input)).metadata.get("source_name", ""))
+    name = ""
+    with suppress(BsmError, OSError):  # decoding it will say so
+        name = str(inspect_stream(read_chunks(job.input)).metadata.get("source_name", ""))
     if name != Path(name).name or name.startswith(".") or Path(name).suffix.lower() not in MESH_SUFFIXES:
         return job
     name = name if format_of_name(name) else f"{name}.obj"
@@ -139,7 +140,8 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
-    mesh = _as_asked(args, with_linked_images(mesh, args.input), kind, header)
+    exact = header is not None and header.light == WITH_FLOATS
+    mesh = _as_asked(args, console, with_linked_images(mesh, args.input), kind, exact=exact)
     for name in mesh.metadata:
         if is_link(name) and name.replace("link", "data") not in mesh.metadata:
             console.note(f"{args.input}: left out: the image {printable(str(mesh.metadata[name]))}, which is not there")
@@ -152,18 +154,20 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
 
 
-def _as_asked(args: DecodeJob, mesh: TriangleMesh, kind: str, header: Header | None) -> TriangleMesh:
+def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, *, exact: bool) -> TriangleMesh:
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
     metadata, scale = {n: value for n, value in mesh.metadata.items() if kind == "obj" or not is_link(n)}, 1.0
     metadata.pop("source_name", None)
-    if kind in SAYING and (header is None or header.light != WITH_FLOATS):
+    if not exact:
         metadata.setdefault(PROVENANCE, f"bsm {__version__}")
     if args.unit_out:
         own, wanted = metres(unit_of(metadata)), metres(args.unit_out)
-        if own is None or wanted is None:
-            unknown = args.unit_out if wanted is None else unit_of(metadata) or "that of the stream, which names none"
-            raise OptionError(f"--unit-out {args.unit_out}: an unknown unit: {unknown}; give m, cm, mm, in or ft")
-        scale, metadata["unit"] = own / wanted, args.unit_out
+        if wanted is None:
+            raise OptionError(f"--unit-out {args.unit_out}: an unknown unit; give m, cm, mm, in or ft")
+        if own is None:
+            console.note(f"{args.input}: not scaled: its unit is {printable(unit_of(metadata)) or 'not known'}")
+        else:
+            scale, metadata["unit"] = own / wanted, args.unit_out
     metadata |= PRECISION if args.float32 else {}
     return replace(mesh, positions=scale * mesh.positions, metadata=metadata)
 
@@ -284,7 +288,8 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
     found = next(stream.changing_frames(), None)
     if found is None or found[0] != number:
         raise OptionError(NO_FRAMES)
-    mesh = _as_asked(args, TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata), kind, None)
+    mesh = TriangleMesh(found[1], stream.faces, stream.attributes, stream.metadata)
+    mesh = _as_asked(args, console, mesh, kind, exact=False)
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}

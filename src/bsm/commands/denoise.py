@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, USD, folder, pattern. From"
+        "mesh file (PLY, OBJ, STL, GLB, 3MF, ...), - for standard input, or a sequence: npz, USD, folder, pattern. From"
         " 8 frames on, noise that changes with the frames is removed in time first",
         "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
         "encoded near-lossless",

@@ -29,7 +29,7 @@ _OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json",
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence (see below)",
+        "mesh file (PLY, OBJ, STL, GLB, 3MF, ...), - for standard input, or a sequence (see below)",
         "output file, - for a pipe, or folder for several inputs (default: IN with .bsm). Several inputs to one .bsm "
         "are the frames of a sequence",
     )

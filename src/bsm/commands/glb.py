@@ -11,7 +11,7 @@ from bsm.console import Console
 from bsm.files.images import ImageRule, with_linked_images
 from bsm.files.mesh import read_mesh, size_with_parts, written_mesh
 from bsm.files.output import refuse_collisions, write_output
-from bsm.files.pipes import read_bytes, read_chunks
+from bsm.files.pipes import about, read_bytes, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import decode_whole, is_stream, peek_header
 from bsm.files.table import GLTF
@@ -48,7 +48,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         write_output(args.output, scene, overwrite=args.force)
         console.note(f"{args.input} -> {args.output}: a sequence, {len(stream)} -> {len(scene)} bytes")
         return
-    document, taken = _document(args.input, console)
+    with about(args.input):
+        document, taken = _document(args.input, console)
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     if args.preset == "lossless" and args.quick:
         raise OptionError("--quick rounds positions to a grid; leave out --preset lossless")

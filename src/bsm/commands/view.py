@@ -3,6 +3,7 @@
 import argparse
 import itertools
 import json
+import shlex
 from contextlib import nullcontext, suppress
 from pathlib import Path
 from threading import Thread
@@ -47,7 +48,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             file.parent.mkdir(parents=True, exist_ok=True)
             write_output(file, data if isinstance(data, bytes) else data.whole(), overwrite=args.force)
         ranges = ", which must send ranges of files for tiles, as nginx does" if any(map(is_tiles, args.inputs)) else ""
-        example = "" if ranges else f", for example: python -m http.server -d {args.static}"
+        example = "" if ranges else f", for example: python -m http.server -d {shlex.quote(args.static)}"
         console.note(f"{args.static}: a page for any web server{ranges}{example}")
     if args.save or args.static:
         return 0

@@ -165,6 +165,8 @@ PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("oi-r1-cold", "OI, R, no warm start", COLD_STARTS | {"power": 1}),
     ("oi-r2-cold", "OI, R², no warm start", COLD_STARTS | {"power": 2}),
 )
+DRACO = Curve("draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(6, 15)))
+"""Draco at 6 to 14 bits per coordinate; level 10, below nine bits level 7 where it is smaller."""
 OUR_TARGETS = {
     "theta_deg": (15.0, 11.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.2, 0.7, 0.4, 0.2),
     "nmsve_db": (-40.0, -44.0, -48.0, -52.0, -56.0, -60.0, -64.0, -68.0),
@@ -194,11 +196,6 @@ def our_curve() -> Curve:
     targets = [Target(kind, value) for kind, values in OUR_TARGETS.items() for value in values]
     options = (EncodeOptions(threads=1, contract=None, target=target) for target in targets)
     return Curve("ours", "ours", tuple(map(Spectral, options)))
-
-
-def draco_curve() -> Curve:
-    """Draco at 6 to 14 bits per coordinate; level 10, below nine bits level 7 where it is smaller."""
-    return Curve("draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(6, 15)))
 
 
 # ------------------------------------------------------------------------------------------------------------- running
@@ -457,6 +454,7 @@ FORMATS = ("png", "svg")
 PICTURES = (*FORMATS, "pdf")
 PAPER_RATE = "bits per vertex of coefficients, 3 q c k / n"
 MEASURES = {"nmsve_db": "NMSVE, dB", "theta_deg": "θ, degrees"}
+UNITS = {"theta_deg": "°", "nmsve_db": " dB"}
 TICKS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
 STYLES = {
     "ours": ("#d62728", "o"),
@@ -612,8 +610,7 @@ def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
     for result in sorted(results, key=lambda changed_options: list(STYLES).index(changed_options["codec"])):
         points = points_of(result["points"], measure)
         targets = [p["settings"]["target"]["value"] for p in points if "target" in p["settings"]]
-        unit = {"theta_deg": "°", "nmsve_db": " dB"}[measure]
-        asked = f", asked for {targets[0]:g} to {targets[-1]:g}{unit}" if targets else ""
+        asked = f", asked for {targets[0]:g} to {targets[-1]:g}{UNITS[measure]}" if targets else ""
         if points:
             pairs = [(point["bpv_total"], point[measure]) for point in points]
             lines[result["codec"]] = Line(result["label"] + asked, pairs)

@@ -4,6 +4,7 @@ import io
 import re
 from collections import Counter
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path, PurePath
@@ -106,15 +107,16 @@ def shared_images(paths: Iterable[Path]) -> tuple[str, ...]:
     """Return digests of the image files that several meshes name, themselves or in their materials."""
     users, digests = Counter[str](), dict[Path, str]()
     for path in paths:
-        with path.open("rb") as file:
-            text = file.read(_HEAD)
-        for name in re.findall(rb"mtllib[ \t]+(.+)", text):
-            library = path.parent / name.decode(errors="replace").strip()
-            text += library.read_bytes() if library.is_file() else b""
-        images = {(path.parent / name.decode(errors="replace")).resolve() for name in _NAMED.findall(text)}
-        found = {name for name in images if name in digests or name.is_file()}
-        digests |= {name: _digest(name.read_bytes()) for name in found - digests.keys()}
-        users.update({digests[name] for name in found})
+        with suppress(OSError):  # reading the mesh will tell
+            with path.open("rb") as file:
+                text = file.read(_HEAD)
+            for name in re.findall(rb"mtllib[ \t]+(.+)", text):
+                library = path.parent / name.decode(errors="replace").strip()
+                text += library.read_bytes() if library.is_file() else b""
+            images = {(path.parent / name.decode(errors="replace")).resolve() for name in _NAMED.findall(text)}
+            found = {name for name in images if name in digests or name.is_file()}
+            digests |= {name: _digest(name.read_bytes()) for name in found - digests.keys()}
+            users.update({digests[name] for name in found})
     return tuple(sorted(digest for digest, count in users.items() if count > 1))
 
 

@@ -311,16 +311,13 @@ def no_link(path: str) -> str:
 
 
 def _with_suffix(path: str, suffix: str) -> Path:
-    if pipes.is_url(path):
-        if not pipes.name_in(path):
-            raise OptionError(f"{path} gives the output no name; name it with -o")
-        return Path(pipes.name_in(path)).with_suffix(suffix)
-    if glob.has_magic(path) and not Path(path).exists():
-        raise OptionError(f"{path} names many files; name the output with -o")
-    name = Path(path).name
-    if name in ("", "-", "..") or path.startswith("/dev/"):
+    far = pipes.is_url(path)
+    if not far and glob.has_magic(path) and not Path(path).exists():
+        raise OptionError(f"{path} stands for many files, which make one; name that with -o, with its suffix")
+    place = Path(pipes.name_in(path) if far else path)
+    if place.name in ("", "-", "..") or path.startswith("/dev/"):
         raise OptionError(f"{path} gives the output no name; name it with -o")
-    return Path(path).with_suffix(suffix)
+    return place.with_suffix(suffix)
 
 
 def refuse_terminal(path: str) -> None:

@@ -34,7 +34,7 @@ class Rows:
         self.counts: Ints = np.fromiter((len(line.split()) for line in lines), np.int64, len(lines))
         self.starts: Ints = np.cumsum(self.counts) - self.counts
         # Few words at a time: millions of small objects fall out of the caches, and each then takes longer.
-        pieces = (_numbers(lines[begin : begin + _LINES], what) for begin in range(0, len(lines), _LINES))
+        pieces = (_numbers(lines[begin : begin + _LINES], what, begin) for begin in range(0, len(lines), _LINES))
         self.values: Doubles = np.concatenate([np.zeros(0), *pieces])
 
     def require(self, needed: int | Ints) -> None:
@@ -58,15 +58,17 @@ class Rows:
         return sizes, as_integers(self.values[ranges(self.starts + before + 1, sizes)], "a vertex index")
 
 
-def _numbers(lines: Sequence[bytes], what: str) -> Doubles:
+def _numbers(lines: Sequence[bytes], what: str, first: int) -> Doubles:
     text = b" ".join(lines)
     if b"_" in text:  # which Python allows inside numbers
-        raise MeshError(f"a {what} is not made of numbers: it has an underscore")
+        row = next(number for number, line in enumerate(lines, first) if b"_" in line)
+        raise MeshError(f"{what} {row} is not made of numbers: it has an underscore")
     try:
         return np.array(text.split(), dtype=np.float64)
     except ValueError as error:
-        shown = str(error).partition(": b")[2][:60]  # the word, as numpy tells it
-        raise MeshError(f"a {what} is not made of numbers: {shown}") from None
+        word = str(error).partition(": ")[2]  # as numpy tells it
+        row = next(number for number, line in enumerate(lines, first) if word in map(repr, line.split()))
+        raise MeshError(f"{what} {row} is not made of numbers: {word[1:61]}") from None
 
 
 def ranges(starts: Ints, sizes: Ints) -> Ints:

@@ -183,18 +183,16 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     if apart is not None:
         facts["faces_before"] = len(found.original.faces)
         return f"{facts['faces_before']} faces before simplifying, surfaces {words} apart where measured", facts
-    facts |= {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
-    facts["nmsve_paper_db"] = finite(error.nmsve_paper_db)
+    facts |= {name: finite(getattr(error, name)) for name in ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db")}
     kept = "; all triangles are kept" if simplify else ""
     return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", facts
 
 
 def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     """Encode one sequence; write each GOP as soon as its frames have arrived."""
-    if job.images:
-        raise OptionError("--images is for single meshes; this is a sequence")
-    if job.simplify:
-        raise OptionError("--simplify is for single meshes; this is a sequence")
+    for name in ("images", "simplify"):
+        if getattr(job, name):
+            raise OptionError(f"--{name} is for single meshes; this is a sequence")
     begin = time.perf_counter()
     chosen = sequence_options(**{"keep_order": source.rigged > 0, **job.options}, threads=job.threads)
     source = source.on_sorted_faces() if source.rigged and chosen.keep_order else source

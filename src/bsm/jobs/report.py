@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from bsm import __version__
-from bsm.bitstream.errors import FormatError
+from bsm.bitstream.errors import FormatError, counted
 from bsm.console import Console
 from bsm.files import pipes
 from bsm.files.output import write_output
@@ -101,7 +101,7 @@ def _entry(given: Any) -> Facts:
     for name, fits in _FIELDS.items():
         if (name in needed or entry.get(name) is not None) and not fits(entry[name]):
             raise ValueError(f"{name} is {entry[name]!r}")
-    _cells(entry)
+    _cells(entry, entry.get("unit", ""))
     return entry
 
 
@@ -111,8 +111,9 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
     as_before = before is not None and state is not None and before.get("input_state") == state
     if before and as_before and before.get("output_sha256") == digest_of(before["output"]):
         return {**before, "resumed": True}
-    facts = _compared(work, task, console) if task.output in task.doubtful else work(task, console)
-    return {**facts, "input_state": state, "output_sha256": digest_of(facts["output"])}
+    apart = replace(console, kept=[])
+    facts = _compared(work, task, apart) if task.output in task.doubtful else work(task, apart)
+    return {"notes": apart.kept, **facts, "input_state": state, "output_sha256": digest_of(facts["output"])}
 
 
 def _compared(work: Work, task: Task, console: Console) -> Facts:
@@ -165,42 +166,48 @@ def _bytes_of(files: Sequence[Facts], way: str) -> int:
 
 
 def largest_error(files: Sequence[Facts]) -> str:
-    """The largest vertex error of files, in words, in each unit or relative; and distance of surfaces."""
-    worst: dict[tuple[str, str], Facts] = {}
+    """The largest vertex error of files, in words; and distance of surfaces."""
+    worst: dict[str, Facts] = {}
+    name = "max_error" if (unit := _unit(files)) else "max_error_relative"
     for facts in files:
         if facts.get("max_error_relative") is not None:
-            unit, name = facts.get("unit", ""), "max_error" if facts.get("unit") else "max_error_relative"
-            key = "surfaces apart" if facts.get("error_of") == "surfaces" else "", unit
-            worst[key] = max(worst.get(key, facts), facts, key=lambda one: float(one[name]))
-    sizes = [
-        (f"{facts['max_error']:.3g} {unit}" if unit else f"{100 * facts['max_error_relative']:.3g} % of the diagonal")
-        + f" ({', '.join(filter(None, (facts['input'], kind)))})"
-        for (kind, unit), facts in worst.items()
-    ]
-    return " and ".join(sizes)
+            kind = ", surfaces apart" if facts.get("error_of") == "surfaces" else ""
+            worst[kind] = max(worst.get(kind, facts), facts, key=lambda one: float(one[name]))
+    whole = "" if unit else " of the diagonal"
+    return " and ".join(f"{_length(facts, unit)}{whole} ({facts['input']}{kind})" for kind, facts in worst.items())
+
+
+def _unit(files: Sequence[Facts]) -> str:
+    """The unit that the errors of all files have; where they differ, errors are relative."""
+    found = {facts.get("unit", "") for facts in files if facts.get("max_error_relative") is not None}
+    return found.pop() if len(found) == 1 else ""
+
+
+def _length(facts: Facts, unit: str) -> str:
+    return f"{facts['max_error']:.3g} {unit}" if unit else f"{100 * facts['max_error_relative']:.3g} %"
 
 
 def table(files: Sequence[Facts]) -> Iterator[str]:
     """Bytes, ratio, error and time of files, failures first, then the largest errors; lines of text."""
     rows = sorted(files, key=lambda facts: ("error" not in facts, -(facts.get("max_error_relative") or 0.0)))
     rows = rows[: max(_SHOWN, sum("error" in facts for facts in rows))]
-    one = len({facts.get("unit") for facts in files if "max_error_relative" in facts}) == 1
+    unit, notes = _unit(files), sum(len(facts.get("notes") or ()) for facts in files)
     width = max([len(facts["input"]) for facts in rows] + [5])
     yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
     for facts in rows:
-        yield f"{facts['input']:{width}} {_cells(facts, one)}"
+        yield f"{facts['input']:{width}} {_cells(facts, unit)}"
     if left := len(files) - len(rows):
         yield f"and {left} more, with smaller errors, in the report"
+    if notes:
+        yield f"{counted(notes=notes)} on these files in the report"
 
 
-def _cells(facts: Facts, one_unit: bool = True) -> str:
+def _cells(facts: Facts, unit: str) -> str:
     if "error" in facts:
         return f"failed: {facts['error'].splitlines()[-1].removeprefix(facts['input'] + ': ')}"
     taken, given, farthest, kg = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative", "kg"))
     sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
     ratio = f"{taken / given:.2f}" if taken and given else ""
-    length = f"{facts['max_error']:.3g} {facts['unit']}" if facts.get("unit") and one_unit else ""
-    share = f"{100 * farthest:.3g} %" if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
-    error = length or share
+    error = _length(facts, unit) if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
     seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"
     return f"{sizes} {ratio:>7} {error:>10} {seconds:>8}"

@@ -38,7 +38,7 @@ def test_a_glb_has_the_size_in_meters_and_y_up(unit, up, tmp_path):
 
 
 @pytest.mark.parametrize("up", ["x", "y", "z"])
-@pytest.mark.parametrize(("unit", "named"), [("mm", "millimeter"), ("inches", "inch"), ("0.5 m", "millimeter")])
+@pytest.mark.parametrize(("unit", "named"), [("mm", "millimeters"), ("inches", "inches"), ("0.5 m", "millimeters")])
 def test_a_3mf_has_its_unit_and_z_up(unit, named, up, tmp_path):
     pytest.importorskip("lib3mf")
     mesh = TriangleMesh(TRIANGLE, [[0, 1, 2]], (), {"unit": unit, "up": up, "Title": "One"})

@@ -737,7 +737,7 @@ def test_a_3mf_file_has_colors_materials_and_an_error_where_its_build_is_empty(t
     assert mesh.metadata["material.0.name"] == "oak" and mesh.metadata["material.0.Kd"] == "1 0 0"
     assert mesh.metadata["material.0.d"] == "0.501961" and (mesh.metadata["up"], mesh.metadata["unit"]) == (
         "z",
-        "millimeter",
+        "millimeters",
     )
     with pytest.raises(MeshError, match="its build has no item"):
         read_mesh(three_mf(chained_objects(1), ""), "3mf")

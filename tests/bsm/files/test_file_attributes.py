@@ -312,7 +312,7 @@ def test_what_trimesh_tells(kind):
     source = read_mesh(data if isinstance(data, bytes) else data.encode(), kind)
     held = {attribute.name for attribute in source.mesh.attributes}
     assert ("color" in held) == (kind in ("dae", "glb"))
-    assert source.mesh.metadata.get("unit") == {"dae": "meters", "glb": "meters", "3mf": "millimeter"}.get(kind)
+    assert source.mesh.metadata.get("unit") == {"dae": "meters", "glb": "meters", "3mf": "millimeters"}.get(kind)
     assert source.mesh.metadata.get("up") == {"dae": "y", "glb": "y", "3mf": "z"}.get(kind)
 
 

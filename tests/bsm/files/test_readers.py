@@ -38,7 +38,7 @@ def test_a_byte_order_mark_is_no_part_of_a_file(kind):
 
 
 def test_what_is_no_number_is_shown():
-    with pytest.raises(MeshError, match=r"a vertex is not made of numbers: '1,5'$"):
+    with pytest.raises(MeshError, match=r"vertex 1 is not made of numbers: '1,5'$"):
         read_mesh(b"v 0 0 0\nv 1,5 0 0\nv 0 1 0\nf 1 2 3\n")
 
 

@@ -11,10 +11,6 @@ from bsm.files.formats.metadata import first, left_out, rgba, shown_at_vertices
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
 
 
-def import_openmesh(what: str) -> Any:
-    return imported("openmesh", f"{what} with openmesh", "openmesh")
-
-
 def of_openmesh(mesh: Any) -> Polygons:
     """A `TriMesh` or `PolyMesh` of openmesh with its normals, colors and texture coordinates."""
     try:
@@ -44,7 +40,7 @@ def of_openmesh(mesh: Any) -> Polygons:
 
 def made_of(mesh: TriangleMesh) -> tuple[Any, tuple[str, ...]]:
     """An `openmesh.TriMesh`, with vertices split where corners differ, and the names of its losses."""
-    openmesh = import_openmesh("such meshes are made")
+    openmesh = imported("openmesh", "such meshes are made with openmesh", "openmesh")
     mesh = split_by_attributes(mesh)
     made = openmesh.TriMesh(mesh.positions, mesh.faces)
     if made.n_faces() != len(mesh.faces):

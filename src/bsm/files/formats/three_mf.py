@@ -18,7 +18,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
-from bsm.files.conventions import placement
+from bsm.files.conventions import placement, unit_named
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, appearance, held_by, lost, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
@@ -26,8 +26,7 @@ from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_librar
 from bsm.files.unread import Taken, rows_of
 from bsm.lengths import metres
 
-_UNITS = ("micrometer", "millimeter", "centimeter", "inch", "foot", "meter")  # as lib3mf counts them
-_SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of these in meters
+_SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of the units in meters, as lib3mf counts them
 _KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")
 _TAKEN = Taken(rows_of("3mf"))
 _FILES = re.compile(r"\[Content_Types\]\.xml|(.*/)?_rels/.*|.*\.model|.*/", re.IGNORECASE)  # those of each package
@@ -106,8 +105,10 @@ class _Model:
         found = joined_parts(parts, counts, self._limits, size)
         group = self._model.GetMetaDataGroup()
         said = [group.GetMetaData(i) for i in range(group.GetMetaDataCount())]
-        metadata: dict[str, formats.Value] = {"up": "z", "unit": _UNITS[int(self._model.GetUnit())]}
+        metadata: dict[str, formats.Value] = {"up": "z", "unit": unit_named(_SIZES[int(self._model.GetUnit())])}
         metadata |= {str(entry.GetName()): str(entry.GetValue()) for entry in said}
+        if str(metadata.get("Application")).startswith("bsm "):
+            metadata["provenance"] = metadata.pop("Application")
         known = any(self._words.values())
         metadata |= {**(formats.described(self._words) if known else {}), **self._images, **found.metadata}
         return replace(found, dropped=tuple(self._left), metadata=metadata)
@@ -252,10 +253,11 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
             _call(item, "meshobject_setalltriangleproperties", *_counted(painted[rows], library.TriangleProperties))
         item.SetName(name)
         model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
+    said = {"Application": mesh.metadata.get("provenance"), **mesh.metadata}
     for name in _KNOWN:
-        if isinstance(value := mesh.metadata.get(name), str):
+        if isinstance(value := said.get(name), str):
             model.GetMetaDataGroup().AddMetaData("", name, value, "xs:string", True)
-            held.add(name)
+            held |= {key for key in (name, "provenance") if mesh.metadata.get(key) == value}
     writer = model.QueryWriter("3mf")
     largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
     writer.SetDecimalPrecision(int(np.clip(8 - math.floor(math.log10(largest)), 0, 15)))  # more of them go wrong
