@@ -18,6 +18,7 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import TARGETS, Target
+from tests.shapes import soup
 from tools.gridded import random_grid
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 
@@ -80,12 +81,6 @@ def _attribute(random: Random, mesh: TriangleMesh) -> Attribute:
 _NUMBERS = ("uint8", "int16", "int32", "float32", "float64")
 
 
-def _soup(random: Random) -> TriangleMesh:
-    """Every face with vertices of its own."""
-    mesh = patch(random.randrange(2, 7), random.randrange(2, 7))
-    return TriangleMesh(mesh.positions[mesh.faces.ravel()], np.arange(mesh.faces.size, dtype=np.int32).reshape(-1, 3))
-
-
 def _disorder(random: Random) -> TriangleMesh:
     """Faces without any order."""
     numbers = np.random.default_rng(random.randrange(1 << 30))
@@ -106,7 +101,7 @@ _SHAPES: tuple[Callable[[Random], TriangleMesh], ...] = (
     lambda random: torus(random.randrange(3, 18), random.randrange(3, 14), phase=random.random()),
     lambda random: together(torus(7, 6), patch(6, 5), triangle()),
     _components,
-    _soup,
+    lambda random: soup(patch(random.randrange(2, 7), random.randrange(2, 7))),
     _disorder,
     lambda random: tangled(),
     lambda random: hub(),

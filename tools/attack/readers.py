@@ -120,11 +120,6 @@ class Scene(Built):
         return Sample("glb", self.bytes)
 
 
-def _ascii_ply() -> bytes:
-    head = ply_head(more="property uchar red\nproperty uchar green\nproperty uchar blue\n")
-    return head.encode() + b"0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n"
-
-
 def _ragged_ply() -> bytes:
     """Polygons of three and of four corners, whose rows differ in length."""
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4").tobytes()
@@ -165,12 +160,13 @@ def samples() -> dict[str, Sample]:
     """A small sound file of each kind that is read; of USD the text alone: damaged binary ones end usd-core."""
     mesh, plain = _mesh(), written_mesh(torus(3, 3), "obj").data
     beside = (("a.obj", plain),)
+    painted = ply_head(more="property uchar red\nproperty uchar green\nproperty uchar blue\n")
     found = {
         **{
             kind: Sample(kind, written_mesh(mesh, kind).data)
             for kind in ("obj", "off", "ply", "stl", "vtp", "npz", "glb")
         },
-        "ply of text": Sample("ply", _ascii_ply()),
+        "ply of text": Sample("ply", (painted + "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n").encode()),
         "ply of polygons": Sample("ply", _ragged_ply()),
         "stl of text": Sample("stl", _ASCII_STL),
         "obj.gz": Sample("obj.gz", gzip.compress(plain, mtime=0)),

@@ -50,11 +50,7 @@ def _glued(rows: int, columns: int) -> EncodedConnectivity:
     """A torus whose vertices are three, again and again, as no encoder would code it."""
     place = np.arange(rows * columns, dtype=np.int32)
     colors = ((place // columns + place % columns) % 3).astype(np.int32)
-    return EncodedConnectivity(*write_faces(_torus(rows, columns), 3, colors))
-
-
-def _torus(rows: int, columns: int) -> Faces:
-    return torus(rows, columns).faces
+    return EncodedConnectivity(*write_faces(torus(rows, columns).faces, 3, colors))
 
 
 def _wheels(hubs: int, rim: int) -> Faces:
@@ -88,7 +84,7 @@ def _pieces(count: int) -> Faces:
 
 
 SHAPES: dict[str, Callable[..., Faces]] = {
-    "torus": _torus,
+    "torus": lambda rows, columns: torus(rows, columns).faces,
     "wheels": _wheels,
     "soup": _soup,
     "repeated": _repeated,

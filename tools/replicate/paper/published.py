@@ -97,25 +97,19 @@ TIMES = {
 The paper has a misprint, -475263, for OI at 15 % on the Armadillo.
 """
 
-_POWERS = (*(f"R^{power}" for power in range(1, 10)), "SVD")
-POWERS: dict[str, dict[str, tuple[float, float]]] = {
-    "twelve": dict(
-        zip(
-            _POWERS,
-            zip(
-                (0.031, 0.049, 0.099, 0.114, 0.136, 0.142, 0.157, 0.184, 0.201, 0.901),
-                (11.57, 10.26, 13.97, 13.84, 13.7, 13.59, 13.57, 13.55, 13.53, 9.83),
-            ),
-        )
+
+def _by_power(*columns: tuple[float, ...]) -> dict[str, tuple[float, ...]]:
+    return dict(zip((*(f"R^{power}" for power in range(1, 10)), "SVD"), zip(*columns, strict=True), strict=True))
+
+
+POWERS = {
+    "twelve": _by_power(
+        (0.031, 0.049, 0.099, 0.114, 0.136, 0.142, 0.157, 0.184, 0.201, 0.901),
+        (11.57, 10.26, 13.97, 13.84, 13.7, 13.59, 13.57, 13.55, 13.53, 9.83),
     ),
-    "fandisk": dict(
-        zip(
-            _POWERS,
-            zip(
-                (0.077, 0.11, 0.17, 0.202, 0.242, 0.297, 0.313, 0.355, 0.407, 1.953),
-                (16.36, 14.75, 14.54, 14.54, 14.44, 14.5, 14.52, 14.84, 15.6, 14.56),
-            ),
-        )
+    "fandisk": _by_power(
+        (0.077, 0.11, 0.17, 0.202, 0.242, 0.297, 0.313, 0.355, 0.407, 1.953),
+        (16.36, 14.75, 14.54, 14.54, 14.44, 14.5, 14.52, 14.84, 15.6, 14.56),
     ),
 }
 """Section 8.2: seconds and theta in degrees after the coarse step, by the power of R."""
