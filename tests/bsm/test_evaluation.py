@@ -24,7 +24,6 @@ from bsm.evaluation.curve import (
     compare_curves,
     distinct,
     draw_all,
-    latex,
     measure,
     our_curve,
     paper_curves,
@@ -255,7 +254,7 @@ class TestCommands:
         assert main(words) == 0
         assert picture.read_bytes().startswith(b"\x89PNG") and set(tmp_path.iterdir()) == {mesh, picture}
         shown = capsys.readouterr()
-        assert re.search(r"^torus, Draco: about [0-9.]+ s$", shown.err, re.MULTILINE) and "torus | draco" in shown.out
+        assert re.search(r"^torus, Draco: about [0-9.]+ s$", shown.err, re.MULTILINE) and "|   draco" in shown.out
         assert main(words) == 9 and "-f overwrites it" in capsys.readouterr().err
         assert main([*words, "-f", "-q"]) == 0 and not capsys.readouterr().err
         for wrong in (["-o", "a.json"], ["-o", "a.svg", "--csv"]):
@@ -264,13 +263,9 @@ class TestCommands:
 
 
 def test_table():
-    assert table(("a", "b"), [("x", "3"), ("yyy", "2")]) == "| a   |  b |\n| --- | -: |\n| x   |  3 |\n| yyy |  2 |"
-
-
-def test_latex_escapes_what_it_must():
-    lines = latex(("a_b", "θ"), [("50 %", "3°")]).splitlines()
-    assert lines[2] == r"a\_b & $\theta$ \\"
-    assert lines[4] == r"50 \% & 3$^\circ$ \\"
+    rows = [("x", "3"), ("yyy", "2 %")]
+    assert table(("a", "b"), rows) == "| a   |   b |\n|:----|----:|\n| x   |   3 |\n| yyy | 2 % |"
+    assert r"yyy & 2 \% \\" in table(("a", "b"), rows, "latex_booktabs")
 
 
 def test_the_sample_is_a_closed_oriented_torus():

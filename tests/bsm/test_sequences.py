@@ -291,24 +291,6 @@ def test_forms_of_the_output():
             sequence_kind(*pair)
 
 
-def test_curves(npz, tmp_path, capsys, monkeypatch):
-    pytest.importorskip("DracoPy")
-    from bsm.evaluation import curve
-
-    monkeypatch.setattr(curve, "SEQUENCE_STEPS", (0.01, 0.001))
-    monkeypatch.setattr(curve, "SEQUENCE_BITS", (8, 11))
-    assert bsm("curve", npz, "-o", tmp_path / "curves") == 0
-    lines = json.loads((tmp_path / "curves" / "torus-sequence.json").read_text())["lines"]
-    assert {line: len(points) for line, points in lines.items()} == {"ours": 2, "ours-low-delay": 2, "draco": 2}
-    for line in ("ours", "ours-low-delay", "draco"):
-        coarse, fine = lines[line]
-        assert coarse["kg"] > fine["kg"] and coarse["bpvf"] < fine["bpvf"]
-    assert lines["ours"][0]["bpvf"] < lines["draco"][0]["bpvf"]
-    assert "Draco qp 11" in capsys.readouterr().out
-    assert bsm("curve", npz, "-o", tmp_path / "curves.svg") == 0
-    assert b"<svg" in (tmp_path / "curves.svg").read_bytes() and "Draco qp 11" in capsys.readouterr().out
-
-
 def test_attributes_that_stay_go_along(tmp_path, capsys):
     mesh = torus(14, 10)
     at = mesh.positions[mesh.faces]

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bsm.evaluation.curve import STYLES, Picture, latex, table
+from bsm.evaluation.curve import STYLES, Picture, table
 from tools.replicate import ablation, motion
 from tools.replicate.ablation import MOVING_TOOLS, TOOLS, ablation_note, ablation_table
 from tools.replicate.denoising import denoising_note, denoising_table, pairs_table
@@ -199,7 +199,7 @@ def write(results: dict[str, list[Row]], folder: Path, note: Callable[[str], Non
         words = f"{entry.note}\n\n" if entry.note else ""
         text = f"## {entry.title}\n\n{words}{table(entry.columns, entry.rows)}\n"
         (folder / f"{name}.md").write_text(text, encoding="utf-8")
-        (folder / f"{name}.tex").write_text(latex(entry.columns, entry.rows) + "\n", encoding="utf-8")
+        (folder / f"{name}.tex").write_text(table(entry.columns, entry.rows, "latex_booktabs") + "\n", encoding="utf-8")
     for picture in figures(results):
         picture.save(folder, ("pdf", "png"))
     note(f"{folder}: tables, figures and results.json")

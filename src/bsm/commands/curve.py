@@ -10,16 +10,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-import numpy as np
-
 from bsm.bitstream.errors import DependencyError, OptionError, how_to_install
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import adder, within
 from bsm.console import Console, print_json
 from bsm.evaluation import curve as rates
 from bsm.files.mesh import read_mesh
 from bsm.files.output import refuse_to_overwrite, write_output
-from bsm.files.sequence import open_sequence
 
 GROUPS = ("ours", "paper", "draco")
 _NEEDS = {"ours": (), "draco": ("DracoPy",)}
@@ -31,7 +27,7 @@ Save = Callable[[dict[str, Table], Iterable[rates.Picture]], None]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    add("meshes", "MESH", "mesh files or sequences. Without any, only draw earlier results", nargs="*")
+    add("meshes", "MESH", "mesh files. Without any, only draw earlier results", nargs="*")
     add("-o --output", "OUT", "folder for JSON and pictures, or one picture (.png, .svg, .pdf)", required=True)
     which = "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
     add("--codecs", "LIST", f"{which}single lines such as svd,oi-r2 (default: all)", default=",".join(GROUPS))
@@ -65,10 +61,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -> None:
     _refuse_missing(args.codecs if args.meshes else "ours")
-    meshes = [path for path in args.meshes if not _run_sequence(path, folder, args, console, save)]
-    if args.meshes and not meshes:
-        return
-    chosen = [(path, read_mesh(path).mesh.bare) for path in meshes]  # rates are those of the shape
+    chosen = [(path, read_mesh(path).mesh.bare) for path in args.meshes]  # rates are those of the shape
     for path, mesh in chosen:
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
@@ -90,8 +83,9 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
 
 def _refuse_missing(codecs: str) -> None:
     """Raise an error that names all missing packages, before anything is measured."""
-    wanted = ["scipy", "matplotlib", *(name for word in codecs.split(",") for name in _NEEDS.get(word, _PAPER_NEEDS))]
-    missing = sorted(name for name in set(wanted) if importlib.util.find_spec(name) is None)
+    wanted = {name for word in codecs.split(",") for name in _NEEDS.get(word, _PAPER_NEEDS)}
+    wanted |= {"scipy", "matplotlib", "tabulate"}
+    missing = sorted(name for name in wanted if importlib.util.find_spec(name) is None)
     if missing:
         raise DependencyError(f"this needs {', '.join(missing)}; run: {how_to_install('eval')}")
 
@@ -107,7 +101,7 @@ def _save(
         file = io.StringIO()
         csv.writer(file, lineterminator="\n").writerows([columns, *rows])
         texts = {"csv": file.getvalue()} if args.csv else {}
-        texts |= {"tex": rates.latex(columns, rows) + "\n"} if args.latex else {}
+        texts |= {"tex": rates.table(columns, rows, "latex_booktabs") + "\n"} if args.latex else {}
         for suffix, text in texts.items():
             write_output(folder / f"{name}.{suffix}", text.encode(), overwrite=True, follow=False)
             console.note(str(folder / f"{name}.{suffix}"))
@@ -115,22 +109,6 @@ def _save(
     for picture in pictures:
         for path in picture.save(folder, (*rates.FORMATS, *(("pdf",) if args.pdf else ()))):
             console.note(str(path))
-
-
-def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Console, save: Save) -> bool:
-    """Measure and draw a sequence; False if `path` is a mesh."""
-    source = open_sequence(path)
-    if source is None:
-        return False
-    _refuse_missing("draco")
-    frames = np.array(list(source.frames))
-    mesh, kept = TriangleMesh(frames[0], source.faces).without_isolated_vertices()
-    with console.progress(Path(path).stem) as progress:
-        result = rates.measure_lines(frames[:, kept], mesh.faces, Path(path).stem, progress)
-    rates.write_result(result, folder)
-    print(rates.table(*rates.table_of(result)))
-    save({f"{Path(path).stem}-sequence": rates.table_of(result)}, rates.draw_lines(result))
-    return True
 
 
 def _chosen(names: str, vertices: int, blocks: int | None) -> list[rates.Curve]:

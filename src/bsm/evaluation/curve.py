@@ -1,4 +1,4 @@
-"""Rate against error: codecs run over meshes and sequences at several settings, written down as JSON, compared."""
+"""Rate against error: codecs run over meshes at several settings, written down as JSON, compared."""
 
 import io
 import json
@@ -6,7 +6,6 @@ import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -14,15 +13,12 @@ import numpy as np
 
 from bsm.bitstream.errors import CorruptError, MeshError, imported
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import canonical
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.geometry.welding import degenerate
-from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import join
@@ -251,11 +247,9 @@ def run_curve(
 
 
 def write_result(result: Result, folder: Path) -> Path:
-    """Write ``<mesh>.<codec>.json``, or ``<name>-sequence.json``."""
+    """Write ``<mesh>.<codec>.json``."""
     folder.mkdir(parents=True, exist_ok=True)
-    mesh = result.get("mesh")
-    name = f"{mesh['name']}.{result['codec']}" if mesh else f"{result['sequence']['name']}-sequence"
-    path = folder / f"{name}.json"
+    path = folder / f"{result['mesh']['name']}.{result['codec']}.json"
     write_output(path, json.dumps(result, indent=1, allow_nan=False).encode(), overwrite=True, follow=False)
     return path
 
@@ -357,97 +351,18 @@ def compare_curves(reference: Result, tested: Result) -> Result:
     }
 
 
-def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Markdown: columns padded to the same width, the first to the left and the others to the right."""
-    widths = [max(2, *(len(row[i]) for row in (columns, *rows))) for i in range(len(columns))]
-    rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
-
-    def line(cells: Sequence[str]) -> str:
-        padded = [cells[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells[1:], widths[1:]))]
-        return f"| {' | '.join(padded)} |"
-
-    return "\n".join([line(columns), line(rule), *map(line, rows)])
-
-
-def latex(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table for LaTeX with booktabs."""
-    plain = {"%": r"\%", "_": r"\_", "°": r"$^\circ$", "²": "$^2$", "θ": r"$\theta$"}
-
-    def line(cells: Sequence[str]) -> str:
-        return " & ".join("".join(plain.get(letter, letter) for letter in cell) for cell in cells) + r" \\"
-
-    start = rf"\begin{{tabular}}{{l{'r' * (len(columns) - 1)}}}"
-    body = [r"\toprule", line(columns), r"\midrule", *map(line, rows), r"\bottomrule"]
-    return "\n".join([start, *body, r"\end{tabular}"])
+def table(columns: Sequence[str], rows: Sequence[Sequence[str]], form: str = "pipe") -> str:
+    """A table in a form of `tabulate`, by default Markdown; all columns but the first to the right."""
+    sides = ("left", *["right"] * (len(columns) - 1))
+    library = imported("tabulate", "tables need tabulate", "eval")
+    return str(library.tabulate(rows, columns, form, colalign=sides, disable_numparse=True))
 
 
 def number(value: float | None, digits: int) -> str:
     return "-" if value is None else f"{value:.{digits}f}"
 
 
-# ------------------------------------------------------------------------------------------------------------ sequences
-
-
-Point = dict[str, Any]
-SEQUENCE_STEPS = (0.016, 0.008, 0.004, 0.002, 0.001, 0.0005)
-SEQUENCE_BITS = (7, 8, 9, 10, 11, 12)
-LINES = {"ours": "ours", "ours-low-delay": "ours, low delay", "draco": "Draco, frame by frame"}
-SEQUENCE_MEASURES = {"kg": "KG error, percent", "theta_deg": "θ, degrees"}
-FRAMES_OF_DRACO = 16  # frames that Draco is asked for, spread over the sequence: it treats all alike
-
-
-def measure_lines(frames: Positions, faces: Faces, name: str, progress: Callable[[int, int], None]) -> dict[str, Any]:
-    """All lines of one sequence, `frames` of shape (T, n, 3); rates are those of whole files."""
-    every = max(1, len(frames) // FRAMES_OF_DRACO)
-    ours = [("ours", 0), ("ours-low-delay", 1)]
-    work = [(line, partial(our_point, frames, faces, delay, step)) for step in SEQUENCE_STEPS for line, delay in ours]
-    work += [("draco", partial(draco_point, frames, faces, bits, every)) for bits in SEQUENCE_BITS]
-    lines: dict[str, list[Point]] = {line: [] for line in LINES}
-    for done, (line, run) in enumerate(work, 1):
-        lines[line].append({key: finite(value) if isinstance(value, float) else value for key, value in run().items()})
-        progress(done, len(work))
-    sizes = {"frames": len(frames), "vertices": frames.shape[1], "faces": len(faces)}
-    return {"schema": SCHEMA, "sequence": {"name": name, **sizes}, "lines": lines}
-
-
-def our_point(frames: Positions, faces: Faces, low_delay: int, step: float) -> Point:
-    attempt = SequenceEncoder(faces, SequenceOptions(low_delay=low_delay), len(frames)).attempt(list(frames), step)
-    name = f"low delay of {low_delay}, step {step:g}" if low_delay else f"groups, step {step:g}"
-    size = sum(map(len, attempt.chunks))
-    return {"codec": name, "bytes": size, "bpvf": attempt.bpvf, **asdict(attempt.comparison)}
-
-
-def draco_point(frames: Positions, faces: Faces, bits: int, every: int) -> Point:
-    """Draco, level 10, at `bits` of position quantization, over every `every`-th frame: it knows of one frame only."""
-    meshes = [TriangleMesh(frame, faces) for frame in frames[::every]]
-    streams = [encode_draco(mesh, bits, 10) for mesh in meshes]
-    decoded = [positions_in_order(mesh, decode_draco(data), bits) for mesh, data in zip(meshes, streams)]
-    size, original = sum(map(len, streams)), frames[::every]
-    errors = asdict(compare_sequences(original, np.array(decoded), faces))
-    return {"codec": f"Draco qp {bits}", "bytes": size, "bpvf": 8 * size / original[..., 0].size, **errors}
-
-
-def draw_lines(result: dict[str, Any]) -> Iterator["Picture"]:
-    """The pictures of a sequence."""
-    facts = result["sequence"]
-    title = f"{facts['name']}: {facts['frames']:,} frames of {facts['vertices']:,} vertices"
-    for measure, label in SEQUENCE_MEASURES.items():
-        lines = {
-            line: Line(LINES[line], [(p["bpvf"], p[measure]) for p in points if p[measure] is not None])
-            for line, points in result["lines"].items()
-        }
-        name = f"{facts['name']}-{measure.split('_')[0]}"
-        yield draw_rates({title: lines}, "bits per vertex and frame, whole file", label, name)
-
-
-def table_of(result: dict[str, Any]) -> tuple[Sequence[str], Sequence[Sequence[str]]]:
-    digits = {"bpvf": 4, "kg": 4, "theta_deg": 2, "rms_relative": 6}
-    rows = [
-        (result["sequence"]["name"], point["codec"], *(number(point[name], places) for name, places in digits.items()))
-        for points in result["lines"].values()
-        for point in points
-    ]
-    return ("sequence", "codec", "bits per vertex and frame, file", "KG, %", "theta", "rms"), rows
+# ------------------------------------------------------------------------------------------------------------- pictures
 
 
 FORMATS = ("png", "svg")
@@ -469,7 +384,6 @@ STYLES = {
     "oi-r1-cold": ("#7b5ea7", "h"),
     "oi-r2-cold": ("#b79bd6", "p"),
     "doi-r1": ("#17a2b8", "*"),
-    "ours-low-delay": ("#f4a3a3", "o"),
 }
 """The color and the marker of each line, in every picture."""
 _LOOK: dict[Any, Any] = {
