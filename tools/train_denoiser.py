@@ -78,7 +78,8 @@ def example(folder: Path, number: int) -> Example | None:
     else:
         positions, faces = made_shape(FIRST_SHAPE + number, round(float(random.integers(*CELLS)) * np.sqrt(finer)))
     if finer > 1.0:
-        positions, faces, _ = collapsed(positions, faces, np.zeros(len(positions), np.bool_), round(len(faces) / finer))
+        free = np.zeros(len(positions), np.bool_)
+        positions, faces, *_ = collapsed(positions, faces, free, round(len(faces) / finer))
     if len(faces) < FACES:
         return None
     # Strength from 0.06 to 0.75 edges, evenly in its logarithm.

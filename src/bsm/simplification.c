@@ -1,7 +1,7 @@
 /* Fewer triangles: edges that cost least become points, by quadric errors, many of them in each pass. */
 #include "codec/geometry/geometry.h"
 
-enum { TERMS = 10, BUCKETS = 1 << 15, PASSES = 64, FIXED = 1, TOUCHED = 2 };
+enum { TERMS = 10, BUCKETS = 1 << 15, PASSES = 64, TOUCHED = 1, SEAM = 2, FIXED = 4, STEADY = 8 };
 static const double SHAPE = 1e-4; /* What it costs to move along the surface, beside leaving it. */
 static const double TURN = 0.2;   /* The least cosine between what a triangle was and becomes. */
 
@@ -11,7 +11,8 @@ typedef struct {
     uint8_t *states;
     double *quadrics;
     const int32_t *starts, *around;
-    int32_t *ends, *marks; /* Where each vertex went in this pass. */
+    const int32_t *wedges;        /* The values that corners have beside their place. */
+    int32_t *ends, *marks, *joins; /* Where each vertex went in this pass, and each wedge. */
     int32_t mark;
 } Surface;
 
@@ -40,17 +41,27 @@ INLINE void gradient(const double *q, const double *p, double *g) {
     g[2] = q[2] * p[0] + q[4] * p[1] + q[5] * p[2] + q[8];
 }
 
-/* Where the vertex of an edge goes, and what that costs. */
-static double placed(const Surface *surface, int32_t a, int32_t b, double *p) {
+/* What it costs to be at a point. */
+INLINE double cost_at(const double *q, const double *p) {
+    double g[3], cost = q[9];
+    gradient(q, p, g);
+    for (int i = 0; i < 3; i++) cost += p[i] * (g[i] + q[6 + i]);
+    return cost > 0.0 ? cost : 0.0;
+}
+
+/* Where the vertex of an edge goes, which one stays, and what that costs. */
+static double placed(const Surface *surface, int32_t a, int32_t b, double *p, int32_t *stays) {
     const double *pa = surface->positions + 3 * (int64_t)a, *pb = surface->positions + 3 * (int64_t)b;
     const double *qa = surface->quadrics + TERMS * (int64_t)a, *qb = surface->quadrics + TERMS * (int64_t)b;
     double q[TERMS], g[3];
     for (int i = 0; i < TERMS; i++) q[i] = qa[i] + qb[i];
-    bool fixed = (surface->states[a] | surface->states[b]) & FIXED;
-    const double *stays = surface->states[a] & FIXED ? pa : pb;
-    for (int i = 0; i < 3; i++) p[i] = fixed ? stays[i] : 0.5 * (pa[i] + pb[i]);
-    gradient(q, p, g);
-    if (!fixed) {
+    int of_a = surface->states[a] & (SEAM | FIXED), of_b = surface->states[b] & (SEAM | FIXED);
+    bool steady = of_a | of_b | (surface->states[a] & STEADY);
+    *stays = of_b > of_a || (steady && of_a == of_b && cost_at(q, pb) < cost_at(q, pa)) ? b : a;
+    const double *stay = *stays == a ? pa : pb;
+    for (int i = 0; i < 3; i++) p[i] = steady ? stay[i] : 0.5 * (pa[i] + pb[i]);
+    if (!steady) {
+        gradient(q, p, g);
         double xx = q[3] * q[5] - q[4] * q[4], xy = q[2] * q[4] - q[1] * q[5], xz = q[1] * q[4] - q[2] * q[3];
         double yy = q[0] * q[5] - q[2] * q[2], yz = q[1] * q[2] - q[0] * q[4], zz = q[0] * q[3] - q[1] * q[1];
         double volume = q[0] * xx + q[1] * xy + q[2] * xz;
@@ -58,12 +69,9 @@ static double placed(const Surface *surface, int32_t a, int32_t b, double *p) {
             p[0] -= (xx * g[0] + xy * g[1] + xz * g[2]) / volume;
             p[1] -= (xy * g[0] + yy * g[1] + yz * g[2]) / volume;
             p[2] -= (xz * g[0] + yz * g[1] + zz * g[2]) / volume;
-            gradient(q, p, g);
         }
     }
-    double cost = q[9];
-    for (int i = 0; i < 3; i++) cost += p[i] * (g[i] + q[6 + i]);
-    return cost > 0.0 ? cost : 0.0;
+    return cost_at(q, p);
 }
 
 /* The corners of a triangle as they are now; false if it is gone. */
@@ -119,6 +127,32 @@ static bool may_collapse(Surface *surface, int32_t a, int32_t b, const double *p
     return common == 2 && others > 2;
 }
 
+/* Whether each wedge of a vertex that goes has one to become at the vertex that stays; if so, notes which. */
+static bool wedges_join(Surface *surface, int32_t goes, int32_t stays) {
+    int32_t from[2], to[2], corners[3];
+    int known = 0;
+    for (int round = 0; round < 2; round++)
+        for (int64_t k = surface->starts[goes]; k < surface->starts[goes + 1]; k++) {
+            if (!corners_now(surface, surface->around[k], corners)) continue;
+            const int32_t *wedges = surface->wedges + 3 * (int64_t)surface->around[k];
+            int32_t own = -1, other = -1;
+            for (int i = 0; i < 3; i++) {
+                if (corners[i] == goes) own = wedges[i];
+                if (corners[i] == stays) other = wedges[i];
+            }
+            int which = 0;
+            while (which < known && from[which] != own) which++;
+            if (round == 0 && other >= 0 && which == known && known < 2) {
+                from[known] = own;
+                to[known++] = other;
+            } else if (round == 1 && (which == known || (other >= 0 && to[which] != other))) {
+                return false;
+            }
+        }
+    for (int i = 0; i < known; i++) surface->joins[from[i]] = to[i];
+    return true;
+}
+
 /* Which triangles are around each vertex. */
 static void arrange(const int32_t *faces, int64_t count, Ints starts, int32_t *around) {
     int64_t size = starts.size - 1;
@@ -143,21 +177,25 @@ INLINE int64_t bucket_of(float cost) {
     return value.bits >> 16;
 }
 
-/* Make fewer of triangles with three different corners, about `target`; `states` is 1 for vertices that stay where they
- * are. Returns how many there are, which stand first; `owners` are what vertices have become. Scratch: quadrics, `ends`
- * and `marks` for each vertex, one more of `starts`, three of `around` for each triangle, and as many costs as there
- * are edges. */
-int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadrics, Ints starts, Ints around, Ints ends,
-                 Ints marks, Ints owners, Singles costs, Ints buckets, int64_t target) {
+/* Make fewer of triangles with three different corners, about `target`. `wedges` number the values of their corners: a
+ * vertex with several, SEAM of `states`, becomes only another one along a seam. `states` is FIXED for vertices that stay
+ * where they are, and STEADY for all if none may move. Returns how many triangles there are,
+ * which stand first; `owners` are what vertices have become. Scratch: quadrics, `ends` and `marks` for each vertex, one
+ * more of `starts`, three of `around` for each triangle, `joins` for each wedge, and as many costs as there are edges. */
+int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Doubles2 quadrics, Ints starts,
+                 Ints around, Ints ends, Ints marks, Ints joins, Ints owners, Singles costs, Ints buckets,
+                 int64_t target) {
     int64_t size = positions.rows, count = faces.rows;
     if (states.size != size || quadrics.rows != size || quadrics.columns != TERMS || starts.size != size + 1 ||
         around.size < 3 * count || ends.size != size || marks.size != size || owners.size != size ||
-        buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3)
+        buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3 || wedges.rows != count ||
+        wedges.columns != 3)
         return MISUSED;
     for (int64_t k = 0; k < 3 * count; k++)
-        if (faces.data[k] < 0 || faces.data[k] >= size) return MISUSED;
-    Surface surface = {positions.data, faces.data, states.data, quadrics.data, starts.data,
-                       around.data,    ends.data,  marks.data,  0};
+        if (faces.data[k] < 0 || faces.data[k] >= size || wedges.data[k] < 0 || wedges.data[k] >= joins.size)
+            return MISUSED;
+    Surface surface = {positions.data, faces.data, states.data, quadrics.data, starts.data, around.data,
+                       wedges.data,    ends.data,  marks.data,  joins.data,    0};
     for (int64_t v = 0; v < size; v++) {
         marks.data[v] = 0;
         owners.data[v] = (int32_t)v;
@@ -174,21 +212,30 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadric
         for (int i = 0; area > 0.0 && i < 3; i++) {
             add_plane(quadrics.data + TERMS * (int64_t)face[i], n, 1.0 / area, at[0]);
             add_point(quadrics.data + TERMS * (int64_t)face[i], SHAPE * area, at[i]);
+            const int other = (i + 1) % 3;
+            if (!(states.data[face[i]] & states.data[face[other]] & SEAM)) continue;
+            double along[3] = {at[other][0] - at[i][0], at[other][1] - at[i][1], at[other][2] - at[i][2]};
+            double squared = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
+            for (int end = i; end >= 0; end = end == i ? other : -1) {
+                add_point(quadrics.data + TERMS * (int64_t)face[end], squared, at[end]);
+                add_plane(quadrics.data + TERMS * (int64_t)face[end], along, -1.0, at[end]);
+            }
         }
     }
     for (int pass = 0; pass < PASSES && count > target; pass++) {
-        int32_t a, b;
+        int32_t a, b, stays;
         double p[3];
         arrange(faces.data, count, starts, around.data);
         for (int64_t v = 0; v < size; v++) {
             ends.data[v] = (int32_t)v;
-            states.data[v] &= FIXED;
+            states.data[v] &= ~TOUCHED;
         }
+        for (int64_t w = 0; w < joins.size; w++) joins.data[w] = (int32_t)w;
         for (int64_t k = 0; k < BUCKETS; k++) buckets.data[k] = 0;
         int64_t found = 0, made = 0, wanted = (count - target + 1) / 2, most = 0, last = 0, next = 0;
         for (int64_t k = 0; k < 3 * count && found < costs.size; k++) {
             if (!is_edge(&surface, k, &a, &b)) continue;
-            costs.data[found] = (float)placed(&surface, a, b, p);
+            costs.data[found] = (float)placed(&surface, a, b, p, &stays);
             buckets.data[bucket_of(costs.data[found++])]++;
         }
         /* The cheapest, in the order of memory. */
@@ -196,9 +243,9 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadric
         for (int64_t k = 0; next < found && made < wanted; k++) {
             if (!is_edge(&surface, k, &a, &b) || bucket_of(costs.data[next++]) >= last) continue;
             if ((states.data[a] | states.data[b]) & TOUCHED) continue;
-            placed(&surface, a, b, p);
-            if (!may_collapse(&surface, a, b, p)) continue;
-            int32_t stays = states.data[b] & FIXED ? b : a, goes = stays == a ? b : a;
+            placed(&surface, a, b, p, &stays);
+            int32_t goes = stays == a ? b : a;
+            if (!may_collapse(&surface, a, b, p) || !wedges_join(&surface, goes, stays)) continue;
             for (int i = 0; i < TERMS; i++)
                 quadrics.data[TERMS * (int64_t)stays + i] += quadrics.data[TERMS * (int64_t)goes + i];
             for (int i = 0; i < 3; i++) positions.data[3 * (int64_t)stays + i] = p[i];
@@ -212,7 +259,10 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadric
         for (int64_t f = 0; f < count; f++) {
             int32_t corners[3];
             if (!corners_now(&surface, f, corners)) continue;
-            for (int i = 0; i < 3; i++) faces.data[3 * kept + i] = corners[i];
+            for (int i = 0; i < 3; i++) {
+                faces.data[3 * kept + i] = corners[i];
+                wedges.data[3 * kept + i] = joins.data[wedges.data[3 * f + i]];
+            }
             kept++;
         }
         count = kept;

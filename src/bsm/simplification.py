@@ -29,6 +29,7 @@ from bsm.codec.static.targets import ANY_ANGLE
 from bsm.console import Progress
 
 _TERMS, _BUCKETS = 10, 1 << 15  # of the scratch memory of the kernel
+_SEAM, _FIXED, _STEADY = 2, 4, 8  # states of vertices in the kernel
 SHARES = tuple(2.0 ** (-k / 4) for k in range(1, 17))  # of the triangles of the original
 TRIES = 3  # streams of one simplified mesh, each under the promise that the one before calls for
 MOST, NEAR = 1.5, 1.03
@@ -168,7 +169,7 @@ class Source:
         whole = self.whole
         low, scale = whole.positions.min(axis=0), whole.diagonal or 1.0
         placed = (whole.positions - low) / scale
-        new, faces, owners = collapsed(placed, whole.faces, np.zeros(len(placed), np.bool_), target)
+        new, faces, owners, _ = collapsed(placed, whole.faces, np.zeros(len(placed), np.bool_), target)
         kept = np.flatnonzero(owners >= 0)
         kept = kept[np.lexsort((np.square(new[owners] - placed).sum(axis=1)[kept], owners[kept]))]
         nearest = kept[np.unique(owners[kept], return_index=True)[1]]
@@ -229,21 +230,28 @@ def _of_vertices(attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: n
     return Attribute(name, values, "vertex", attribute.semantic)
 
 
-def collapsed(positions: Positions, faces: Faces, locked: Mask, target: int) -> tuple[Positions, Faces, Indices]:
-    """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1."""
-    count, sides = len(positions), 3 * len(faces)
+def collapsed(
+    positions: Positions, faces: Faces, locked: Mask, target: int, wedges: Faces | None = None
+) -> tuple[Positions, Faces, Indices, Faces]:
+    """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1, and the
+    `wedges` left: numbers of the values of corners. With these, vertices stay or vanish, and seams stay seams."""
+    count, sides, own = len(positions), 3 * len(faces), faces if wedges is None else wedges
     ends_of = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     edges, uses = np.unique(ends_of @ np.array([count, 1]), return_counts=True)
-    stay = locked.astype(np.uint8)
+    stay = np.where(locked, _FIXED, 0 if wedges is None else _STEADY).astype(np.uint8)
     # At open borders, and where more than two triangles meet at an edge.
-    stay[np.stack(np.divmod(edges[uses != 2], count))] = 1
-    moved, left = np.array(positions, np.float64), np.array(faces, np.int32)
+    stay[np.stack(np.divmod(edges[uses != 2], count))] = _FIXED
+    if wedges is not None:
+        vertices = faces.ravel()[np.unique(wedges, return_index=True)[1]]  # of the wedges
+        stay[np.bincount(vertices, minlength=count) > 1] |= _SEAM
+    moved, left, own = np.array(positions, np.float64), np.array(faces, np.int32), np.array(own, np.int32)
     starts, ends, marks, owners = (np.empty(count + more, np.int32) for more in (1, 0, 0, 0))
     scratch = np.empty((count, _TERMS)), starts, np.empty(sides, np.int32), ends, marks
+    joins = np.empty(int(own.max(initial=-1)) + 1, np.int32)
     buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
-    size = _kernels.simplify(moved, left, stay, *scratch, owners, *buckets, target)
+    size = _kernels.simplify(moved, left, own, stay, *scratch, joins, owners, *buckets, target)
     kept, corners, numbers = compact(moved, left[:size])
-    return kept, corners, numbers[owners]
+    return kept, corners, numbers[owners], own[:size]
 
 
 def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Faces, Indices]:

@@ -13,6 +13,7 @@ from bsm.codec.threads import available_threads
 from bsm.commands.flags import adder, asked, numbers, within
 from bsm.console import Console, print_json
 from bsm.exits import report_error
+from bsm.files.images import ImageRule
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, state_of
 from bsm.jobs.run import Batch, run_many
@@ -41,6 +42,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--resume", "", "continue a stopped run from the files in --work")
     more = "also write tileset.json (3D Tiles) and a GLB for each tile. "
     add("--tileset", "", more + CONTENT_HELP, nargs="?", choices=CONTENTS, const=CONTENTS[0])
+    images = "how the textures of tiles are written: webp, webp:85, jpeg:90 (default webp)"
+    add("--images", "RULE", images, type=ImageRule.parse, default=ImageRule("webp"))
     add("--json", "", "print the manifest")
 
 
@@ -125,7 +128,9 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
 
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     """Return the plan of the resumed run, or of a new one."""
-    options: dict[str, Any] = {name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin")}
+    options: dict[str, Any] = {
+        name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin", "images")
+    }
     asked_for = repr((options, state_of(args.input)))
     note = work / NOTE
     if args.resume and (work / "plan.json").is_file():

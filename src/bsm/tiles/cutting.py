@@ -88,7 +88,7 @@ def _cell_by_look(raw: Raw, threads: int) -> float:
         # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
         firsts = raw.table("positions")[piece[:, 0]]
         for middle, far, found in zip(middles, reach, near):
-            found.append(piece[(np.abs(firsts - middle) <= far).all(axis=1)])
+            found.append(piece[(np.abs(firsts - middle) <= far).all(axis=1), :3])
 
     def cell_of(faces: list[npt.NDArray[Any]]) -> float:
         used, corners = np.unique(np.concatenate(faces), return_inverse=True)
@@ -121,7 +121,7 @@ class Root:
             corner += (np.array([4, 2, 1]) & int(eighth)).astype(bool).astype(np.int64) << (self.bits - level)
         return corner, 1 << (self.bits - len(name) + 1)
 
-    def outside(self, name: str, places: Places) -> npt.NDArray[np.bool_]:
+    def outside(self, name: str, places: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
         """Which places are not in the cube of a node."""
         corner, side = self.cube(name)
         return np.asarray(((places < corner) | (places >= corner + side)).any(axis=1))
@@ -138,6 +138,7 @@ class Plan(Root):
     kinds: Kinds
     leaves: dict[str, tuple[int, int]]
     about: Mapping[str, str] = field(default_factory=dict)
+    textures: int = 0  # pictures of materials, beside the plan
 
     def codes(self, places: npt.NDArray[Any]) -> Ints:
         """The node of the deepest level that holds each place, in their order along the octree's curve."""
@@ -184,8 +185,9 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     bits = max(1, int((high - low).max()).bit_length()) + above
     depth = min(DEPTH + above, bits)
     kinds = {what: kind for what, kind in raw.kinds.items() if what not in ("positions", "faces")}
-    kinds |= {"own": ("<u4", 1), "places": ("<i4", 3), "cut": ("<u4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
-    plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {}, raw.about)
+    kinds |= {"own": ("<u4", 1), "places": ("<i4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
+    kinds["cut"] = ("<u4", 7 if raw.textures else 3)
+    plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {}, raw.about, raw.textures)
     names = ("places", "codes", "own")
     with ExitStack() as opened:
         file, coded, own = (opened.enter_context(table_file(folder / name)) for name in names)
@@ -242,13 +244,14 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
     following = np.array([begin for begin, _ in plan.leaves.values()])
     outside = [np.zeros((0, 5), np.int64)]
     with table_file(raw.folder / "cut") as file:
-        for faces in raw.pieces("faces"):
-            codes = mapped(raw.folder, "codes", plan.kinds)[:, 0][faces]
+        for rows in raw.pieces("faces"):
+            faces = np.ascontiguousarray(rows[:, : plan.kinds["cut"][1]])
+            codes = mapped(raw.folder, "codes", plan.kinds)[:, 0][faces[:, :3]]
             leaf = (np.searchsorted(ends[:, 0], codes[:, 0], "right") - 1).astype(np.min_scalar_type(len(ends)))
             order = np.argsort(leaf, kind="stable")
             numbers, first, count = np.unique(leaf[order], return_index=True, return_counts=True)
             for number, begin, size in zip(numbers.tolist(), first.tolist(), count.tolist()):
-                file.seek(12 * int(following[number]))
+                file.seek(faces[0].nbytes * int(following[number]))
                 file.write(faces[order[begin : begin + size]].data)
             following[numbers] += count
             row, corner = np.nonzero((codes < ends[leaf, :1]) | (codes >= ends[leaf, 1:]))

@@ -6,14 +6,14 @@ import shutil
 import tempfile
 from collections.abc import Iterable
 from contextlib import ExitStack
-from typing import BinaryIO
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import row_numbers
 from bsm.console import Console
 from bsm.files.conventions import placement
 from bsm.files.formats.metadata import remarks
@@ -25,7 +25,6 @@ from bsm.gltf.document import Document
 from bsm.gltf.write import vertex_normals, write_glb
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Ints
-from bsm.tiles.making import keys_of
 from bsm.tiles.manifest import Tile
 from bsm.tiles.reading import ABOUT, CARRIED
 from bsm.tiles.shards import Table, Tiles
@@ -45,48 +44,42 @@ def write_joined(
     if not chosen:
         raise OptionError("no tile is that close to the mesh: give a larger --error, or a level")
     with by_its_own_name(tempfile.gettempdir()), ExitStack() as opened:
-        tables, faces, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(4))
-        counts: list[tuple[int, int]] = []
-        outside, single = list[Table](), True
+        tables, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(3))
+        outside, single, most, total = list[Table](), True, 0, 0
         with console.progress("decoding") as progress:
             for number, (shard, tile) in enumerate(chosen, 1):
                 table, triangles = tiles.decoded(shard, tile)
-                tables.write(table.data)
-                faces.write(triangles.data)
-                counts.append((len(table), len(triangles)))
+                np.save(tables, table)
+                np.save(tables, triangles)
+                most, total = most + len(table), total + len(triangles)
                 positions = tiles.lattice.positions(table[:, :3])
                 single = single and bool((positions.astype(np.float32) == positions).all())
                 outside.append(table[tiles.root.outside(tile.name, table[:, :3])])
                 progress(number, len(chosen))
         # Of what two tiles share one at least reaches out of its cube for it.
         shared = np.unique(np.concatenate(outside), axis=0)
-        numbers = np.full(len(shared), -1, np.int64)
-        vertices, total = 0, sum(count for _, count in counts)
-        index, kind = np.int32 if total < 1 << 31 else np.uint32, np.float32 if single else np.float64
+        numbers = np.full(len(shared) + 1, -1, np.int64)  # the last for those that are not shared
+        vertices, index, kind = 0, np.int32 if most < 1 << 31 else np.uint32, np.float32 if single else np.float64
         tables.seek(0)
-        faces.seek(0)
-        for size, triangles_of in counts:
-            table = _read(tables, size, shared.shape[1])
+        for _ in chosen:
+            table, triangles = np.load(tables), np.load(tables)
             low, high = table[:, :3].min(axis=0).astype(np.int64), table[:, :3].max(axis=0)
             near = np.flatnonzero(((shared[:, :3] >= low) & (shared[:, :3] <= high)).all(axis=1))
-            rows_of = np.flatnonzero(np.isin(keys_of(table[:, :3], low), keys_of(shared[near, :3], low)))
-            different, which = np.unique(np.concatenate([shared[near], table[rows_of]]), axis=0, return_inverse=True)
-            known = np.full(len(different), -1, np.int64)
-            known[which.reshape(-1)[: len(near)]] = near
-            own = known[which.reshape(-1)[len(near) :]]
-            rows_of, own = rows_of[own >= 0], own[own >= 0]
-            given = np.full(size, -1, np.int64)
-            given[rows_of] = numbers[own]
+            which = row_numbers(np.concatenate([shared[near], table]))
+            known = np.full(len(which), -1, np.int64)
+            known[which[: len(near)]] = near
+            own = known[which[len(near) :]]
+            given = numbers[own]
             fresh = np.flatnonzero(given < 0)
             given[fresh] = vertices + np.arange(len(fresh))
-            numbers[own] = given[rows_of]
+            numbers[own[own >= 0]] = given[own >= 0]
             vertices += len(fresh)
             columns = [*zip("xyz", tiles.lattice.positions(table[fresh, :3]).astype(kind).T)]
             for what, values in tiles.values(table[fresh]).items():
                 columns += zip(CARRIED[what], values.T)
             of_points, rows = table_of(columns)
             points.write(rows.tobytes())
-            of_faces, rows = table_of([("vertex_indices", given[_read(faces, triangles_of, 3)].astype(index))])
+            of_faces, rows = table_of([("vertex_indices", given[triangles].astype(index))])
             corners.write(rows.tobytes())
         about = {name: tiles.manifest[name] for name in ABOUT if name in tiles.manifest}
         comments = [f"comment {line}" for line in remarks(about)[0]]
@@ -120,11 +113,12 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     options = {"grid_cell": tiles.lattice.cell, "effort": "quick", "attributes": sent}
     with console.progress("writing") as progress:
         for number, (name, (shard, tile)) in enumerate(known.items(), 1):
-            table, faces = tiles.decoded(shard, tile)
-            moved = ((table[:, :3] - ends[name][0]) * tiles.lattice.cell).astype(np.float32).astype(np.float64)
-            shown, normals = tiles.attributes(table), vertex_normals(moved, faces).astype(np.float32)
-            shown += (Attribute("normal", normals, "vertex", "normal"),) if sent else ()
-            mesh = TriangleMesh(moved, faces, shown, {"up": "z"})
+            mesh = tiles.mesh(shard, tile)
+            moved = (tiles.lattice.cells(mesh.positions) - ends[name][0]) * tiles.lattice.cell
+            moved = moved.astype(np.float32).astype(np.float64)
+            normals = vertex_normals(moved, mesh.faces).astype(np.float32)
+            shown = (*mesh.attributes, *([Attribute("normal", normals, "vertex", "normal")] if sent else []))
+            mesh = replace(mesh, positions=moved, attributes=shown, metadata={**mesh.metadata, "up": "z"})
             data = write_glb(mesh, name).data
             if content == "bsm":
                 data = compress(Document(data), options).data
@@ -153,7 +147,3 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     write_output(inside(folder, TILESET), data, overwrite=overwrite, follow=False)
     console.note(f"{inside(folder, TILESET)}: {counted(tiles=len(known))} as {content} GLB, {size} bytes")
     return size + len(data)
-
-
-def _read(file: BinaryIO, rows: int, columns: int) -> Table:
-    return np.frombuffer(file.read(4 * columns * rows), np.int32).reshape(-1, columns)

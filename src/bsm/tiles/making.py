@@ -1,6 +1,6 @@
 """One tile: of the finest level by its triangles, of any other by its eighths, simplified inside of their border."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -17,9 +17,12 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
 from bsm.files.formats.npz import write_npy
+from bsm.files.images import ImageRule
 from bsm.files.output import open_output, write_output
 from bsm.jobs.task import Facts, Task
+from bsm.libraries import with_texels
 from bsm.simplification import collapsed, compact
+from bsm.tiles.atlas import Skin, cut_out, joined_skins, side_of_texel, skin_of, textured, wedges_of
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
 from bsm.tiles.reading import mapped
 
@@ -34,32 +37,46 @@ class TileJob(Task):
     most: int = 0
     cell: float = 0.0
     finest: bool = False
+    images: ImageRule = field(default_factory=lambda: ImageRule("webp"))
 
 
 def tile_one(job: TileJob, console: Console) -> Facts:
     name, folder = Path(job.output).stem, Path(job.input).parent
     plan = load_plan(folder / "plan.json")
     if name in plan.leaves:
-        (mesh, joined), error = _leaf(plan, name, folder), 0.0
+        (mesh, skin, joined), error = _leaf(plan, name, folder), 0.0
     else:
-        (mesh, error), joined = _coarser(plan, name, folder, job.most), 0
-    places = np.asarray(mesh.positions, np.int32)
+        (mesh, skin, error), joined = _coarser(plan, name, folder, job.most), 0
+    places, sent = np.asarray(mesh.positions, np.int32), mesh
+    if plan.textures:
+        finer = sorted(folder.glob(f"{name}[0-7].atlas"))
+        skin, atlas = cut_out(skin, _pictures(plan, folder), 1) if name in plan.leaves else cut_out(skin, finer, 2)
+        with open_output(folder / f"{name}.atlas", overwrite=True, follow=False) as file:
+            atlas.save(file, "ppm")
+        sent = textured(mesh, skin, atlas, job.images)
+        error = error if name in plan.leaves else max(error, plan.lattice.cell * side_of_texel(mesh, skin))
     if not job.finest:
         with open_output(folder / f"{name}.mesh", overwrite=True, follow=False) as file:
-            for table in (np.array(error), places, mesh.faces, *(_of_vertices(a, mesh) for a in mesh.attributes)):
+            for table in (np.array(error), places, mesh.faces, skin, *(_of_vertices(a, mesh) for a in mesh.attributes)):
                 write_npy(file, table)
     options = EncodeOptions(grid_cell=plan.lattice.cell, grid_origin=plan.lattice.origin, threads=1)  # type: ignore[arg-type]
-    data = Encoder(replace(mesh, positions=plan.lattice.positions(places)), options).encode()
+    sent = replace(sent, positions=plan.lattice.positions(places))
+    data = Encoder(sent, with_texels(options, sent)).encode()
     write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
     counts = {"vertices": len(places), "faces": len(mesh.faces), "apart": error, "joined": joined}
     return {"input": job.input, "output": job.output, "output_bytes": len(data), **counts, **ends}
 
 
-def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, int]:
+def _pictures(plan: Plan, folder: Path) -> list[Path]:
+    return [folder / f"texture.{number}" for number in range(plan.textures)]
+
+
+def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]:
     """A tile in cells of the lattice, and how many positions share a place; corners there may differ."""
     begin, count = plan.leaves[name]
-    used, corners = np.unique(mapped(folder, "cut", plan.kinds)[begin : begin + count], return_inverse=True)
+    faces = mapped(folder, "cut", plan.kinds)[begin : begin + count]
+    used, corners = np.unique(faces[:, :3], return_inverse=True)
     corners = corners.reshape(-1, 3)
     places, numbers, some = welded(mapped(folder, "places", plan.kinds)[used])
     inside = ~plan.outside(name, places)
@@ -73,7 +90,12 @@ def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, int]:
         different, rows = np.unique(values, axis=0, return_inverse=True)
         return Attribute(what, different, "corner", what, rows.reshape(-1)[corners].astype(np.int32))
 
-    return TriangleMesh(places.astype(np.float64), numbers[corners], tuple(map(carried, plan.carried))), joined
+    skin: Skin = np.zeros((count, 3, 0), np.float32)
+    if plan.textures:
+        texcoords = mapped(folder, "texcoord", plan.kinds)
+        rows = np.where(faces[:, 3:6] < len(texcoords), faces[:, 3:6], 0)
+        skin = skin_of(texcoords[rows], faces[:, 6], _pictures(plan, folder))
+    return TriangleMesh(places.astype(np.float64), numbers[corners], tuple(map(carried, plan.carried))), skin, joined
 
 
 def _of_vertices(attribute: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
@@ -101,13 +123,14 @@ def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
     return along_curve(shifted)
 
 
-def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMesh, float]:
+def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMesh, Skin, float]:
     """A node by those below it; what others use of it stays where it is."""
-    children, before, first = [], 0.0, 0
+    children, skins, before, first = [], list[Skin](), 0.0, 0
     for path in sorted(folder.glob(f"{name}[0-7].mesh")):
         with path.open("rb") as file:
             before = max(before, float(np.load(file)))
-            places, faces, *values = (np.load(file) for _ in range(2 + len(plan.carried)))
+            places, faces, skin, *values = (np.load(file) for _ in range(3 + len(plan.carried)))
+        skins.append(skin)
         children.append((places, faces + first, *values))
         first += len(places)
     together, corners, *tables = map(np.concatenate, zip(*children))
@@ -120,11 +143,11 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
             for what, table in zip(plan.carried, tables)
         )
 
-    faces = numbers[corners]
+    faces, skin = numbers[corners], joined_skins(skins)
     del together, corners, numbers
     if (empty := degenerate(faces)).all():
-        return TriangleMesh(places.astype(np.float64), faces[:1], carried(np.arange(len(places)))), before
-    faces = faces[~empty]
+        return TriangleMesh(places.astype(np.float64), faces[:1], carried(np.arange(len(places)))), skin[:1], before
+    faces, skin = faces[~empty], skin[~empty]
     locked = plan.outside(name, places)
     outside = mapped(folder, "outside", plan.kinds)
     begin, end = plan.ends(name)
@@ -133,21 +156,27 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     low = places.min(axis=0).astype(np.int64)
     inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
     locked |= np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
-    new, smaller = simplified(places, faces, locked, max(len(faces) // _KEPT, min(COARSEST, most) // 4))
+    target = max(len(faces) // _KEPT, min(COARSEST, most) // 4)
+    wedges = wedges_of(skin, faces) if plan.textures else None
+    new, smaller, left = simplified(places, faces, locked, target, wedges)
+    corner = None if wedges is None else np.unique(wedges, return_index=True)[1]  # of each wedge
+    skin = skin[: len(smaller)] if corner is None else skin.reshape(-1, 4)[corner[left]]
     apart = farthest_from_surface(places.astype(np.float64), new.astype(np.float64), smaller)
     near = np.zeros(0, np.int64)
     if tables:
         from scipy.spatial import KDTree  # a third of what a process loads
 
         near = KDTree(places).query(new)[1]
-    return TriangleMesh(new.astype(np.float64), smaller, carried(near)), before + apart * plan.lattice.cell
+    return TriangleMesh(new.astype(np.float64), smaller, carried(near)), skin, before + apart * plan.lattice.cell
 
 
-def simplified(places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int) -> tuple[Places, Faces]:
-    """Simplify to about `target` triangles; locked and border vertices stay."""
+def simplified(
+    places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int, wedges: Faces | None = None
+) -> tuple[Places, Faces, Faces]:
+    """Simplify to about `target` triangles; locked and border vertices stay. Also return the wedges of the result."""
     low = places.min(axis=0).astype(np.float64)
-    kept, corners, _ = collapsed(places - low, faces, locked, target)
+    kept, corners, _, left = collapsed(places - low, faces, locked, target, wedges)
     new, numbers, _ = welded(np.rint(kept + low).astype(np.int32))
-    corners = numbers[corners]
-    new, smaller, _ = compact(new, corners[~degenerate(corners)])
-    return (new, smaller) if len(smaller) else (places, faces)
+    there = ~degenerate(corners := numbers[corners])
+    new, smaller, _ = compact(new, corners[there])
+    return (new, smaller, left[there]) if len(smaller) else (places, faces, faces if wedges is None else wedges)

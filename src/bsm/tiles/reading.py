@@ -1,50 +1,42 @@
 """Mesh files of any size, piece by piece: positions, faces, colors and normals as plain arrays on the disk."""
 
-import tempfile
+import re
 from codecs import BOM_UTF8
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.console import Console
-from bsm.files.formats.metadata import parse_remarks
+from bsm.files.formats.metadata import Beside, fetched, images_in, materials_in, names_in, parse_remarks
 from bsm.files.formats.obj import read_obj
-from bsm.files.formats.ply import IMAGE, MOST_HEADER, Element, parse_header
-from bsm.files.formats.polygons import CROSSING, Polygons, triangulate
+from bsm.files.formats.ply import MOST_HEADER, Element, parse_header
+from bsm.files.formats.polygons import CROSSING, triangulate
 from bsm.files.formats.stl import HEAD, RECORD, binary_triangles, is_text
 from bsm.files.mesh import format_of_name
 from bsm.files.output import by_its_own_name
-from bsm.files.pipes import Input, size_of
+from bsm.files.pipes import Input, is_url, size_of
 from bsm.files.table import format_of_bytes
 
 Array: TypeAlias = npt.NDArray[Any]
-Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color" or "normal"
+Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color", "normal" or "texcoord"
 Kinds: TypeAlias = Mapping[str, tuple[str, int]]  # of numbers in a table, and how many a row has
 ABOUT = ("unit", "up")
 CARRIED = {"color": ("red", "green", "blue", "alpha"), "normal": ("nx", "ny", "nz")}
 _KNOWN = ("x", "y", "z", "length", "corners")
-_TEXTURES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texcoord",), ("texnumber",))
 ROWS = 1 << 18  # that are in memory at a time
 _HEAD = 1 << 16
 _TEXT = 1 << 23
 _TEXT_END = 1 << 6  # bytes in which a line that goes on ends
 _MOST_INDEX = (1 << 32) - 1
-_POINT = np.dtype([("xyz", "<f8", 3)])
-
-
-class LeftOut(dict[str, None]):
-    """Names of contents that tiles do not have, in order; and the unit and the axis of the mesh, which they have."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.about: dict[str, str] = {}
+_USED = re.compile(rb"^[ \t]*usemtl[ \t][^\r\n]*[^\s\\]", re.MULTILINE)
+_WHITE = b"P6 1 1 255 \xff\xff\xff"  # the picture of a material that has none
 
 
 @dataclass(frozen=True)
@@ -56,8 +48,11 @@ class Raw:
     rows: dict[str, int] = field(default_factory=lambda: {"positions": 0, "faces": 0})
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
-    left_out: tuple[str, ...] = ()
-    about: Mapping[str, str] = field(default_factory=dict)  # the unit, and the axis that points up
+    left_out: dict[str, None] = field(default_factory=dict)  # names of contents that tiles do not have, in order
+    about: dict[str, str] = field(default_factory=dict)  # the unit, and the axis that points up
+    libraries: dict[str, None] = field(default_factory=dict)
+    materials: dict[str, int] = field(default_factory=dict)  # their numbers, by their names
+    textures: int = 0  # pictures of materials, in files of the folder
 
     def pieces(self, what: str) -> Iterator[Array]:
         """A table from its beginning to its end."""
@@ -95,16 +90,15 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     raw = Raw(folder)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
-    left_out = LeftOut()
     with closing(given), console.progress("reading", until=0.1), ExitStack() as opened:
-        for what, piece in _READERS[kind](given, left_out):
+        for what, piece in _READERS[kind](given, raw):
             if not len(piece):
                 continue
             piece = _checked(what, piece, raw.rows.get(what, 0))
             if what == "positions":
                 low, high = np.minimum(low, piece.min(axis=0)), np.maximum(high, piece.max(axis=0))
             elif what == "faces":
-                largest = max(largest, int(piece.max()))
+                largest = max(largest, int(piece[:, :3].max()))
             if what not in files:
                 files[what] = opened.enter_context(table_file(folder / what))
                 raw.kinds[what] = piece.dtype.newbyteorder("<").str, piece.shape[1]
@@ -114,6 +108,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
                 )
             with by_its_own_name(folder / what):
                 files[what].write(np.ascontiguousarray(piece, raw.kinds[what][0]).data)
+                files[what].flush()
             raw.rows[what] = raw.rows.get(what, 0) + len(piece)
     vertices = raw.rows["positions"]
     if not raw.rows["faces"]:
@@ -124,7 +119,26 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
         if raw.rows.get(what, vertices) != vertices:
             raise MeshError(f"{raw.rows[what]} of {vertices} vertices have a {what}: give all of them one, or none")
     ends = tuple(map(float, low)), tuple(map(float, high))
-    return Raw(folder, raw.kinds, raw.rows, *ends, tuple(left_out), left_out.about)
+    beside = Beside(None if is_url(name) or name == "-" else Path(name).parent, DEFAULT_LIMITS)
+    return replace(raw, low=ends[0], high=ends[1], textures=_textures(raw, beside))
+
+
+def _textures(raw: Raw, beside: Beside) -> int:
+    """Write the picture of each material; return how many there are, none at all if there is no image."""
+    if raw.rows.get("texcoord", 0) <= 1:
+        return 0
+    about = {f"material.{number}.name": name for name, number in raw.materials.items()}
+    found, notes = fetched({**about, "mtllib": "\n".join(raw.libraries)}, beside.read)
+    images, materials = images_in(found), materials_in(found)
+    numbers = [materials[number].get("map_Kd") for number in raw.materials.values()]
+    pictures = [images[int(number)][1] if number in images else b"" for number in numbers]
+    if any(pictures):
+        for what in ("material", "mtllib"):
+            raw.left_out.pop(what, None)
+    raw.left_out.update(dict.fromkeys([*([] if any(pictures) else ["texcoord"]), *notes]))
+    for number, picture in enumerate(pictures if any(pictures) else ()):
+        (raw.folder / f"texture.{number}").write_bytes(picture or _WHITE)
+    return len(pictures) if any(pictures) else 0
 
 
 def _checked(what: str, piece: Array, before: int) -> Array:
@@ -135,7 +149,7 @@ def _checked(what: str, piece: Array, before: int) -> Array:
         raise MeshError(f"vertex {row} has a {_WORDS[what]} that is not finite; remove or repair it")
     if what == "positions":
         return piece if floats and piece.dtype.itemsize == 4 else piece.astype("<f8")
-    if what == "normal":
+    if what in ("normal", "texcoord"):
         return piece.astype("<f4")
     if what == "color":
         if floats and piece.min() >= 0 and piece.max() <= 1:
@@ -152,28 +166,22 @@ def _checked(what: str, piece: Array, before: int) -> Array:
     return piece.astype("<u4")
 
 
-_WORDS = {"positions": "coordinate", "color": "color", "normal": "normal", "faces": "corner"}
+_WORDS = {
+    **{"positions": "coordinate", "color": "color", "normal": "normal", "faces": "corner"},
+    "texcoord": "texture coordinate",
+}
 
 
-def _refuse_textures(names: set[str]) -> None:
-    if names:
-        message = f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colors and normals of vertices"
-        raise UnsupportedError(f"{message} alone: write it without, or its texture as colors")
-
-
-def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
+def _read_ply(given: Input, raw: Raw) -> Pieces:
     header = parse_header(given.peek(MOST_HEADER))
     if not header.order:
         raise FormatError("this PLY file is text; tiles are made of binary ones")
     given.read(header.size)
     if {"vertex", "face"} - {element.name for element in header.elements}:
         raise FormatError("the PLY file has no vertices, or no faces")
-    names = {column.name for element in header.elements for column in element.properties}
-    images = {IMAGE for _, line in header.comments if line.startswith(f"{IMAGE} ")}
-    _refuse_textures(images | {properties[0] for properties in _TEXTURES if names.issuperset(properties)})
-    left_out.about |= {name: str(header.metadata[name]) for name in ABOUT if name in header.metadata}
+    raw.about.update({name: str(header.metadata[name]) for name in ABOUT if name in header.metadata})
     others = (keyword for keyword, line in header.comments if not parse_remarks([line]).keys() & {*ABOUT})
-    left_out |= dict.fromkeys(f"lines of {keyword}" for keyword in others)
+    raw.left_out.update(dict.fromkeys(f"lines of {keyword}" for keyword in others))
     for element in header.elements:
         if not element.properties and element.name not in ("vertex", "face"):
             continue
@@ -185,7 +193,7 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
             if element.name == "vertex" and names.issuperset(columns[:3])
         }
         known = {*_KNOWN, *(column for columns in carried.values() for column in columns)}
-        left_out |= dict.fromkeys(name for name in kind.names or () if name not in known)
+        raw.left_out.update(dict.fromkeys(name for name in kind.names or () if name not in known))
         for first in range(0, element.count, ROWS):
             size = min(ROWS, element.count - first) * kind.itemsize
             data = given.read(size)
@@ -218,13 +226,13 @@ def _row_of(element: Element, order: str) -> np.dtype[Any]:
     return np.dtype(fields)
 
 
-def _read_stl(given: Input, left_out: LeftOut) -> Pieces:
+def _read_stl(given: Input, raw: Raw) -> Pieces:
     head = given.peek(_HEAD)
     size = size_of(given.name) if given.is_file else None
     if is_text(head, size):
         raise FormatError("this STL file is text; tiles are made of binary ones")
     count, note = binary_triangles(head, size)
-    left_out |= dict.fromkeys([note] if note else ())
+    raw.left_out.update(dict.fromkeys([note] if note else ()))
     given.read(HEAD)
     for first in range(0, count, ROWS):
         rows = min(ROWS, count - first)
@@ -232,50 +240,53 @@ def _read_stl(given: Input, left_out: LeftOut) -> Pieces:
         if len(data) < RECORD.itemsize * rows:
             raise TruncatedError(f"the STL file is cut short: triangle {first} and those after it are missing")
         records = np.frombuffer(data, RECORD)
-        left_out |= dict.fromkeys(["attribute"] if records["attribute"].any() else ())
+        raw.left_out.update(dict.fromkeys(["attribute"] if records["attribute"].any() else ()))
         yield "positions", records["corners"].reshape(-1, 3)
         yield "faces", np.arange(3 * first, 3 * (first + rows)).reshape(-1, 3)
 
 
-def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
-    rest, seen = given.read(len(BOM_UTF8)).removeprefix(BOM_UTF8), 0
-    with tempfile.TemporaryFile() as file:
-        while data := given.read(_TEXT):
-            text = rest + data
-            end = text.rfind(b"\n")
-            while end > 0 and text[max(end - _TEXT_END, 0) : end].rstrip().endswith(b"\\"):  # the line goes on
-                end = text.rfind(b"\n", 0, end)
-            if end < 0 and len(text) > _TEXT:
-                raise FormatError("this is not an OBJ file: it has no lines")
-            text, rest = text[: end + 1], text[end + 1 :]
-            yield from _of_obj(read_obj(text, DEFAULT_LIMITS, seen), file, left_out)
-            seen = file.tell() // _POINT.itemsize
-        yield from _of_obj(read_obj(rest, DEFAULT_LIMITS, seen), file, left_out)
+def _read_obj(given: Input, raw: Raw) -> Pieces:
+    rest = given.read(len(BOM_UTF8)).removeprefix(BOM_UTF8)
+    yield "texcoord", np.zeros((1, 2), np.float32)  # of corners without
+    while data := given.read(_TEXT):
+        text = rest + data
+        end = text.rfind(b"\n")
+        while end > 0 and text[max(end - _TEXT_END, 0) : end].rstrip().endswith(b"\\"):  # the line goes on
+            end = text.rfind(b"\n", 0, end)
+        if end < 0 and len(text) > _TEXT:
+            raise FormatError("this is not an OBJ file: it has no lines")
+        yield from _of_obj(text[: end + 1], raw)
+        rest = b"\n".join([*_USED.findall(text, 0, end + 1)[-1:], text[end + 1 :]])
+    yield from _of_obj(rest, raw)
 
 
-def _of_obj(piece: Polygons, file: BinaryIO, left_out: LeftOut) -> Pieces:
-    """The tables of some lines; `file` holds the points of all lines so far, for the polygons that are cut."""
-    left_out.about |= {name: str(piece.metadata[name]) for name in ABOUT if name in piece.metadata}
+def _of_obj(text: bytes, raw: Raw) -> Pieces:
+    """The tables of some lines. Corners are followed by their rows of texture coordinates, and a material."""
+    piece = read_obj(text, DEFAULT_LIMITS, (raw.rows["positions"], raw.rows["texcoord"] - 1, 0))
+    raw.about.update({name: str(piece.metadata[name]) for name in ABOUT if name in piece.metadata})
+    raw.libraries.update(dict.fromkeys(str(piece.metadata.get("mtllib", "")).split("\n")))
+    columns = {column.name: column for column in piece.columns}
     named = (key.partition(".")[0] for key in piece.metadata if key not in ABOUT)
-    names = {*(column.name for column in piece.columns), *named}
-    _refuse_textures(names & {"texcoord"})
-    left_out |= dict.fromkeys((*sorted(names - {"color"}), *piece.dropped))
+    known = sorted({*columns, *named} - {"color", "texcoord"})
+    raw.left_out.update(dict.fromkeys((*known, *piece.dropped)))
     if (piece.sizes < 3).any():
         raise MeshError("a face has fewer than three corners")
-    file.write(piece.positions.tobytes())
     yield "positions", piece.positions
+    yield "texcoord", columns["texcoord"].values[:, :2]
     yield from (("color", column.values) for column in piece.columns if column.name == "color")
-    faces = piece.corners.reshape(-1, 3) if (piece.sizes == 3).all() else None
-    if faces is None:
-        file.flush()
-        points = np.memmap(file, _POINT, "r")["xyz"]
+    points, corners = piece.positions, piece.corners
+    if (piece.sizes != 3).any():
         used, corners = np.unique(piece.corners, return_inverse=True)
-        if used[0] < 0 or used[-1] >= len(points):
+        if used[0] < 0 or used[-1] >= raw.rows["positions"]:
             raise MeshError(f"a face refers to vertex {used[0] if used[0] < 0 else used[-1]}, which comes later")
-        places, _, crossing = triangulate(points[used], piece.sizes, corners)
-        left_out |= dict.fromkeys([CROSSING] if crossing else ())
-        faces = piece.corners[places]
-    yield "faces", faces
+        points = raw.table("positions")[used]
+    places, owner, crossing = triangulate(points, piece.sizes, corners)
+    raw.left_out.update(dict.fromkeys([CROSSING] if crossing else ()))
+    names = names_in(piece.metadata, "material")
+    numbers = [raw.materials.setdefault(names.get(n, ""), len(raw.materials)) for n in range(1 + max(names, default=0))]
+    own = columns["material"].values[owner] if "material" in columns else np.zeros(len(places), np.int32)
+    rows = np.maximum(np.asarray(columns["texcoord"].indices)[places] + 1, 0)
+    yield "faces", np.column_stack([piece.corners[places], rows, np.array(numbers)[own]])
 
 
 _READERS = {"ply": _read_ply, "stl": _read_stl, "obj": _read_obj}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path
 from types import NoneType
@@ -29,7 +29,7 @@ from bsm.tiles.making import Faces
 from bsm.tiles.manifest import FOOT, MANIFEST, NO_JSON, Tile, json_of, parse_index, read_manifest
 from bsm.tiles.reading import Kinds
 
-Table: TypeAlias = npt.NDArray[np.int32]
+Table: TypeAlias = npt.NDArray[np.float64]
 SHARD, MOST_TILES = 64_000_000, 1 << 14  # bytes, and tiles, from which on a shard takes no more
 _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
 
@@ -225,10 +225,8 @@ class Tiles:
         """Return the attribute values of vertices, shape (n, 3 and more), by name; shape (n, c)."""
         found, column = {}, 3
         for what, (kind, size) in self.kinds.items():
-            width = -(-np.dtype(kind).itemsize * size // 4)
-            words = np.ascontiguousarray(table[:, column : column + width])
-            found[what] = words.view(kind)[:, :size]
-            column += width
+            found[what] = table[:, column : column + size].astype(kind)
+            column += size
         return found
 
     def chosen(self, error: float = 0.0, box: Any = None, level: int | None = None) -> Iterator[tuple[Facts, Tile]]:
@@ -278,24 +276,28 @@ class Tiles:
             raise CorruptError(f"{name}: tile {tile.name} differs from the index", offset=tile.offset)
         return data
 
-    def decoded(self, shard: Facts, tile: Tile) -> tuple[Table, Faces]:
-        """The vertices on the grid, shape (n, 3 and more), with the bits of what else they have; and faces, (m, 3)."""
+    def mesh(self, shard: Facts, tile: Tile) -> TriangleMesh:
+        """A tile, whose vertices are where the index says."""
         name = f"{inside(self.path, shard['file'])}, tile {tile.name}"
         with about(name):
-            mesh = split_by_attributes(decode_whole(iter([self.data(shard, tile)]), self.limits))
+            mesh = decode_whole(iter([self.data(shard, tile)]), self.limits)
         cells = self.lattice.cells(mesh.positions)
         if not ((cells >= tile.low) & (cells <= tile.high)).all():
             raise CorruptError(f"{name} is not where the index says that it is")
-        columns = [cells.astype(np.int32)]
+        return mesh
+
+    def decoded(self, shard: Facts, tile: Tile) -> tuple[Table, Faces]:
+        """The vertices on the grid, shape (n, 3 and more), with what else they have; and faces, (m, 3)."""
+        mesh = self.mesh(shard, tile)
+        mesh = split_by_attributes(replace(mesh, attributes=tuple(a for a in mesh.attributes if a.name in self.kinds)))
+        columns = [self.lattice.cells(mesh.positions)]
         carried = {attribute.name: attribute.values for attribute in mesh.attributes}
         for what, (kind, size) in self.kinds.items():
             values = carried.get(what)
             if values is None or values.shape[1] != size or values.dtype != np.dtype(kind):
-                raise CorruptError(f"{name} has no {what} as the manifest says")
-            bits = np.ascontiguousarray(values.astype(kind)).view(np.uint8).reshape(len(values), -1)
-            padded = np.pad(bits, ((0, 0), (0, -bits.shape[1] % 4)))
-            columns.append(np.ascontiguousarray(padded).view("<i4"))
-        return np.column_stack(columns), mesh.faces
+                raise CorruptError(f"{self.path}, tile {tile.name} has no {what} as the manifest says")
+            columns.append(values)
+        return np.column_stack(columns).astype(np.float64), mesh.faces
 
     def faults(self, decode: bool) -> Iterator[BsmError | OSError]:
         """Yield all faults, shard by shard and tile by tile."""

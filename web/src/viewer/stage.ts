@@ -33,7 +33,7 @@ class Figure {
             mesh.geometry.dispose();
         }
         for (const geometry of fresh) {
-            const mesh = new Mesh(geometry, this.clay);
+            const mesh = new Mesh(geometry, geometry.userData.material ?? this.clay);
             mesh.frustumCulled = geometries.length > 1; // one alone may grow and move out of its bounds
             this.holder.add(mesh);
         }
@@ -46,7 +46,7 @@ class Figure {
     }
 
     get materials(): MeshStandardMaterial[] {
-        return [this.clay, ...this.clothes];
+        return [this.clay, ...this.clothes, ...this.meshes.flatMap(({ geometry }) => geometry.userData.material ?? [])];
     }
 }
 
@@ -202,7 +202,7 @@ export class Stage {
     color(index: number, colors?: BufferAttribute, dressed = false): void {
         const { meshes, clay, clothes } = this.drawn[index];
         for (const mesh of meshes) {
-            mesh.material = dressed && clothes.length > 0 ? (clothes.length > 1 ? clothes : clothes[0]) : clay;
+            mesh.material = mesh.geometry.userData.material ?? (dressed && clothes.length > 0 ? (clothes.length > 1 ? clothes : clothes[0]) : clay);
             if (colors) mesh.geometry.setAttribute("color", colors);
         }
         this.whiten(clay, colors !== undefined);

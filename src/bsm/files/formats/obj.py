@@ -30,8 +30,9 @@ _MOST_NAME = 1 << 10  # characters: a name is repeated wherever a group of faces
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 
 
-def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
-    """Read an OBJ, or lines of one after `seen` vertices; values of their corners may be elsewhere."""
+def read_obj(data: bytes, limits: Limits, seen: tuple[int, int, int] | None = None) -> Polygons:
+    """Read an OBJ, or lines of one after `seen` vertices, texture coordinates and normals: their corners, -1 for none,
+    may refer to values elsewhere."""
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
     for name, begin in _COUNTED.items():  # before a line is an object
@@ -46,7 +47,7 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
 
     def placed(which: int, keyword: bytes) -> Ints:
         """Indices from 0 on; a negative one counts back from the last line before the face."""
-        present = np.repeat(np.cumsum(lines.are(keyword))[before], sizes) + (0 if which else seen)
+        present = np.repeat(np.cumsum(lines.are(keyword))[before], sizes) + (seen[which] if seen else 0)
         written = references.of(which)
         return np.where(written > 0, written - 1, written + present)
 
@@ -62,7 +63,11 @@ def read_obj(data: bytes, limits: Limits, seen: int = 0) -> Polygons:
     dropped += ["colors in comments (#MRGB)"] if re.search(rb"^#MRGB ", data, re.M) else []
     notes: list[str] = []
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
-        if rows := lines.of(keyword):
+        rows = lines.of(keyword)
+        if seen is not None and name == "texcoord":
+            indices = np.where(references.of(which) != 0, placed(which, keyword), -1)
+            columns.append(Column(name, _texcoords(Rows(rows, name)), "corner", name, indices))
+        elif rows:
             flat = (points.columns(0, 3), sizes, placed(0, b"v")) if name == "normal" else None
             column, note = _corner_column(rows, name, references.of(which), placed(which, keyword), flat)
             columns += column
@@ -131,13 +136,7 @@ def _corner_column(
     if not present.any():
         return [], []
     table = Rows(rows, name)
-    values, notes = table.columns(0, 1 if name == "texcoord" else 3), []
-    if name == "texcoord":  # of one to three numbers, those that are not there zero; the third only if it is of use
-        values = np.zeros((len(table.counts), _MOST_NUMBERS))
-        for place in range(_MOST_NUMBERS):
-            there = table.counts > place
-            values[there, place] = table.values[table.starts[there] + place]
-        values = values if values[:, 2].any() else values[:, :2]
+    values, notes = _texcoords(table) if name == "texcoord" else table.columns(0, 3), []
     if not present.all():  # after all other values there are those of the faces, or zeros
         more = np.zeros((1, values.shape[1])) if flat is None else polygon_normals(*flat)
         owner = 0 if flat is None else np.repeat(np.arange(len(flat[1])), flat[1])
@@ -146,6 +145,16 @@ def _corner_column(
         given = "zeros" if flat is None else "those of their faces"
         notes = [f"corners without {PLURALS[name]} were given {given}: {int((~present).sum())}"]
     return [Column(name, compact(values), "corner", name, indices)], notes
+
+
+def _texcoords(table: Rows) -> Doubles:
+    """Lines of one to three numbers, those that are not there zero; the third only if it is of use."""
+    table.require(1)
+    values = np.zeros((len(table.counts), _MOST_NUMBERS))
+    for place in range(_MOST_NUMBERS):
+        there = table.counts > place
+        values[there, place] = table.values[table.starts[there] + place]
+    return values if values[:, 2].any() else values[:, :2]
 
 
 def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]:

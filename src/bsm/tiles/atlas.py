@@ -1,0 +1,128 @@
+"""The texture of a tile: its charts, cut out of images or of the atlases of finer tiles, side by side in one image."""
+
+import io
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import LimitError, imported
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.graph import components, graph_of_faces
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.metrics import face_geometry
+from bsm.codec.geometry.welding import row_numbers
+from bsm.files.images import ImageRule
+
+Skin: TypeAlias = npt.NDArray[np.float32]
+"""Of each corner of each face: texels from the upper left of a picture, the picture, and its chart; or nothing."""
+_PAD = 3  # texels around a chart that have its colors
+_MOST_SIDE = 1 << 14
+_NEED = "textures are cut with Pillow and SciPy", "formats"
+
+
+def opened(path: Path) -> Any:
+    """A picture, closed after use, of which only the size is read."""
+    pillow = imported("PIL.Image", *_NEED)
+    try:
+        return pillow.open(path)
+    except pillow.DecompressionBombError as error:
+        raise LimitError(f"a texture is too large: {error}") from error
+
+
+def skin_of(texcoords: npt.NDArray[np.float32], materials: npt.NDArray[Any], pictures: Sequence[Path]) -> Skin:
+    """The skin of faces by their texture coordinates, shape (faces, 3, 2), and the pictures of their materials."""
+    own = np.repeat(materials, 3).reshape(-1, 3, 1)
+    ids = row_numbers(np.dstack([texcoords, own]).reshape(-1, 3).astype(np.float32))
+    charts = components(graph_of_faces(ids.reshape(-1, 3), int(ids.max()) + 1))[ids].reshape(-1, 3, 1)
+    sizes = np.zeros((len(pictures), 2))
+    for number, path in enumerate(pictures):
+        with opened(path) as picture:
+            sizes[number] = picture.size
+    corners = (texcoords * [1, -1] + [0, 1]) * sizes[materials][:, None]
+    return np.dstack([corners, own, charts]).astype(np.float32)
+
+
+def joined_skins(skins: Sequence[Skin]) -> Skin:
+    """The skins of finer tiles as one, whose pictures are their atlases."""
+    for number, skin in enumerate(skins):
+        skin[..., 2:3] = number
+    return np.concatenate(skins)
+
+
+def wedges_of(skin: Skin, faces: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
+    """A number for each corner, equal for those that meet at a vertex and in a chart."""
+    return row_numbers(np.column_stack([faces.ravel(), skin.reshape(-1, 4)])).reshape(-1, 3)
+
+
+def cut_out(skin: Skin, pictures: Sequence[Path], factor: int) -> tuple[Skin, Any]:
+    """The skin on an atlas of its charts, and the atlas, which has one texel for `factor` along each side."""
+    used, charts = np.unique(skin[:, 0, 2:], axis=0, return_inverse=True)
+    charts = charts.reshape(-1)
+    low, high = np.full((len(used), 2), np.inf), np.full((len(used), 2), -np.inf)
+    np.minimum.at(low, charts, skin[..., :2].min(axis=1) / factor)
+    np.maximum.at(high, charts, skin[..., :2].max(axis=1) / factor)
+    if not (high - low).max() < _MOST_SIDE:
+        raise LimitError("a texture repeats too often over one part; tiles cut out each repetition")
+    low, high = np.floor(low).astype(np.int64) - 1, np.floor(high).astype(np.int64) + 2  # with texels that edges touch
+    sizes = high - low
+    places, wide, tall = _packed(sizes + 2 * _PAD)
+    places += _PAD
+    corners = skin[..., :2] / factor + (places - low)[charts][:, None]
+    atlas = np.zeros((tall, wide, 3), np.uint8)
+    for number in np.unique(used[:, 0]).tolist():
+        with opened(pictures[int(number)]) as image:
+            picture = np.asarray(image.convert("RGB"))
+        for k in np.flatnonzero(used[:, 0] == number).tolist():
+            (x, y), (across, down), (left, top) = (low[k] * factor).tolist(), sizes[k].tolist(), places[k].tolist()
+            found = picture.take(range(y, y + down * factor), 0, mode="wrap")
+            found = found.take(range(x, x + across * factor), 1, mode="wrap")
+            squares = found.reshape(down, factor, across, factor, 3).mean(axis=(1, 3))
+            atlas[top : top + down, left : left + across] = np.rint(squares)
+    skin = np.dstack([corners, np.zeros(len(skin) * 3).reshape(-1, 3), np.repeat(charts, 3).reshape(-1, 3)])
+    return skin.astype(np.float32), imported("PIL.Image", *_NEED).fromarray(_spread(atlas, corners))
+
+
+def _packed(sizes: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], int, int]:
+    """Where rectangles are on shelves of about a square, the tallest first, and how large it is."""
+    wide = max(int(sizes[:, 0].max()), int(np.sqrt(sizes.prod(axis=1).sum()) * 1.1))
+    places, x, y, tall = np.zeros_like(sizes), 0, 0, 0
+    for k in np.argsort(-sizes[:, 1], kind="stable").tolist():
+        across, down = sizes[k].tolist()
+        x, y, tall = (0, y + tall, down) if x + across > wide else (x, y, max(tall, down))
+        places[k] = x, y
+        x += across
+    if max(wide, y + tall) >= _MOST_SIDE:
+        raise LimitError(f"the texture of a tile has {wide} x {y + tall} texels; choose fewer --triangles")
+    return places, wide, y + tall
+
+
+def _spread(atlas: npt.NDArray[np.uint8], corners: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
+    """An atlas whose texels outside of all triangles have the color of the nearest texel inside of one."""
+    outside = imported("PIL.Image", *_NEED).new("1", atlas.shape[1::-1], 1)
+    draw = imported("PIL.ImageDraw", *_NEED).Draw(outside).polygon
+    for triangle in (corners.reshape(-1, 6) - 0.5).tolist():  # Pillow counts from the middles of texels
+        draw(triangle, fill=0)
+    nearest = imported("scipy.ndimage", *_NEED).distance_transform_edt
+    return np.asarray(atlas[tuple(nearest(np.asarray(outside), return_distances=False, return_indices=True))])
+
+
+def textured(mesh: TriangleMesh, skin: Skin, atlas: Any, rule: ImageRule) -> TriangleMesh:
+    """A mesh with texture coordinates, and with the atlas as the image of its material."""
+    flat = skin[..., :2].reshape(-1, 2).astype(np.float64) / atlas.size * [1, -1] + [0, 1]
+    different, rows = np.unique(flat.astype(np.float32), axis=0, return_inverse=True)
+    texcoord = Attribute("texcoord", different, "corner", "texcoord", rows.reshape(-1, 3).astype(np.int32))
+    file = io.BytesIO()
+    atlas.save(file, rule.kind, quality=rule.quality)
+    image: Metadata = {"material.0.map_Kd": 0, "image.0.name": f"atlas.{rule.kind}", "image.0.data": file.getvalue()}
+    return replace(mesh, attributes=(*mesh.attributes, texcoord), metadata=image)
+
+
+def side_of_texel(mesh: TriangleMesh, skin: Skin) -> float:
+    """The side of a texel on the surface, in the mean."""
+    flat = np.pad(skin[..., :2].reshape(-1, 2), ((0, 0), (0, 1))).astype(np.float64)
+    texels = face_geometry(flat, np.arange(len(flat), dtype=np.int32).reshape(-1, 3)).areas.sum()
+    return float(np.sqrt(face_geometry(mesh.positions, mesh.faces).areas.sum() / max(texels, 1.0)))
