@@ -1,12 +1,13 @@
 """Constants of the format for the decoder in TypeScript, from those that Python has.
 
-python -m tools.web_constants --write    web/src/constants.ts
+python -m tools.web_constants --write    web/src/constants.json
 python -m tools.web_constants            fail if that is not what Python has
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Field
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
-TARGET = Path(__file__).parents[1] / "web/src/constants.ts"
+TARGET = Path(__file__).parents[1] / "web/src/constants.json"
 
 _PLAIN: dict[Any, str] = {int: "int", float: "float"}
 _OF_A_BUILD = ("vertices", "attributes", "light", "sequence", "paper", "congruence")
@@ -38,25 +39,11 @@ def camel(name: str) -> str:
     return first + "".join(map(str.capitalize, others))
 
 
-def _number(value: float) -> str:
-    return str(int(value)) if value == int(value) and abs(value) < 2**53 else repr(value)
-
-
-def _field(name: str, field: Field) -> str:
-    kind = _PLAIN[field.item if field.type is tuple else field.type]
-    parts = [f"key: {field.key}", f'type: "{kind}"', f"low: {_number(field.low)}", f"high: {_number(field.high)}"]
-    if name in HEADER_DEFAULTS:
-        usual: Any = HEADER_DEFAULTS[name]
-        numbers = f"[{', '.join(map(_number, usual))}]" if isinstance(usual, tuple) else _number(usual)
-        parts.append(f"default: {numbers}")
-    if field.type is tuple:
-        parts.append(f"lengths: [{field.lengths[0]}, {field.lengths[1]}]")
-    return f"{{ {', '.join(parts)} }}"
-
-
-def _table(called: str, what: str, entries: dict[Any, str]) -> str:
-    lines = [f"    {name}: {content}," for name, content in entries.items()]
-    return "\n".join([f"/** {what} */", f"export const {called} = {{", *lines, "} as const;"])
+def _field(name: str, field: Field) -> dict[str, Any]:
+    found = {"key": field.key, "type": _PLAIN[field.item if field.type is tuple else field.type]}
+    found |= {"low": field.low, "high": field.high}
+    found |= {"default": HEADER_DEFAULTS[name]} if name in HEADER_DEFAULTS else {}
+    return found | ({"lengths": field.lengths} if field.type is tuple else {})
 
 
 def limits_there(limits: Limits) -> dict[str, float]:
@@ -66,27 +53,21 @@ def limits_there(limits: Limits) -> dict[str, float]:
 
 
 def source() -> str:
-    """The module."""
-    magic = ", ".join(map(str, (*MAGIC, VERSION)))
-    kinds = {FrameType[name].value: f'"{name.lower()}"' for name in _IN_A_GRID}
-    keys = {name: str(HEADER_FIELDS[name].key) for name in _OF_A_BUILD}
-    fields = {name: _field(name, HEADER_FIELDS[name]) for name in _OF_A_GRID}
-    granted = {name: _number(value) for name, value in limits_there(Limits()).items()}
-    parts = [
-        "/** Constants of the format, which `python -m tools.web_constants --write` makes of Python's. */",
-        f"/** What a stream begins with: magic and version. */\nexport const PREAMBLE = [{magic}] as const;\n"
-        f"/** A payload of fewer bytes has a short checksum (F 3). */\nexport const SHORT = {SHORT};\n"
-        f"export const MAX_VARINT_BYTES = {MAX_VARINT_BYTES};",
-        _table("KINDS", "Types of frames of a light grid (F 3.4).", kinds),
-        _table("HEADER_KEYS", "Keys of the fields that tell which decoder a stream needs (F 4.4).", keys),
-        _table("GRID_FIELDS", "The header of a light grid (F 4.4, F 4.6).", fields),
-        _table("LIMITS", "Limits that are Python's (M 14.1).", granted),
-    ]
-    return "\n\n".join(parts) + "\n"
+    """The file."""
+    found = {
+        "PREAMBLE": [*MAGIC, VERSION],
+        "SHORT": SHORT,
+        "MAX_VARINT_BYTES": MAX_VARINT_BYTES,
+        "KINDS": {FrameType[name].value: name.lower() for name in _IN_A_GRID},
+        "HEADER_KEYS": {name: HEADER_FIELDS[name].key for name in _OF_A_BUILD},
+        "GRID_FIELDS": {name: _field(name, HEADER_FIELDS[name]) for name in _OF_A_GRID},
+        "LIMITS": limits_there(Limits()),
+    }
+    return json.dumps(found, indent=4, allow_nan=False) + "\n"
 
 
 def main() -> None:
-    """Write the module, or compare it."""
+    """Write the file, or compare it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", action="store_true", help="write it")
     if parser.parse_args().write:

@@ -1,5 +1,5 @@
 /** The header: what a decoder must know before anything else (specification, F 4). */
-import { GRID_FIELDS } from "./constants";
+import { GRID_FIELDS } from "./constants.json";
 import { CorruptError, UnsupportedError } from "./errors";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap, type Value } from "./maps";
@@ -29,7 +29,7 @@ export interface Field {
 
 type Fields = Pick<Numbers, "vertices" | "faces" | "scale" | "light"> & Pick<Lists, "center" | "grid" | "lattice" | "corner">;
 
-const FIELDS = Object.entries<Field>(GRID_FIELDS);
+const FIELDS = Object.entries(GRID_FIELDS as unknown as Record<string, Field>);
 /** Bytes of a header (F 4.9). */
 const MOST_HEADER = 2 ** 16;
 const LIGHT = 1;

@@ -1,4 +1,4 @@
-import { LIMITS } from "./constants";
+import { LIMITS } from "./constants.json";
 import { LimitError } from "./errors";
 
 /** Upper bounds that a decoder checks before it allocates or works (specification, M 14.1). */

@@ -1,5 +1,5 @@
 /** The first bytes of a stream, as far as they tell which decoder it needs. */
-import { HEADER_KEYS, PREAMBLE } from "./constants";
+import { HEADER_KEYS, PREAMBLE } from "./constants.json";
 import { BsmError } from "./errors";
 import { parseMap } from "./maps";
 import { parseVarint } from "./varint";

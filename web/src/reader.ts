@@ -1,5 +1,5 @@
 /** Bytes to packets, without input or output of its own (specification, F 2, F 3, F 5). */
-import { KINDS, PREAMBLE, SHORT } from "./constants";
+import { KINDS, PREAMBLE, SHORT } from "./constants.json";
 import { crc16, crc32 } from "./checksums";
 import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
 import { Grammar } from "./grammar";

@@ -1,5 +1,5 @@
 /** Integers of any size in as few bytes as they need (specification, F 1.2). */
-import { MAX_VARINT_BYTES } from "./constants";
+import { MAX_VARINT_BYTES } from "./constants.json";
 import { CorruptError } from "./errors";
 
 /** The varint at `start`, undefined if the data ends inside it (F 1.2). */

@@ -4,7 +4,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import test from "node:test";
 import { BsmError, Decoder, END_OF_STREAM, type Event } from "../src/index";
-import { PREAMBLE } from "../src/constants";
+import { PREAMBLE } from "../src/constants.json";
 import { frameOf } from "../src/reader";
 import { parseVarint } from "../src/varint";
 import { kernels, VECTORS } from "./shared";
