@@ -68,6 +68,14 @@ def mesh_edges(faces: Faces, n: int) -> Indices:
     return np.stack([first[once], members[once]], axis=1)
 
 
+def edges_of(faces: Integers) -> tuple[Order, Order, Order]:
+    """The edge from each corner of faces on: its ends, ascending, shape (3 m, 2); its number, and in how many corners
+    it begins, shape (3 m,)."""
+    ends = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)).astype(np.int64)
+    _, edge, counts = np.unique(ends @ [1 << 32, 1], return_inverse=True, return_counts=True)
+    return ends, edge, counts[edge]
+
+
 def canonical(faces: Integers) -> Integers:
     """Faces as rows that begin with their least corner, sorted: equal for equal sets of oriented triangles."""
     rows, corners = canonical_order(faces)

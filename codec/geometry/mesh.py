@@ -123,15 +123,13 @@ class TriangleMesh:
 
     def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
         """Return the mesh without vertices in no face, and the indices of the kept vertices, shape (k,), ascending."""
-        used = np.zeros(len(self.positions), dtype=bool)
-        used[self.faces] = True
-        kept = np.flatnonzero(used)
-        if len(kept) == len(used):
+        kept = np.flatnonzero(np.bincount(self.faces.ravel()))
+        if len(kept) == len(self.positions):
             return self, kept
-        renumber = np.cumsum(used) - 1
         every_face = np.arange(len(self.faces))
         attributes = tuple(attribute.taken(kept, every_face) for attribute in self.attributes)
-        return (replace(self, positions=self.positions[kept], faces=renumber[self.faces], attributes=attributes), kept)
+        faces = np.searchsorted(kept, self.faces).astype(np.int32)
+        return replace(self, positions=self.positions[kept], faces=faces, attributes=attributes), kept
 
 
 LARGEST = 1e100

@@ -17,7 +17,7 @@ import numpy as np
 from bsm._core import codec as _kernels
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
-from bsm.codec.geometry.graph import Lists, mesh_edges, vertex_neighbors
+from bsm.codec.geometry.graph import Lists, edges_of, mesh_edges, vertex_neighbors
 from bsm.codec.geometry.mesh import extent_of, require_sizes, squares_of
 
 
@@ -64,7 +64,24 @@ class Comparison:
 
 SIZES = 1e-70, 1e70
 """Smallest extent and largest coordinate of meshes that are compared: squares of areas are numbers."""
-_LOST = math.pi / 2  # angle of a face that lost its area: half of the most
+LOST = math.pi  # angle of a face without area; no rounding of its vertices can give it a normal that is farther off
+
+
+class Original:
+    """An original, prepared so that one decoded version after another is measured in one pass over the faces."""
+
+    def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
+        self.positions: Positions = np.ascontiguousarray(positions, np.float64)
+        self.faces: Indices = np.ascontiguousarray(faces, np.int32)
+        _, areas, self.normals = face_geometry(self.positions, self.faces)
+        whole = have_normals(self.positions, self.faces, areas)
+        counts = areas * whole if by_area else whole.astype(np.float64)
+        self.weights: Floats = counts / (counts.sum() or 1.0)
+
+    def angle(self, decoded: Positions, lost: float = LOST) -> float:
+        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
+        decoded = np.ascontiguousarray(decoded, np.float64)
+        return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, lost))
 
 
 class Reference:
@@ -77,10 +94,7 @@ class Reference:
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self._neighbors = vertex_neighbors(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbors)
-        _, areas, self._normals = face_geometry(self.positions, self.faces)
-        counted = have_normals(self.positions, self.faces, areas)
-        self._areas: Floats = counted * areas / ((counted * areas).sum() or 1.0)
-        self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
+        self._by_area, self._alike = (Original(self.positions, self.faces, by_area=each) for each in (True, False))
 
     def nmsve(self, decoded: Positions) -> float:
         """The paper's error (section 8; norms not squared) over `scale`, the diagonal; times `scale`: its number."""
@@ -90,20 +104,17 @@ class Reference:
 
     def theta(self, decoded: Positions) -> float:
         """Mean angle between corresponding face normals, in degrees, every face counted alike."""
-        return self._mean_angle(self._shares, decoded)
+        return self._alike.angle(self._checked(decoded), LOST / 2)
 
     def angle(self, decoded: Positions) -> float:
         """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
-        return self._mean_angle(self._areas, decoded)
-
-    def _mean_angle(self, weights: Floats, decoded: Positions) -> float:
-        decoded = self._checked(decoded)
-        return math.degrees(_kernels.weighted_angle(self._normals, weights, decoded, self.faces, _LOST))
+        return self._by_area.angle(self._checked(decoded), LOST / 2)
 
     def mnd(self, decoded: Positions) -> float:
         """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2."""
-        normals, counted = face_normals(self._checked(decoded), self.faces), self._normals.any(axis=1)
-        lengths = np.sqrt(squares_of(self._normals - normals))
+        own = self._alike.normals
+        normals, counted = face_normals(self._checked(decoded), self.faces), own.any(axis=1)
+        lengths = np.sqrt(squares_of(own - normals))
         lengths[~normals.any(axis=1)] = math.sqrt(2.0)
         return float(lengths[counted].mean()) if counted.any() else 0.0
 
@@ -189,13 +200,11 @@ def flat_faces(positions: Positions, faces: Faces) -> Mask:
 def folded_edges(positions: Positions, faces: Faces) -> int:
     """How many edges that two faces share are folded by more than 90 degrees; faces without area fold none."""
     normals = face_normals(positions, faces)
-    ends = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-    keys = ends.min(axis=1).astype(np.int64) * len(positions) + ends.max(axis=1)
-    _, edge, uses = np.unique(keys, return_inverse=True, return_counts=True)
-    paired = np.flatnonzero((uses == 2)[edge])
+    _, edge, uses = edges_of(faces)
+    paired = np.flatnonzero(uses == 2)
     first, second = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2).T
     turned = np.einsum("ed,ed->e", normals[first // 3], normals[second // 3])
-    same_way = (ends[first] == ends[second]).all(axis=1)  # faces of two orientations
+    same_way = faces.ravel()[first] == faces.ravel()[second]  # faces of two orientations
     return int(np.count_nonzero(np.where(same_way, -turned, turned) < 0.0))
 
 
@@ -208,26 +217,6 @@ def geometric_laplacian(positions: Positions, neighbors: Lists) -> Floats:
 
 def _length(values: Floats) -> float:
     return math.sqrt(np.square(values).sum())
-
-
-LOST = math.pi  # angle of a face without area; no rounding of its vertices can give it a normal that is farther off
-
-
-class Original:
-    """An original, prepared so that one decoded version after another is measured in one pass over the faces."""
-
-    def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
-        self.positions: Positions = np.ascontiguousarray(positions, np.float64)
-        self.faces: Indices = np.ascontiguousarray(faces, np.int32)
-        _, areas, self.normals = face_geometry(self.positions, self.faces)
-        whole = have_normals(self.positions, self.faces, areas)
-        counts = areas * whole if by_area else whole.astype(np.float64)
-        self.weights: Floats = counts / (counts.sum() or 1.0)
-
-    def angle(self, decoded: Positions) -> float:
-        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
-        decoded = np.ascontiguousarray(decoded, np.float64)
-        return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, LOST))
 
 
 SAMPLES = 100_000

@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Indices, Mask, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.graph import edges_of
 from bsm.codec.geometry.mesh import TriangleMesh
 
 
@@ -23,6 +24,26 @@ def degenerate(faces: npt.NDArray[Any]) -> Mask:
     """Which faces have fewer than three different corners, shape (m,)."""
     a, b, c = faces.T
     return np.asarray((a == b) | (b == c) | (a == c))
+
+
+def keep_apart(index: Indices, faces: Faces) -> Indices:
+    """Number positions, shape (n,), anew: closed bodies, one after the other in `faces`, share none."""
+    if len(faces) == 0 or index.max() + 1 == len(index):
+        return index
+    ends, edges, counts = edges_of(index[faces])
+    is_odd, turns = counts % 2 == 1, np.zeros(len(edges), np.int64)
+    order = np.argsort(edges, kind="stable")
+    order = order[~is_odd[order]]
+    turns[order[::2]], turns[order[1::2]] = 1, -1
+    run = np.append(0, np.cumsum(turns.cumsum()[2::3] == 0)[:-1])  # another one where each edge has all of its faces
+    first, last = np.full(len(index), len(faces)), np.zeros(len(index), np.int64)
+    np.minimum.at(first, faces.ravel(), run.repeat(3))
+    np.maximum.at(last, faces.ravel(), run.repeat(3))
+    is_open = (is_odd & (ends[:, 0] != ends[:, 1])).reshape(-1, 3) | (first != last)[faces]
+    is_body = (np.bincount(run) > 3) & (np.bincount(run, is_open.any(axis=1)) == 0)
+    body = np.full(len(index), -1)
+    body[faces] = np.where(is_body[run], run, -1)[:, None]
+    return group_rows(np.column_stack([index, body]))
 
 
 def group_rows(values: npt.NDArray[Any]) -> Indices:
@@ -76,9 +97,8 @@ def split_with_origin(mesh: TriangleMesh) -> tuple[TriangleMesh, Indices]:
         assert attribute.indices is not None
         numbers = row_numbers(attribute.values)[attribute.indices.ravel()]
         rows.append(np.concatenate([numbers, np.full(size, -1, np.int32)]))
-    used = np.zeros(size, np.bool_)
-    used[mesh.faces] = True
-    kept = np.concatenate([np.ones(mesh.faces.size, np.bool_), ~used])  # a vertex of no face stays one
+    is_loose = np.bincount(mesh.faces.ravel(), minlength=size) == 0
+    kept = np.concatenate([np.ones(mesh.faces.size, np.bool_), is_loose])  # a vertex of no face stays one
     numbers = row_numbers(np.stack(rows, axis=1)[kept])
     corners = numbers[: mesh.faces.size]
     some = np.empty(numbers.max() + 1, np.int64)

@@ -14,10 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, public
-from bsm.codec.arrays import Faces, Mask, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic, at_corners
 from bsm.codec.geometry.mesh import LARGEST, TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
+from bsm.codec.geometry.welding import degenerate, group_rows
 from bsm.codec.look.pictures import (
     BACKGROUND,
     LEAST_PIXELS,
@@ -100,7 +101,7 @@ class LookMetric:
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
         self._mesh, self._crew = mesh, Crew(threads)
         # Encoders leave out faces with two corners at one position, so that these may not count here, either.
-        faces = mesh.faces[_with_three_places(mesh)]
+        faces = mesh.faces[~degenerate(group_rows(mesh.positions)[mesh.faces])]
         used = mesh.positions[np.bincount(faces.ravel(), minlength=len(mesh.positions)) > 0]
         if not len(used):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
@@ -338,14 +339,6 @@ class AttributeLook:
 def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:
     """How much alike two meshes look, of whatever vertices and faces."""
     return LookMetric(original, threads=threads).compare(other)
-
-
-def _with_three_places(mesh: TriangleMesh) -> Mask:
-    """Whether the corners of each face are at three positions, shape (m,)."""
-    first, second, third = (mesh.positions[corner] for corner in mesh.faces.T)
-    pairs = (first, second), (second, third), (third, first)
-    differs: Mask = np.all([(one != other).any(axis=1) for one, other in pairs], axis=0)
-    return differs
 
 
 def _outlier(used: Positions) -> str:

@@ -21,9 +21,9 @@ from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
-from bsm.codec.geometry.graph import Graph, components, graph_of_faces
+from bsm.codec.geometry.graph import Graph, components, edges_of, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import degenerate, first_of, group_rows, weld
+from bsm.codec.geometry.welding import degenerate, first_of, group_rows, keep_apart, weld
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
 
@@ -57,21 +57,19 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
 
 
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
-    notes = []
+    notes, index = [], keep_apart(index, mesh.faces)
     collapsed = degenerate(index[mesh.faces]) & ~degenerate(mesh.faces)
     if keep or collapsed.all():
         collapsed[:] = False
     kept = np.flatnonzero(~collapsed)
     # A vertex that no face uses is no copy of one that is used, although it is there, too.
-    given = np.zeros(len(mesh.positions), np.bool_)
-    given[mesh.faces[kept]] = True
+    given = np.bincount(mesh.faces[kept].ravel(), minlength=len(mesh.positions)) > 0
     numbers = group_rows(index[given].astype(np.int64)[:, None])
     first = np.flatnonzero(given)[first_of(numbers)]
     index = np.full(len(given), -1, np.int32)
     index[given] = numbers
-    mentioned = np.zeros(len(mesh.positions), np.bool_)
-    mentioned[mesh.faces] = True
-    merged, loose = int(mentioned.sum()) - len(first), len(index) - int(mentioned.sum())
+    mentioned = int(np.count_nonzero(np.bincount(mesh.faces.ravel())))
+    merged, loose = mentioned - len(first), len(index) - mentioned
     splits = None
     if keep and keep_loose and (merged or loose):
         splits = Splits(index, mesh.faces, mesh.positions[~given])
@@ -91,10 +89,9 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
 
 def _bodies(faces: Faces) -> int:
     """The number of closed bodies: connected faces, each of whose edges two of them share."""
-    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)).astype(np.int64)
-    _, which, counts = np.unique(edges @ [1 << 32, 1], return_inverse=True, return_counts=True)
+    ends, _, counts = edges_of(faces)
     part = components(graph_of_faces(faces, int(faces.max(initial=0)) + 1))
-    return len(np.setdiff1d(part[faces], part[edges[counts[which] != 2]]))
+    return len(np.setdiff1d(part[faces], part[ends[counts != 2]]))
 
 
 MOST_CELLS = 1 << 20  # along an axis of a grid

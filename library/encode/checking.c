@@ -24,19 +24,12 @@ static bool check_shape(Encoder *encoder) {
         if (!take_doubles2(&encoder->writer.arena, mesh->vertices, 3, &positions)) return false;
         for (int64_t i = 0; i < 3 * mesh->vertices; i++) positions.data[i] = mesh->positions_single[i];
     }
-    double extent = 0.0;
-    for (int j = 0; j < 3; j++) {
-        double low = positions.data[j], high = low;
-        for (int64_t i = 0; i < mesh->vertices; i++) {
-            double value = positions.data[3 * i + j];
-            if (!is_finite(value)) return FAIL(context, MISUSED, "a coordinate of vertex # is not finite", i);
-            low = value < low ? value : low;
-            high = value > high ? value : high;
-        }
-        if (low < -MOST_COORDINATE || high > MOST_COORDINATE)
-            return FAIL(context, MISUSED, "the mesh is too far from the origin: scale it");
-        extent = high - low > extent ? high - low : extent;
-    }
+    for (int64_t i = 0; i < 3 * mesh->vertices; i++)
+        if (!is_finite(positions.data[i]))
+            return FAIL(context, MISUSED, "a coordinate of vertex # is not finite", i / 3);
+    double low[3], high[3], extent = box_of(const_doubles2(positions), low, high);
+    if (reach_of(low, high, 3) > MOST_COORDINATE)
+        return FAIL(context, MISUSED, "the mesh is too far from the origin: scale it");
     if (extent > 0.0 && extent < LEAST_EXTENT) return FAIL(context, MISUSED, "the mesh is too small: scale it");
     encoder->given = (GivenMesh){mesh->vertices, mesh->faces, const_doubles2(positions), mesh->corners};
     return true;

@@ -39,14 +39,43 @@ int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratc
 
 static bool repeats(int32_t a, int32_t b, int32_t c) { return a == b || b == c || c == a; }
 
+/* Number positions anew: closed bodies, one after the other in the faces, share none. */
+static bool keep_apart(const GivenMesh *given, Arena *scratch, Ints place) {
+    int64_t n = given->vertices, edges = 3 * given->faces, begun = 0, waiting = 0;
+    const uint32_t *corners = given->corners;
+    Ints edge, is_odd, turn, last;
+    Longs2 rows, ends;
+    if (!take_ints(scratch, edges, &edge) || !zero_ints(scratch, edges, &is_odd) || !zero_ints(scratch, edges, &turn)
+        || !take_ints(scratch, n, &last) || !take_longs2(scratch, n, 2, &rows) || !take_longs2(scratch, edges, 2, &ends))
+        return false;
+    for (int64_t v = 0; v < n; v++) rows.data[2 * v] = place.data[v], rows.data[2 * v + 1] = -1;
+    for (int64_t i = 0; i < edges; i++) {
+        int32_t a = place.data[corners[i]], b = place.data[corners[i % 3 == 2 ? i - 2 : i + 1]];
+        ends.data[2 * i] = a < b ? a : b;
+        ends.data[2 * i + 1] = a < b ? b : a;
+        last.data[corners[i]] = (int32_t)i;
+    }
+    if (number_rows(ends.data, edges, 2, scratch, edge) < 0) return false;
+    for (int64_t i = 0; i < edges; i++) is_odd.data[edge.data[i]] ^= 1;
+    for (int64_t i = 0; i < edges; i++) {
+        if (!is_odd.data[edge.data[i]]) waiting += (turn.data[edge.data[i]] ^= 1) ? 1 : -1;
+        if (i % 3 < 2 || waiting > 0) continue;
+        bool is_body = i - begun > 9; /* four faces */
+        for (int64_t j = begun; j <= i; j++)
+            is_body &= (!is_odd.data[edge.data[j]] || ends.data[2 * j] == ends.data[2 * j + 1])
+                && last.data[corners[j]] <= i && rows.data[2 * corners[j] + 1] == -1;
+        for (; begun <= i; begun++) rows.data[2 * corners[begun] + 1] = is_body ? i : -2;
+    }
+    return number_rows(rows.data, n, 2, scratch, place) >= 0;
+}
+
 /* The given vertices in faces that are kept, by the number of their position. */
 static void number_used(const GivenMesh *given, Ints place, Ints seen, JoinedMesh *joined) {
-    Bytes used = {(uint8_t *)seen.data, given->vertices};
-    memset(used.data, 0, (size_t)given->vertices);
-    for (int64_t i = 0; i < 3 * joined->kept.size; i++)
-        used.data[given->corners[3 * (int64_t)joined->kept.data[i / 3] + i % 3]] = 1;
-    for (int64_t v = 0; v < given->vertices; v++) joined->index.data[v] = used.data[v] ? place.data[v] : -1;
-    for (int64_t v = 0; v < given->vertices; v++) seen.data[v] = -1;
+    for (int64_t v = 0; v < given->vertices; v++) joined->index.data[v] = seen.data[v] = -1;
+    for (int64_t i = 0; i < 3 * joined->kept.size; i++) {
+        uint32_t corner = given->corners[3 * (int64_t)joined->kept.data[i / 3] + i % 3];
+        joined->index.data[corner] = place.data[corner];
+    }
     joined->first.size = 0;
     for (int64_t v = 0; v < given->vertices; v++) {
         int32_t *index = joined->index.data + v;
@@ -76,7 +105,8 @@ bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, Jo
         double value = exact ? given->positions.data[i] : given->positions.data[i] + 0.0;
         memcpy(bits.data + i, &value, sizeof value);
     }
-    if (number_rows(bits.data, n, 3, scratch, place) < 0) return false;
+    int64_t places = number_rows(bits.data, n, 3, scratch, place);
+    if (places < 0 || (places < n && !keep_apart(given, scratch, place))) return false;
     for (int64_t i = 0; i < 3 * m; i++) {
         mentioned += !seen.data[corners[i]];
         seen.data[corners[i]] = 1;

@@ -1,6 +1,8 @@
 /* Values of attributes as whole numbers that keep a quality (encoder only; specification, A). */
 #include "library/encode/quantizing.h"
 
+#include "library/encode/rounding.h"
+
 #ifdef BSMDEC_WRITES
 
 enum { NEAR_ZERO = 1 << 20, /* what is below costs less than an offset */ LEAST_NORMAL_BITS = 2, MOST_NORMAL_BITS = 16,
@@ -31,29 +33,7 @@ double degrees_between(const double *vector, const double *unit) {
     return (cosine < 0.0 ? 3.141592653589793 - angle : angle) * (180.0 / 3.141592653589793);
 }
 
-/* The numbers of values: rows of components. */
-typedef struct {
-    const void *values;
-    int64_t rows;
-    int components, kind;
-} Table;
-
 static double number_at(const Table *t, int64_t place) { return load_number(t->values, place, t->kind); }
-
-/* The lowest and the highest number of each component; returns the largest extent. */
-static double range_of(const Table *t, double *low, double *high) {
-    double extent = 0.0;
-    for (int j = 0; j < t->components; j++) {
-        low[j] = high[j] = number_at(t, j);
-        for (int64_t i = 0; i < t->rows; i++) {
-            double number = number_at(t, i * t->components + j);
-            if (number < low[j]) low[j] = number;
-            if (number > high[j]) high[j] = number;
-        }
-        if (high[j] - low[j] > extent) extent = high[j] - low[j];
-    }
-    return extent;
-}
 
 static bool none_below(const double *low, int count, double least) {
     for (int j = 0; j < count; j++)
@@ -178,34 +158,13 @@ static bool keep_floats(const Table *t, Arena *arena, Quantized *q) {
     return true;
 }
 
-/* What numbers of a kind are apart at a number. */
-static double spacing_of(double number, int kind) {
-    if (kind == BSMDEC_FLOAT32) {
-        float single = (float)number, next;
-        uint32_t bits;
-        memcpy(&bits, &single, sizeof bits);
-        bits++;
-        memcpy(&next, &bits, sizeof next);
-        return (double)(next - single);
-    }
-    uint64_t bits;
-    double next;
-    memcpy(&bits, &number, sizeof bits);
-    bits++;
-    memcpy(&next, &bits, sizeof next);
-    return next - number;
-}
-
 /* Floats in steps; to the bit, if the bound leaves their rounding no room. */
 static bool round_floats(Context *context, const Table *t, bsmenc_quality quality, double amount, Arena *arena,
     Quantized *q) {
-    double low[MOST_COMPONENTS], high[MOST_COMPONENTS], extent = range_of(t, low, high), bound, step, most = 0.0;
+    double low[MOST_COMPONENTS], high[MOST_COMPONENTS], extent = range_of(t, low, high), bound, step;
     if (!(extent - extent == 0.0))
         return FAIL(context, MISUSED, "the range of values is beyond that of numbers; keep them exact");
-    for (int j = 0; j < t->components; j++) {
-        if (-low[j] > most) most = -low[j];
-        if (high[j] > most) most = high[j];
-    }
+    double most = reach_of(low, high, t->components);
     if (quality == BSMENC_BITS) {
         double levels = (double)((INT64_C(1) << (int)amount) - 1);
         bool unit = q->declaration.semantic == BSMDEC_COLOR && none_below(low, t->components, 0.0)
@@ -213,10 +172,10 @@ static bool round_floats(Context *context, const Table *t, bsmenc_quality qualit
         step = unit ? 1.0 / levels : extent / levels;
         if (unit) memset(low, 0, sizeof low);
         if (!(step > 0.0)) step = 1.0;
-        bound = step / 2 * (1.0 + 1e-6) + spacing_of(most, t->kind);
+        bound = step / 2 * (1.0 + 1e-6) + spacing_of(most, t->kind == BSMDEC_FLOAT32);
     } else {
         bound = quality == BSMENC_BOUND ? amount : amount / 100.0 * extent;
-        double rounded = spacing_of(most + bound, t->kind) / 2;
+        double rounded = spacing_of(most + bound, t->kind == BSMDEC_FLOAT32) / 2;
         step = 2.0 * (bound - rounded) * SLACK;
         if (step < rounded) return keep_floats(t, arena, q);
     }

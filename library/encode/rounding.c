@@ -12,24 +12,23 @@ static const double TENS[] = {1e-45, 1e-44, 1e-43, 1e-42, 1e-41, 1e-40, 1e-39, 1
     1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21,
     1e22, 1e23, 1e24, 1e25, 1e26, 1e27, 1e28, 1e29, 1e30, 1e31, 1e32, 1e33, 1e34, 1e35, 1e36, 1e37, 1e38};
 
-/* The lowest and the highest coordinate of each axis; returns the longest side. */
-static double box_of(ConstDoubles2 positions, double *low, double *high) {
+double range_of(const Table *t, double *low, double *high) {
     double extent = 0.0;
-    for (int j = 0; j < 3; j++) {
-        low[j] = high[j] = positions.data[j];
-        for (int64_t i = 0; i < positions.rows; i++) {
-            double value = positions.data[3 * i + j];
-            if (value < low[j]) low[j] = value;
-            if (value > high[j]) high[j] = value;
+    for (int j = 0; j < t->components; j++) {
+        low[j] = high[j] = load_number(t->values, j, t->kind);
+        for (int64_t i = 0; i < t->rows; i++) {
+            double number = load_number(t->values, i * t->components + j, t->kind);
+            if (number < low[j]) low[j] = number;
+            if (number > high[j]) high[j] = number;
         }
         if (high[j] - low[j] > extent) extent = high[j] - low[j];
     }
     return extent;
 }
 
-static double farthest(const double *low, const double *high) {
+double reach_of(const double *low, const double *high, int count) {
     double most = 0.0;
-    for (int j = 0; j < 3; j++) {
+    for (int j = 0; j < count; j++) {
         if (-low[j] > most) most = -low[j];
         if (high[j] > most) most = high[j];
     }
@@ -53,12 +52,15 @@ static double next_number(double value, bool narrow, int way) {
     return value;
 }
 
+double spacing_of(double value, bool narrow) {
+    double number = narrow ? (float)value : value;
+    return next_number(number, narrow, 1) - number;
+}
+
 static bool within_floats(double value) { return value >= -FLT_MAX && value <= FLT_MAX; }
 
 /* What numbers of single precision are apart from the next: 0 if there is none. */
-static double spacing_of_float(double value) {
-    return within_floats((float)value) ? next_number((float)value, true, 1) - (float)value : 0.0;
-}
+static double spacing_of_float(double value) { return within_floats((float)value) ? spacing_of(value, true) : 0.0; }
 
 static void note_largest(Rounded *rounded) {
     memset(rounded->largest, 0, sizeof rounded->largest);
@@ -93,14 +95,12 @@ static bool was_made_on(ConstDoubles2 positions, const double *low, double exten
     return false;
 }
 
-static void round_narrowly(ConstDoubles2 positions, const double *low, float cells, Rounded *rounded) {
+static void round_narrowly(ConstDoubles2 positions, const double *low, const double *high, float cells,
+    Rounded *rounded) {
     float extent = 0.0f;
     for (int j = 0; j < 3; j++) {
-        float first = (float)low[j];
-        for (int64_t i = 0; i < positions.rows; i++) {
-            float side = (float)positions.data[3 * i + j] - first;
-            if (side > extent) extent = side;
-        }
+        float side = (float)in_single(high[j]) - (float)in_single(low[j]);
+        if (side > extent) extent = side;
     }
     if (!(extent > 0.0f)) extent = 1.0f;
     float factor = cells / extent;
@@ -124,7 +124,7 @@ static void round_widely(ConstDoubles2 positions, const double *low, double exte
 }
 
 bool round_to_bits(Context *context, ConstDoubles2 positions, int bits, Rounded *rounded) {
-    double low[3], high[3], extent = box_of(positions, low, high), most = farthest(low, high);
+    double low[3], high[3], extent = box_of(positions, low, high), most = reach_of(low, high, 3);
     int64_t cells = (INT64_C(1) << bits) - 1;
     float spacing = (float)spacing_of_float(most);
     bool narrow = spacing > 0.0f && (double)(spacing * (float)cells) < PART_OF_CELL * extent;
@@ -132,7 +132,7 @@ bool round_to_bits(Context *context, ConstDoubles2 positions, int bits, Rounded 
     if (!is_finite(extent) || !is_finite((double)cells / (extent > 0.0 ? extent : 1.0)))
         return FAIL(context, UNREACHABLE, "a grid of # bits is beyond the range of numbers for this mesh", bits);
     if (was_made_on(positions, low, extent, cells, narrow, rounded)) return true;
-    if (narrow) round_narrowly(positions, low, (float)cells, rounded);
+    if (narrow) round_narrowly(positions, low, high, (float)cells, rounded);
     else round_widely(positions, low, extent, (double)cells, rounded);
     note_largest(rounded);
     return (rounded->step > 0.0 && is_finite(rounded->step))
@@ -181,22 +181,18 @@ bool round_to_cells(Context *context, ConstDoubles2 positions, double cell, cons
 }
 
 /* A power of ten of which all coordinates are multiples, but for rounding to single precision; 0 if there is none. */
-static double decimal_step(ConstDoubles2 positions, double extent, double least) {
+static double decimal_step(ConstDoubles2 positions, double least) {
     int power = (int)(sizeof TENS / sizeof *TENS);
-    double reach = extent > least ? extent : least;
+    double low[3], high[3], extent = box_of(positions, low, high), reach = extent > least ? extent : least;
     while (power > 0 && TENS[power - 1] > reach) power--;
     while (power-- > 0) {
-        double step = TENS[power], low[3], high[3];
-        bool fits = true;
-        if (step < least) return 0.0;
-        for (int64_t i = 0; i < 3 * positions.rows; i++) {
-            double place = __builtin_rint(positions.data[i] / step);
-            if (i < 3 || place < low[i % 3]) low[i % 3] = place;
-            if (i < 3 || place > high[i % 3]) high[i % 3] = place;
-            fits = fits && in_single(place * step) == positions.data[i];
-        }
+        double step = TENS[power];
+        bool fits = step >= least;
         for (int j = 0; j < 3; j++)
-            if (high[j] - low[j] >= MOST_LARGEST - 1) return 0.0;
+            fits = fits && __builtin_rint(high[j] / step) - __builtin_rint(low[j] / step) < MOST_LARGEST - 1;
+        if (!fits) return 0.0;
+        for (int64_t i = 0; fits && i < 3 * positions.rows; i++)
+            fits = in_single(__builtin_rint(positions.data[i] / step) * step) == positions.data[i];
         if (fits) return step;
     }
     return 0.0;
@@ -204,8 +200,8 @@ static double decimal_step(ConstDoubles2 positions, double extent, double least)
 
 bool round_exactly(Context *context, ConstDoubles2 positions, Rounded *rounded) {
     double low[3], high[3], extent = box_of(positions, low, high);
-    double coarsest = 2.0 * spacing_of_float(farthest(low, high)); /* in a smaller cell there may be no float */
-    double step = decimal_step(positions, extent, coarsest);
+    double coarsest = 2.0 * spacing_of_float(reach_of(low, high, 3)); /* in a smaller cell there may be no float */
+    double step = decimal_step(positions, coarsest);
     if (step == 0.0) step = extent / MOST_CELLS > coarsest ? extent / MOST_CELLS : coarsest;
     if (!is_finite(step)) return FAIL(context, UNREACHABLE, "this mesh is as large as numbers can be; scale it");
     rounded->exact = true;

@@ -13,6 +13,23 @@ typedef struct {
     bool exact; /* positions are those that are given, floats in the cells of their places */
 } Rounded;
 
+/* The numbers of values: rows of components. */
+typedef struct {
+    const void *values;
+    int64_t rows;
+    int components, kind;
+} Table;
+
+/* The lowest and the highest number of each component; returns the largest extent. */
+double range_of(const Table *table, double *low, double *high);
+INLINE double box_of(ConstDoubles2 positions, double *low, double *high) {
+    return range_of(&(Table){positions.data, positions.rows, 3, BSMDEC_FLOAT64}, low, high);
+}
+/* How far from 0 ranges reach. */
+double reach_of(const double *low, const double *high, int count);
+/* How far the next number of single or double precision is. */
+double spacing_of(double value, bool narrow);
+
 /* To `bits` along the longest side of the bounding box. */
 bool round_to_bits(Context *context, ConstDoubles2 positions, int bits, Rounded *rounded);
 /* To the points origin + k * cell. */

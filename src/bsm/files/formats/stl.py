@@ -8,7 +8,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import first_of, group_rows
+from bsm.codec.geometry.welding import first_of, group_rows, keep_apart
 from bsm.files.formats.appearance import text_of
 from bsm.files.formats.metadata import Written, face_numbers, left_out, named
 from bsm.files.formats.polygons import Column, Polygons
@@ -68,7 +68,7 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
         metadata = {said: header.decode("latin-1")} if header.strip(b"\0 ") else {}
         if records["attribute"].any():
             columns = [Column(_ATTRIBUTE, records["attribute"][:, None], "face")]
-    corners = group_rows(soup)
+    corners = keep_apart(group_rows(soup), np.arange(len(soup), dtype=np.int32).reshape(-1, 3))
     first = first_of(corners)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
     sizes, dropped = np.full(len(soup) // 3, 3), (wrong,) if wrong else ()
