@@ -46,6 +46,14 @@ def soup(mesh: TriangleMesh) -> TriangleMesh:
     return TriangleMesh(mesh.positions[mesh.faces].reshape(-1, 3), np.arange(mesh.faces.size).reshape(-1, 3))
 
 
+def boxes(*places: tuple[int, int, int]) -> TriangleMesh:
+    """Boxes with sides of 1, each with vertices of its own."""
+    faces = np.array([[1, 3, 0], [4, 1, 0], [0, 3, 2], [2, 4, 0], [1, 7, 3], [5, 1, 4],
+                      [5, 7, 1], [3, 7, 2], [6, 4, 2], [2, 7, 6], [6, 5, 4], [7, 5, 6]])  # fmt: skip
+    corners = np.add(list(np.ndindex(2, 2, 2)), np.array(places)[:, None])
+    return TriangleMesh(corners.reshape(-1, 3), np.concatenate([faces + 8 * k for k in range(len(places))]))
+
+
 def turned(random: np.random.Generator) -> TriangleMesh:
     """A cone, globe, tube or pinched tube, as many programs make them: rows of quads, also at tips and at seams."""
     around, rows = int(random.integers(3, 200)), int(random.integers(2, 20))

@@ -41,23 +41,23 @@ static bool repeats(int32_t a, int32_t b, int32_t c) { return a == b || b == c |
 
 /* Number positions anew: closed bodies, one after the other in the faces, share none. */
 static bool keep_apart(const GivenMesh *given, Arena *scratch, Ints place) {
-    int64_t n = given->vertices, edges = 3 * given->faces, begun = 0, waiting = 0;
+    int64_t n = given->vertices, size = 3 * given->faces, begun = 0, waiting = 0;
     const uint32_t *corners = given->corners;
     Ints edge, is_odd, turn, last;
     Longs2 rows, ends;
-    if (!take_ints(scratch, edges, &edge) || !zero_ints(scratch, edges, &is_odd) || !zero_ints(scratch, edges, &turn)
-        || !take_ints(scratch, n, &last) || !take_longs2(scratch, n, 2, &rows) || !take_longs2(scratch, edges, 2, &ends))
+    if (!take_ints(scratch, size, &edge) || !zero_ints(scratch, size, &is_odd) || !zero_ints(scratch, size, &turn)
+        || !take_ints(scratch, n, &last) || !take_longs2(scratch, n, 2, &rows) || !take_longs2(scratch, size, 2, &ends))
         return false;
     for (int64_t v = 0; v < n; v++) rows.data[2 * v] = place.data[v], rows.data[2 * v + 1] = -1;
-    for (int64_t i = 0; i < edges; i++) {
+    for (int64_t i = 0; i < size; i++) {
         int32_t a = place.data[corners[i]], b = place.data[corners[i % 3 == 2 ? i - 2 : i + 1]];
         ends.data[2 * i] = a < b ? a : b;
         ends.data[2 * i + 1] = a < b ? b : a;
         last.data[corners[i]] = (int32_t)i;
     }
-    if (number_rows(ends.data, edges, 2, scratch, edge) < 0) return false;
-    for (int64_t i = 0; i < edges; i++) is_odd.data[edge.data[i]] ^= 1;
-    for (int64_t i = 0; i < edges; i++) {
+    if (number_rows(ends.data, size, 2, scratch, edge) < 0) return false;
+    for (int64_t i = 0; i < size; i++) is_odd.data[edge.data[i]] ^= 1;
+    for (int64_t i = 0; i < size; i++) {
         if (!is_odd.data[edge.data[i]]) waiting += (turn.data[edge.data[i]] ^= 1) ? 1 : -1;
         if (i % 3 < 2 || waiting > 0) continue;
         bool is_body = i - begun > 9; /* four faces */

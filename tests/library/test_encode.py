@@ -14,11 +14,13 @@ from hypothesis import strategies as st
 import bsm
 from bsm import Attribute, TriangleMesh
 from tests.library.conftest import linked
-from tests.shapes import soup, tetrahedron, torus
+from tests.shapes import boxes, patch, soup, tetrahedron, together, torus
 from tools import bsmenc
 from tools.amalgamate import ROOT
 from tools.bsmdec import Entry
 from tools.bsmenc import CELLS, LOSSLESS, PROGRESS, STOPPED, UNREACHABLE, Allocator, compiled_whole, encode, library
+
+TOUCHING = soup(together(torus(9, 7), boxes(*np.ndindex(1, 2, 3)), soup(patch(3, 3)), boxes((1, 0, 0))))
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +49,7 @@ def dressed(mesh):
 
 @pytest.mark.parametrize("keep", [False, True])
 @pytest.mark.parametrize("preset", ["grid14", "lossless"])
-@pytest.mark.parametrize("mesh", [tetrahedron(), torus(20, 12), soup(torus(9, 7)), dressed(torus(20, 12))])
+@pytest.mark.parametrize("mesh", [tetrahedron(), torus(20, 12), soup(torus(9, 7)), dressed(torus(20, 12)), TOUCHING])
 def test_c_and_python_write_the_same_bytes(encoder, mesh, preset, keep):
     found = encode(encoder, mesh, positions=LOSSLESS * (preset == "lossless"), keep_order=keep)
     assert (found.status, found.message) == (0, "")

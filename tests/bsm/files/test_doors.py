@@ -17,7 +17,7 @@ from bsm.files.sequence import open_sequence
 from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import attribute, png
 from tests.bsm.program import bsm as program
-from tests.shapes import at_corners, ply_head, torus
+from tests.shapes import at_corners, boxes, ply_head, torus
 from tools.attack.readers import chained_objects, three_mf
 
 
@@ -851,13 +851,14 @@ def test_the_first_image_of_a_ply_has_the_color(tmp_path):
 
 
 @pytest.mark.parametrize("way", [(1, 0, 0), (1, 1, 0), (1, 1, 1)])  # by a face, an edge, a vertex
-def test_bodies_that_touch_are_named_and_objects_of_a_3mf(way, tmp_path):
-    corners = np.array(list(np.ndindex(2, 2, 2)), float)
-    faces = np.array([[1, 3, 0], [4, 1, 0], [0, 3, 2], [2, 4, 0], [1, 7, 3], [5, 1, 4],
-                      [5, 7, 1], [3, 7, 2], [6, 4, 2], [2, 7, 6], [6, 5, 4], [7, 5, 6]])  # fmt: skip
-    bodies = bsm.Attribute("object", np.repeat([0, 1], 12), "face")
-    two = TriangleMesh(np.vstack([corners, np.add(corners, way)]), np.vstack([faces, faces + 8]), [bodies])
-    assert any("not a manifold" in note for note in bsm.Encoder(two).notes)
+def test_bodies_that_touch_stay_bodies_and_are_objects_of_a_3mf(way, tmp_path):
+    box = boxes((0, 0, 0), way)
+    two = TriangleMesh(box.positions, box.faces, [bsm.Attribute("object", np.repeat([0, 1], 12), "face")])
+    mixed = TriangleMesh(two.positions, two.faces.reshape(2, 12, 3).swapaxes(0, 1).reshape(-1, 3))
+    assert len(bsm.Encoder(two).notes) == 1 and "not a manifold" in bsm.Encoder(mixed).notes[1]
+    for kind in ("stl", "obj"):
+        write_mesh(tmp_path / f"a.{kind}", two, overwrite=True)
+        assert len(bsm.decode(bsm.encode(tmp_path / f"a.{kind}")).positions) == 16
     pytest.importorskip("lib3mf")
     assert write_mesh(tmp_path / "a.3mf", bsm.decode(bsm.encode(two, preset="lossless"))) == ()
     assert len(read_mesh(tmp_path / "a.3mf").mesh.positions) == 16

@@ -5,8 +5,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm import EncodeOptions, Encoder, TriangleMesh, decode
+from bsm.codec.geometry.graph import edges_of
 from bsm.codec.static.preamble_encoding import join
-from tests.shapes import patch, soup, torus
+from tests.shapes import boxes, patch, soup, together, torus
 
 
 def test_soup_becomes_the_surface_that_it_is() -> None:
@@ -42,6 +43,15 @@ def test_faces_that_lose_their_area_are_left_out_unless_none_would_be_left() -> 
     assert joined.notes[1] == "left out 1 face without area"
     assert len(join(TriangleMesh(corners, [(0, 3, 1)]), keep=False).mesh.faces) == 1
     assert len(join(TriangleMesh(corners, [(0, 1, 2), (0, 3, 1)]), keep=True).mesh.faces) == 2
+
+
+def test_bodies_that_touch_stay_bodies_unless_they_share_a_vertex() -> None:
+    four = boxes(*np.ndindex(1, 2, 2))
+    for mesh in (four, soup(four), together(soup(four), patch(2, 2))):
+        faces = join(mesh, keep=False).mesh.faces[:48]
+        assert faces.max() == 31 and (edges_of(faces)[2] == 2).all()
+    sharing = TriangleMesh(four.positions, np.where(four.faces == 12, 5, four.faces))  # at one place
+    assert len(join(sharing, keep=False).mesh.positions) == 12 + 2 * 8
 
 
 @given(st.integers(0, 2**32 - 1))
