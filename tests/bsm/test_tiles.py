@@ -272,6 +272,8 @@ def test_a_textured_tile_shows_what_the_mesh_shows(tmp_path):
             assert off < 8 * 2 ** (deepest - entry.level)
     glb = (tmp_path / "out" / "glb" / f"{entry.name}.glb").read_bytes()
     assert all(word in glb for word in (b"baseColorTexture", b"image/png", b"NORMAL"))
+    tree = json.loads((tmp_path / "out" / "tileset.json").read_text())
+    assert tree["root"]["geometricError"] == 16 * next(entry for _, entry in tiles.all() if entry.name == "r").error
 
 
 @pytest.mark.parametrize(("suffix", "names"), [("ply", "s, t"), ("obj", "texcoord")])

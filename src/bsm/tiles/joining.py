@@ -32,6 +32,7 @@ from bsm.tiles.shards import Table, Tiles
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
 _NORMALS = "6bits"  # near those that decoders predict, so that they take a bit or two
+_SEEN = 16.0  # times its error, of a tile with a texture: viewers let errors have 16 pixels by default, not texels
 CONTENTS = ("bsm", "plain")
 CONTENT_HELP = "GLBs of a tileset: bsm (default, small), or plain, for programs without our decoder"
 
@@ -97,7 +98,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
     """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB with normals; return their bytes."""
     known = {tile.name: (shard, tile) for shard, tile in tiles.all()}
     below: dict[str, set[str]] = {}
-    size = 0
+    size, seen = 0, 1.0
     ends: dict[str, npt.NDArray[np.int64]] = {}  # of a node and all below it
     for name, (_, tile) in known.items():
         own = np.array([tile.low, tile.high], np.int64)
@@ -119,6 +120,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             normals = vertex_normals(moved, mesh.faces).astype(np.float32)
             shown = (*mesh.attributes, *([Attribute("normal", normals, "vertex", "normal")] if sent else []))
             mesh = replace(mesh, positions=moved, attributes=shown, metadata={**mesh.metadata, "up": "z"})
+            seen = _SEEN if mesh.metadata.get("image.0.data") else seen
             data = write_glb(mesh, name).data
             if content == "bsm":
                 data = compress(Document(data), options).data
@@ -132,7 +134,8 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
         """A node of the octree, where `around` is the lowest place of the one above."""
         (low, high), children = ends[name], sorted(below.get(name, ()))
         half, moved = (high - low) * tiles.lattice.cell / 2, (low - around) * tiles.lattice.cell
-        tile: Facts = {"geometricError": known[name][1].error if name in known else diagonal, "refine": "REPLACE"}
+        error = seen * known[name][1].error if name in known else diagonal
+        tile: Facts = {"geometricError": error, "refine": "REPLACE"}
         tile["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
         tile["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
         tile |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in known else {}
