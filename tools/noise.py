@@ -12,6 +12,7 @@ import numpy as np
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Floats, Positions
+from bsm.codec.denoise import AutomaticChoice, FrameDenoiser
 from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.graph import vertex_neighbors
 from bsm.codec.geometry.metrics import mean_edge_length
@@ -128,3 +129,13 @@ def _length(positions: Positions, faces: Faces, sigma: float) -> float:
     if not 0.0 <= sigma < np.inf:
         raise OptionError(f"the standard deviation must be finite and not negative, not {sigma}")
     return sigma * mean_edge_length(positions, faces)
+
+
+def denoise_automatically(
+    positions: Positions, faces: Faces, goal: str = "shading"
+) -> tuple[Positions, AutomaticChoice]:
+    """Return denoised positions, shape (n, 3), of one mesh and the choice that was made for it."""
+    denoiser = FrameDenoiser(positions, faces, goal=goal)
+    (result,) = denoiser([positions])
+    assert denoiser.choice is not None
+    return result, denoiser.choice

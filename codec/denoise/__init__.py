@@ -9,6 +9,6 @@ except ImportError:
 
 from bsm.codec.denoise.automatic import AutomaticChoice
 from bsm.codec.denoise.filters import DenoiseOptions
-from bsm.codec.denoise.frames import FrameDenoiser, denoise, denoise_automatically
+from bsm.codec.denoise.frames import FrameDenoiser, denoise
 
-__all__ = ["AutomaticChoice", "DenoiseOptions", "FrameDenoiser", "denoise", "denoise_automatically"]
+__all__ = ["AutomaticChoice", "DenoiseOptions", "FrameDenoiser", "denoise"]

@@ -184,13 +184,3 @@ def denoise(mesh: TriangleMesh, options: DenoiseOptions | None = None, **ways: A
     """Remove noise from a mesh; `ways` are keywords of `FrameDenoiser`."""
     (positions,) = FrameDenoiser(mesh.positions, mesh.faces, options, **ways)([mesh.positions])
     return mesh if np.array_equal(positions, mesh.positions) else mesh.moved(positions)[0]
-
-
-def denoise_automatically(
-    positions: Positions, faces: Faces, goal: str = "shading"
-) -> tuple[Positions, AutomaticChoice]:
-    """Return denoised positions, shape (n, 3), of one mesh and the choice that was made for it."""
-    denoiser = FrameDenoiser(positions, faces, goal=goal)
-    (result,) = denoiser([positions])
-    assert denoiser.choice is not None
-    return result, denoiser.choice

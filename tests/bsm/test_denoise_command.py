@@ -20,7 +20,7 @@ from bsm.commands.flags import FLAGS
 from bsm.files.mesh import read_mesh, write_mesh, written_mesh
 from tests.bsm import program
 from tests.shapes import mnd, theta, torus
-from tools.noise import gaussian_along_normals
+from tools.noise import denoise_automatically, gaussian_along_normals
 from tools.sampled import ball, voxelized
 
 CLEAN = torus(36, 28, bumps=0.02)
@@ -47,7 +47,7 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
     ran = bsm("denoise", noisy_file, "-o", tmp_path / "out.obj", "--json")
     assert ran.returncode == 0
     result = json.loads(ran.stdout)
-    expected, choice = library.denoise_automatically(read_mesh(noisy_file).mesh.positions, CLEAN.faces)
+    expected, choice = denoise_automatically(read_mesh(noisy_file).mesh.positions, CLEAN.faces)
     denoised = read_mesh(tmp_path / "out.obj").mesh
     assert np.allclose(denoised.positions, expected, atol=1e-6)
     assert [step["iterations"] for step in result["automatic"]["steps"]] == [step.iterations for step in choice.steps]

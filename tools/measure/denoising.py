@@ -20,14 +20,13 @@ from typing import Any
 import numpy as np
 
 from bsm.codec.arrays import Faces, Floats, Positions
-from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import Reference, face_normals, mean_edge_length
 from bsm.codec.geometry.welding import weld
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
-from tools.noise import correlated_along_normals, gaussian_along_axis, gaussian_along_normals
+from tools.noise import correlated_along_normals, denoise_automatically, gaussian_along_axis, gaussian_along_normals
 from tools.sampled import THICK, ball, box, torus, voxelized, voxelized_mesh
 from tools.scans import CAMERAS, Scan, fused, view
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise import FrameDenoiser, denoise_automatically
+from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.denoise.filters import Filter, Filtered, Filters
 from bsm.codec.denoise.normals import VERTEX_ITERATIONS, bilateral_normals
 from bsm.codec.denoise.surface import follow_normals
@@ -22,6 +22,7 @@ from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.files.mesh import read_mesh
 from tools.noise import (
     correlated_along_normals,
+    denoise_automatically,
     gaussian_along_axis,
     gaussian_along_normals,
     gaussian_in_part,

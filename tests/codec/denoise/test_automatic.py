@@ -5,14 +5,13 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from bsm import OptionError
-from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.automatic import CANDIDATES
 from bsm.codec.denoise.noise.synthesis import estimate_noise
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.metrics import face_normals, mean_edge_length, rms_over_edge
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
 from tests.shapes import theta
-from tools.noise import correlated_along_normals, gaussian_along_normals, gaussian_isotropic
+from tools.noise import correlated_along_normals, denoise_automatically, gaussian_along_normals, gaussian_isotropic
 
 
 @pytest.mark.parametrize("sigma", [0.1, 0.2, 0.6])

@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from bsm.codec.arrays import Faces, Floats, Positions
-from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.volumes import find_cells
 from bsm.codec.denoise.surface import Topology
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tests.shapes import theta
-from tools.noise import gaussian_along_axis
+from tools.noise import denoise_automatically, gaussian_along_axis
 from tools.sampled import THICK, ball, box, torus, voxelized
 from tools.scans import turning
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.causes import Spacing, find_grid
 from bsm.codec.denoise.noise.outliers import put_outliers_back, put_strays_back
 from bsm.codec.denoise.noise.probe import Probe
@@ -14,6 +13,7 @@ from tests.codec.denoise.denoise_shapes import Partners, cube, find, grid, probe
 from tests.shapes import theta
 from tools.noise import (
     correlated_along_normals,
+    denoise_automatically,
     gaussian_along_axis,
     gaussian_along_normals,
     gaussian_in_part,

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from bsm.codec.arrays import Floats, Positions
-from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.finding import lattice_step
 from bsm.codec.denoise.noise.view import View, find_view
 from bsm.codec.denoise.surface import Topology
 from bsm.files.mesh import read_mesh
 from tests.codec.denoise.denoise_shapes import cube, find, grid, probe_of, sphere
 from tests.shapes import theta
+from tools.noise import denoise_automatically
 from tools.scans import CAMERAS, Scan, fused, isosurface, turning, view
 
 AWAY = turning(5)
