@@ -95,6 +95,9 @@ def test_joined_vertices_are_counted_where_only_signs_tell_them_apart(tmp_path):
     done = tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 2.0**-6)
     places = np.unique(Lattice(2.0**-6).places(points), axis=0)
     assert f"are joined: {len(points) - len(places)} (" in done.stderr
+    corners = Lattice(2.0**-6).places(points)[faces]
+    seen = (corners != np.roll(corners, 1, axis=1)).any(axis=2).all(axis=1).sum()
+    assert 0 < len(bsm.open_tiles(str(tmp_path / "out")).region((-9,) * 3, (9,) * 3).faces) == seen < len(faces)
 
 
 def test_vertices_that_no_face_uses_say_nothing_of_the_grid(mesh, tmp_path):
@@ -554,4 +557,4 @@ def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces(tmp_path):
         write_mesh(tmp_path / f"{name}.ply", bsm.TriangleMesh(large.positions, large.faces[order]))
         tile(tmp_path / f"{name}.ply", tmp_path / name)
         cells.append(bsm.open_tiles(str(tmp_path / name)).lattice.cell)
-    assert cells[0] == cells[1] and np.log2(cells[0]) % 1 == 0 and 1e-5 < cells[0] < 0.1
+    assert cells[0] == cells[1] and (8 * np.frexp(cells[0])[0]) % 1 == 0 and 1e-5 < cells[0] < 0.1

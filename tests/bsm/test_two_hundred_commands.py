@@ -35,8 +35,6 @@ encode ring.ply --effort best | ring.bsm
 encode ring.ply --keep-order | ring.bsm
 encode ring.ply --up z | ring.bsm
 encode ring.ply --grid-cell 0.01 --grid-origin -1,-.5,-1e-3 | ring.bsm
-encode ring.ply --threads 1 | ring.bsm
-encode ring.ply -q | ring.bsm
 encode ring.ply --json | ring.bsm
 encode ring.glb | ring.bsm
 encode ring.obj -o sub/ | sub/ring.bsm
@@ -98,7 +96,6 @@ help |
 --help |
 help encode |
 encode --help |
-decode --help |
 --version |
 encode --help-all |
 """

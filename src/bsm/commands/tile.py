@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("-o --output", "FOLDER", "folder or URL for the shards and manifest.json", required=True)
     add("--format", "", "format of the input (default: by its name or content)", choices=("ply", "stl", "obj"))
     add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
-    add("--grid-cell", "H", "cell of the grid of all tiles (default: a power of two, by the look distance)", type=float)
+    add("--grid-cell", "H", "cell of the grid of all tiles (default: by the look distance)", type=float)
     add("--grid-origin", "X,Y,Z", "a point of the grid (default 0,0,0)", type=numbers(3))
     add("--finest", "", "write only the finest level")
     add("--work", "FOLDER", "folder for temporary files, several times the input (default: OUTPUT/.work)")

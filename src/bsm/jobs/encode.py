@@ -131,7 +131,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     other = encoder.binding not in ("", "look") and found.apart is None
     binds = f"the {encoder.binding} binds, " if other else ""
-    _finish(
+    names = _finish(
         job,
         console,
         notes,
@@ -139,7 +139,6 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{binds}{errors}; "
         f"{seconds:.2f} s",
     )
-    names = {"input": job.input, "output": None if job.dry_run else job.output}
     counts = {"vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": written, "bytes": size, "bpv_total": bpv}
     apart = {"input_parts": parts, "output_parts": beside} if parts else {}
@@ -227,7 +226,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
     bpvf = 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
-    _finish(
+    names = _finish(
         job,
         console,
         notes,
@@ -235,16 +234,16 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
         f"KG error {encoder.kg:.3g} %; {seconds:.2f} s",
     )
-    names = {"input": job.input, "output": None if job.dry_run else job.output}
     counts = {"frames": done, "vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
     return {**names, **counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
 
 
-def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str) -> None:
+def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str) -> Facts:
     for note in notes:
         console.note(f"{job.input}: {note}")
     console.note(f"{job.input} -> {job.output}: {summary}")
+    return {"input": job.input, "output": None if job.dry_run else job.output}
 
 
 def with_provenance(

@@ -67,9 +67,8 @@ def run_jobs(
     done = run_many(run, asked, console, work, jobs, ended)
     good = [facts for facts in done if "error" not in facts]
     summed = totals(good)
-    sizes = (
-        f", {came_to(taken, given)}" if (taken := summed["input_bytes"]) and (given := summed["output_bytes"]) else ""
-    )
+    taken, given = summed["input_bytes"], summed["output_bytes"]
+    sizes = f", {came_to(taken, given)}" if taken and given else ""
     sizes += f", largest error {worst}" if (worst := summed["largest_error"]) else ""
     if asked_once > 1:
         console.note(f"{asked_once} files in all have no unit")

@@ -67,7 +67,7 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
     lattice = Lattice(_cell_by_look(raw, threads) if cell is None else cell, origin or (0.0, 0.0, 0.0))
     reach = max(abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
     farthest = reach / lattice.cell
-    exact = math.frexp(lattice.cell)[0] == 0.5 and not any(at % lattice.cell for at in lattice.origin)
+    exact = 8 * math.frexp(lattice.cell)[0] % 1 == 0 and not any(at % lattice.cell for at in lattice.origin)
     if not farthest < (_FARTHEST if exact else MOST_GRID // 2):
         least = math.ceil(math.log2(2 * max(reach, *map(abs, (*raw.low, *raw.high))) / _FARTHEST))
         better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
@@ -77,7 +77,7 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
 
 
 def _cell_by_look(raw: Raw, threads: int) -> float:
-    """The largest power of two that keeps the default's promise around three vertices, in any order of the faces."""
+    """The largest of few bits that keeps the default's promise around three vertices, in any order of the faces."""
     firsts = raw.table("faces")[:: max(1, raw.rows["faces"] // _SAMPLE), 0]
     some = raw.table("positions")[firsts].astype(np.float64)
     share = min(1.0, _SAMPLE / max(1, raw.rows["faces"]))
@@ -94,11 +94,14 @@ def _cell_by_look(raw: Raw, threads: int) -> float:
         used, corners = np.unique(np.concatenate(faces), return_inverse=True)
         sample = TriangleMesh(raw.table("positions")[used].astype(np.float64), corners.reshape(-1, 3).astype(np.int32))
         edge = np.linalg.norm(np.diff(sample.positions[sample.faces], axis=1), axis=2).mean()
-        cell = 2.0 ** math.floor(math.log2(min(0.01 * sample.diagonal, edge / 2.0) or 1.0))
+        most = min(0.01 * sample.diagonal, edge / 2.0) or 1.0
+        cell = 2.0 ** math.floor(math.log2(most))
         with suppress(MeshError):  # there is nothing to see
             metric = LookMetric(sample, threads=1)
             while (far := metric.distance(np.rint(sample.positions / cell) * cell)) > 1.0:
                 cell *= 0.5 ** max(1, math.floor(math.log2(far)))
+            larger = (share * cell for share in (1.75, 1.5, 1.25) if share * cell <= most)
+            cell = next((c for c in larger if metric.distance(np.rint(sample.positions / c) * c) <= 1.0), cell)
         return cell
 
     return min(ordered_map(cell_of, near, threads))

@@ -75,13 +75,18 @@ def _pictures(plan: Plan, folder: Path) -> list[Path]:
 def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]:
     """A tile in cells of the lattice, and how many positions share a place; corners there may differ."""
     begin, count = plan.leaves[name]
-    faces = mapped(folder, "cut", plan.kinds)[begin : begin + count]
-    used, corners = np.unique(faces[:, :3], return_inverse=True)
-    corners = corners.reshape(-1, 3)
-    places, numbers, some = welded(mapped(folder, "places", plan.kinds)[used])
+    faces, spots = mapped(folder, "cut", plan.kinds)[begin : begin + count], mapped(folder, "places", plan.kinds)
+    used = np.unique(faces[:, :3])
+    places, numbers, _ = welded(spots[used])
     inside = ~plan.outside(name, places)
     own = mapped(folder, "own", plan.kinds)[used, 0].astype(np.int64) | numbers.astype(np.int64) << 32
     joined = len(np.unique(own[inside[numbers]])) - int(inside.sum())
+    # Faces that have a place twice cannot be seen, and take more bits than others.
+    seen = (spots[faces[:, :3]] != spots[faces[:, [1, 2, 0]]]).any(axis=2).all(axis=1)
+    faces = faces[seen] if seen.any() else faces[:1]
+    used, corners = np.unique(faces[:, :3], return_inverse=True)
+    corners = corners.reshape(-1, 3)
+    places, numbers, some = welded(spots[used])
 
     def carried(what: Any) -> Attribute:
         values = mapped(folder, what, plan.kinds)[used]
@@ -90,7 +95,7 @@ def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]
         different, rows = np.unique(values, axis=0, return_inverse=True)
         return Attribute(what, different, "corner", what, rows.reshape(-1)[corners].astype(np.int32))
 
-    skin: Skin = np.zeros((count, 3, 0), np.float32)
+    skin: Skin = np.zeros((len(faces), 3, 0), np.float32)
     if plan.textures:
         texcoords = mapped(folder, "texcoord", plan.kinds)
         rows = np.where(faces[:, 3:6] < len(texcoords), faces[:, 3:6], 0)

@@ -135,11 +135,11 @@ def compared(
     first = Shown("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
     off = np.full(len(decoded.positions), np.nan, np.float32)
     facts: dict[str, Any] = {"preset": preset, "before": [len(original.positions), len(original.faces)]}
+    facts["diagonal"] = diagonal = source.diagonal or 1.0
     try:
         paired = pair(source, used)
     except MeshError:
         apart = surface_distance(source.positions, source.faces, used.positions, used.faces)
-        diagonal = source.diagonal or 1.0
         facts |= {"apart": apart.mean / diagonal, "farthest": apart.hausdorff / diagonal}
         off[kept] = distances_to_surface(used.positions, source.positions, source.faces)
         alike = False
@@ -147,9 +147,7 @@ def compared(
         source, alike = paired.original, True
         off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
         errors = compare(source.positions, paired.positions, source.faces)
-        diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
         facts |= {"angle": errors.angle_deg, "farthest": errors.max_error_relative}
-    facts["diagonal"] = diagonal
     rival: tuple[Shown, ...] = ()
     with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
         facts["look"] = look(source, used).distance
