@@ -9,6 +9,7 @@ import re
 import shlex
 import sys
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any, NoReturn
 
 from bsm import __version__
@@ -18,20 +19,8 @@ from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, report_er
 from bsm.files.output import Terminated, refuse_collisions
 from bsm.synonyms import OPTIONS, advice_on_command, refuse_misplaced
 
-COMMANDS = {
-    "encode": "compress meshes",
-    "decode": "restore meshes",
-    "info": "show what streams contain",
-    "compare": "measure the error of a mesh",
-    "verify": "check streams",
-    "view": "show meshes and streams in a browser",
-    "tile": "cut meshes larger than memory into tiles, coarse to fine",
-    "untile": "join tiles into one mesh",
-    "glb": "compress the geometry of glTF scenes",
-    "denoise": "remove noise from meshes and sequences",
-    "demo": "compress a sample and compare it with the original",
-    "curve": "measure rate against error and draw it",
-}
+_SUMMARIES = Path(__file__).with_name("commands") / "commands.txt"
+COMMANDS = dict(line.split(": ", 1) for line in _SUMMARIES.read_text("utf-8").splitlines())
 FILES = (
     *("IN", "MESH", "SCENE", "A", "B", "FOLDER", "OUT", "OUT.glb"),
     *("FILE", "FILE.npy", "FILE.json", "FILE.png", "PAGE.html"),
