@@ -25,8 +25,3 @@ def as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> np
         return np.array(values, dtype=kind, order="C")
     except (TypeError, ValueError, OverflowError) as error:
         raise MeshError(f"{name} is not an array of numbers: {error}") from error
-
-
-def sum_in_order(rows: Matrix) -> Matrix:
-    """Sum over the first axis, one row after the other (specification, M 1.3)."""
-    return np.asarray(np.add.accumulate(rows, axis=0)[-1])

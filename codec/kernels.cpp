@@ -32,16 +32,14 @@ void bind_codec(nb::module_ &m) {
     CHECKED(averaged) CHECKED(contrast) KERNEL(add_copies) KERNEL(collect_edges) KERNEL(patch_guidance)
     KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)
     KERNEL(face_geometry) KERNEL(pair_distances) KERNEL(follow_normals)
-    KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(basis_of_levels)
-    CHECKED(turn_columns) CHECKED(back_into_unit) CHECKED(place_block) KERNEL(apply_powers) KERNEL(combine_powers)
-    CHECKED(smooth_all)
+    KERNEL(cosines) KERNEL(project) KERNEL(reconstruct) CHECKED(show_frames) CHECKED(turn_columns)
+    CHECKED(back_into_unit) CHECKED(place_block) KERNEL(apply_powers) KERNEL(combine_powers) CHECKED(smooth_all)
     // What both sides of a sequence have.
-    for (const auto &[name, number] : {NUMBER(BENDING), NUMBER(INHERITED), NUMBER(BATCH), NUMBER(LEAST_KEPT),
-             NUMBER(MOST_KEPT), NUMBER(POSITIONS_KEPT), NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})
+    for (const auto &[name, number] : {NUMBER(BENDING), NUMBER(BATCH), NUMBER(LEAST_KEPT), NUMBER(MOST_KEPT),
+             NUMBER(POSITIONS_KEPT), NUMBER(TRACK_MEMORY), NUMBER(SPARE_MEMORY)})
         m.attr(name) = number;
-    m.def("lags", [] { return tuple_of(LAG); }, nb::sig("def lags() -> tuple[int, ...]"));
     m.def("quarters", [] { return tuple_of(QUARTERS); }, nb::sig("def quarters() -> tuple[float, ...]"));
-    KERNEL(bend_columns) KERNEL(learn_around) KERNEL(search_rows) CHECKED(label_components) KERNEL(weighted_angle)
+    CHECKED(label_components) KERNEL(weighted_angle)
     CHECKED(local_frames) CHECKED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
     CHECKED(collect_flaps) CHECKED(group_flaps) CHECKED(shape_levels) CHECKED(collect_creases) CHECKED(hang_creases)
     CHECKED(find_motions) CHECKED(settle_levels) CHECKED(count_folds) CHECKED(unfold_levels) CHECKED(shape_grid)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -10,15 +11,16 @@ import numpy.typing as npt
 from bsm._core import Decoder
 from bsm._core import bitstream as _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel
-from bsm.bitstream.coefficients.matrices import Lead, Levels, write_levels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, Writer
-from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder, finish_writing, start_writing
+from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder, bank_of, finish_writing, make_room, start_writing
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import CONNECTIVITY, NEED
 from tools.surgery import Cursor
 
 Ints = npt.NDArray[np.int32]
+Lead: TypeAlias = tuple[int, int]
+"""Columns coded of the first row, and more of each next one; without a lead all, after a half those with any."""
 AHEAD = 4  # bytes that a reader holds besides those that a writer is done with
 
 
@@ -62,13 +64,31 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
     return levels
 
 
+def make_level_bank() -> Bank:
+    """The adaptive state of a coder of levels, neutral; one for all payloads that learn from each other."""
+    return bank_of("code_matrix")
+
+
+def extent_of(matrix: Ints, lead: Lead | None) -> tuple[int, int, int, int]:
+    """A lead, the row from which on few columns are coded, and how many; of known levels, or zeros to be read."""
+    rows, columns = matrix.shape
+    if lead is not None:
+        return min(lead[0], columns), min(lead[1], columns), rows, columns
+    turn = -(-rows // 2)
+    used = np.flatnonzero(matrix[turn:].any(axis=0))
+    return columns, 0, turn, int(used[-1]) + 1 if len(used) else 0
+
+
 def encode_levels(
-    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead | None] | None = None
+    bank: Bank, matrices: Sequence[Ints], references: Sequence[Ints], leads: Sequence[Lead | None] | None = None
 ) -> bytes:
     """Code matrices one after the other."""
     coder = start_writing(0)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
-        coder = write_levels(coder, bank, matrix, reference, lead)
+        coder = make_room(coder, 16 * matrix.size + 64)
+        occupied = np.flatnonzero(matrix.any(axis=1))
+        rows, slow = int(occupied[-1]) + 1 if len(occupied) else 0, np.empty(matrix.shape[1], np.int64)
+        _kernels.code_matrix(coder, bank, matrix, reference, rows, *extent_of(matrix, lead), slow)
     return finish_writing(coder)
 
 

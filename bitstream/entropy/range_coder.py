@@ -41,10 +41,6 @@ def make_bank(slots: int, selectors: int, inputs: int, limit: int = 255, rate: i
     return Bank(np.full(slots, 1 << 31, np.uint32), np.full((selectors, inputs), initial, np.int32), settings)
 
 
-def copy_bank(bank: Bank) -> Bank:
-    return Bank(bank.slots.copy(), bank.weights.copy(), bank.settings.copy())
-
-
 def start_writing(capacity: int) -> Coder:
     """Make a coder that writes at most `capacity` bytes; one coded bit takes two bytes at the very most."""
     return Coder(np.array([0, (1 << 32) - 1, 0, 0, 0], np.int64), np.empty(capacity + 8, np.uint8))

@@ -15,7 +15,6 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.progress import silent
 from bsm.codec.sequence.frames import distinct_frames
 from bsm.codec.sequence.gop import GopEncoder
-from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.attributes.encoding import PreparedAttribute, Values
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.targets import secant
@@ -167,9 +166,9 @@ class MovingAttributeEncoder:
         """Return the values that a decoder must have for a frame of these values, shape (n, d)."""
         return Expected(self.number, self.first if self.bound.amount is None else values, self.bound)
 
-    def begin(self, positions: GopEncoder, setting: Setting, number: int) -> None:
+    def begin(self, positions: GopEncoder, number: int) -> None:
         """Begin a run, in which this attribute has the track of this number; `positions` has its dictionaries."""
-        self._encoder = positions.beside(setting.tracks[number])
+        self._encoder = positions.beside(number)
 
     def fields(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
         """Fields of each GOP, which together have all these values, shape (T, n, d)."""

@@ -269,7 +269,7 @@ class SequenceEncoder:
         yield from begun
         first_frame = gops.first_frame
         for track, coder in enumerate(coders, 1):
-            coder.begin(gops.encoder, first_frame.setting, track)
+            coder.begin(gops.encoder, track)
         numbers = [coder.number for coder in coders]
         still = {name: values[0] for name, values in group.moving.items() if name not in {m.name for m in coders}}
         while len(group):

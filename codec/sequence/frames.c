@@ -55,10 +55,6 @@ static void fill_bends(Bend bend, ConstDoubles2 x, Doubles2 columns) {
     }
 }
 
-void bend_columns(ConstDoubles2 part, ConstDoubles2 positions, Doubles2 columns) {
-    fill_bends(bend_of(part), positions, columns);
-}
-
 /* Bends and first values at some vertices. */
 static bool fill_known(Bend bend, ConstDoubles2 first_frame, const MovingAttribute *moving, int count,
     ConstInts vertices, Arena *scratch, Doubles2 known) {
@@ -169,8 +165,8 @@ static bool time_cosines(int64_t frames, Arena *arena, Doubles2 *columns) {
     return true;
 }
 
-/* One payload of matrices of levels, of `rows[i]` rows (S 4); references begin where `references` tells, or are none.
- * With a lead row 0 has `lead[i]` columns, and each next one `stair` more. */
+/* One of the matrices of levels in a payload (S 4), and its reference, which may have no rows. With a lead row 0 has
+ * `lead` columns, and each next one `stair` more. */
 typedef struct {
     int64_t rows, lead;
     int32_t *levels;
@@ -178,7 +174,20 @@ typedef struct {
     int64_t reference_rows;
 } Matrix;
 
-static bool read_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count,
+/* Rows that have levels, of those from `from` on; and columns that have some there. */
+static int64_t find_levels(ConstInts2 levels, int64_t from, int64_t *few) {
+    int64_t rows = 0;
+    *few = 0;
+    for (int64_t i = from * levels.columns; i < levels.rows * levels.columns; i++) {
+        if (levels.data[i] == 0) continue;
+        rows = i / levels.columns + 1;
+        *few = largest(*few, i % levels.columns + 1);
+    }
+    return rows;
+}
+
+/* Read levels, or write those that are there. */
+static bool code_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count,
     int64_t columns, int64_t stair, Arena *scratch) {
     Coding coding;
     Longs slow;
@@ -187,10 +196,13 @@ static bool read_matrices(Context *context, Bank bank, Span payload, const Matri
         const Matrix *m = matrices + i;
         Ints2 levels = {m->levels, m->rows, columns};
         ConstInts2 reference = {m->reference, m->reference_rows, columns};
+        int64_t few = 0, turn = (m->rows + 1) / 2, coded = CHOOSES ? find_levels(const_ints2(levels), 0, &few) : 0;
+        if (CHOOSES) find_levels(const_ints2(levels), turn, &few);
+        if (!room_to_write(&coding, 16 * m->rows * columns + 64)) return false;
         if (m->lead > 0)
-            code_matrix(coding.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns),
+            code_matrix(coding.coder, bank, levels, reference, coded, least(m->lead, columns), least(stair, columns),
                 m->rows, columns, slow);
-        else code_matrix(coding.coder, bank, levels, reference, 0, columns, 0, (m->rows + 1) / 2, 0, slow);
+        else code_matrix(coding.coder, bank, levels, reference, coded, columns, 0, turn, few, slow);
     }
     return finish_coding(&coding);
 }
@@ -200,12 +212,10 @@ static void add_row(double *to, double scalar, const double *from, int64_t count
     for (int64_t i = 0; i < count; i++) to[i] += scalar * from[i];
 }
 
-int64_t basis_of_levels(ConstInts2 levels, ConstInts exponents, ConstDoubles2 time, Doubles2 turned, Doubles vector,
+/* The basis of levels, d T rows of each, given cosines over time (S 5.2); there is room in all but these. */
+static void basis_of_levels(ConstInts2 levels, ConstInts exponents, ConstDoubles2 time, Doubles2 turned, Doubles vector,
     Doubles shares, Doubles2 basis) {
-    int64_t frames = time.rows, r = levels.columns, size = frames * r, width = frames > 0 ? levels.rows / frames : 0;
-    if (time.columns != frames || levels.rows != width * frames || exponents.size != r || turned.rows != levels.rows
-        || turned.columns != r || basis.rows != levels.rows || basis.columns != r)
-        return MISUSED;
+    int64_t frames = time.rows, r = levels.columns, size = frames * r, width = levels.rows / frames;
     for (int64_t c = 0; c < width; c++) {
         int state = 0;
         for (int64_t i = 0; i < size; i++) {
@@ -217,18 +227,42 @@ int64_t basis_of_levels(ConstInts2 levels, ConstInts exponents, ConstDoubles2 ti
         }
     }
     for (int64_t i = 0; i < width * size; i++) basis.data[i] = 0.0;
-    if (turn_columns(turned, vector, shares) == MISUSED) return MISUSED;
+    turn_columns(turned, vector, shares);
     for (int64_t c = 0; c < width; c++)
         for (int64_t t = 0; t < frames; t++)
             for (int64_t f = 0; f < frames; f++)
                 add_row(basis.data + (c * frames + t) * r, time.data[t * frames + f],
                     turned.data + (f * width + c) * r, r);
-    return 0;
 }
 
-/* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). */
-static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch,
-    Doubles2 *basis) {
+/* Levels that are nearest to `targets` at the price of bits, given what is known, and what they decode to. */
+static bool choose_levels(Context *context, ConstDoubles2 known, ConstDoubles2 targets, ConstInts2 reference,
+    int64_t lead, int64_t stair, double step, Doubles2 moments, Doubles2 factor, Arena *scratch, Ints2 levels,
+    Doubles2 decoded) {
+    const int64_t survivors = 2 * TRELLIS_STATES + 1, coded = targets.columns;
+    Doubles row;
+    Doubles2 expected, values;
+    Ints2 ways;
+    Bytes2 origins;
+    Longs slow;
+    if (!take_doubles(scratch, moments.columns, &row)
+        || !take_doubles2(scratch, survivors, moments.columns, &expected)
+        || !take_doubles2(scratch, coded, TRELLIS_STATES, &values)
+        || !take_ints2(scratch, coded, TRELLIS_STATES, &ways) || !take_bytes2(scratch, coded, TRELLIS_STATES, &origins)
+        || !take_longs(scratch, coded, &slow))
+        return false;
+    search_rows(known, targets, reference, lead, stair, levels, decoded, moments, step, factor, row, expected, values,
+        ways, origins, slow);
+    for (int64_t i = 0; i < levels.rows * coded; i++)
+        if (levels.data[i] >= LARGEST_LEVEL || levels.data[i] <= -LARGEST_LEVEL)
+            return FAIL(context, MISUSED, "the step is too fine for motion that far; choose a coarser one");
+    return true;
+}
+
+/* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). An encoder has what is free in it, in steps, in
+ * `spectrum`, one below the other for each number. */
+static bool code_basis(Context *context, const GopField *field, int64_t frames, ConstDoubles2 spectrum, Arena *arena,
+    Arena *scratch, Doubles2 *basis) {
     int64_t width = field->width, r = field->components, size = frames * r;
     Mark mark = mark_of(scratch);
     Bank bank;
@@ -243,7 +277,13 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
     for (int64_t c = 0; done && c < width; c++)
         matrices[c] = (Matrix){
             frames, c + 1, levels.data + c * size, levels.data + (c > 0 ? c - 1 : 0) * size, c > 0 ? frames : 0};
-    done = done && read_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
+    for (int64_t c = 0; done && CHOOSES && c < width && spectrum.rows > 0; c++)
+        done = choose_levels(context, (ConstDoubles2){NULL, frames, 0},
+            (ConstDoubles2){spectrum.data + c * size, frames, r},
+            (ConstInts2){matrices[c].reference, matrices[c].reference_rows, r}, c + 1, width, 1.0,
+            (Doubles2){NULL, 0, r}, (Doubles2){NULL, 0, r}, scratch, (Ints2){matrices[c].levels, frames, r},
+            rows_from(turned, c * frames, frames));
+    done = done && code_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
     if (done)
         basis_of_levels((ConstInts2){levels.data, width * frames, r}, const_ints(field->exponents),
             const_doubles2(time), turned, vector, shares, *basis);
@@ -251,9 +291,15 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
     return done;
 }
 
+/* What an encoder wants of a part: no rows where levels are known; and the levels that those of the part refer to. */
+typedef struct {
+    Doubles2 targets;
+    ConstInts2 reference;
+} Goal;
+
 /* A closed loop over the rows of a part (S 6): `decoded` from levels, given what is known around it and in it. */
 static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 ends, ConstDoubles2 known,
-    ConstInts2 levels, double step, Arena *scratch, Doubles2 decoded) {
+    const Goal *goal, Ints2 levels, double step, Arena *scratch, Doubles2 decoded) {
     int64_t width = known.columns + levels.columns, rows = known.columns + least(levels.columns, INHERITED);
     Mark mark = mark_of(scratch);
     Doubles2 moments, factor;
@@ -261,11 +307,12 @@ static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 en
     double spoiled = 0.0;
     bool done = take_doubles2(scratch, rows, width, &moments) && zero_doubles2(scratch, rows, width, &factor)
         && take_doubles(scratch, width, &row) && take_doubles(scratch, width, &expected);
-    if (done) {
-        learn_around(around, ends, moments, step, expected, row);
-        follow_rows(known, levels, decoded, moments, step, factor, row, expected);
-        for (int64_t i = 0; i < decoded.rows * decoded.columns; i++) spoiled += decoded.data[i] * 0.0;
-    }
+    if (done) learn_around(around, ends, moments, step, expected, row);
+    if (done && CHOOSES && goal->targets.rows > 0)
+        done = choose_levels(context, known, const_doubles2(goal->targets), goal->reference, levels.columns, 0, step,
+            moments, factor, scratch, levels, decoded);
+    else if (done) follow_rows(known, const_ints2(levels), decoded, moments, step, factor, row, expected);
+    for (int64_t i = 0; done && i < decoded.rows * decoded.columns; i++) spoiled += decoded.data[i] * 0.0;
     release_to(scratch, mark);
     return done
         && (spoiled == 0.0 || FAIL(context, NUMERIC, "the levels reconstruct to coefficients that are not finite"));
@@ -290,8 +337,8 @@ typedef struct {
 } GopContext;
 
 /* Differences of a part in a learned field (S 7.1), which is `ends` around it. */
-static bool decode_learned_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
-    ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+static bool code_learned_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
+    const Goal *goal, Ints2 levels, Arena *scratch, Doubles2 differences) {
     const GopField *field = decoding->gop->field + k;
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width;
@@ -302,7 +349,7 @@ static bool decode_learned_part(Gops *gops, const GopContext *decoding, int k, c
         return false;
     if (field->components > 0
         && !follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), ends,
-            const_doubles2(rows_from(known, m, c)), levels, field->step, scratch, differences))
+            const_doubles2(rows_from(known, m, c)), goal, levels, field->step, scratch, differences))
         return false;
     copy_columns(ends, 0, found.columns, rows_from(found, part->first, m), 0);
     copy_columns(const_doubles2(differences), 0, found.columns, rows_from(found, part->first + m, c), 0);
@@ -347,8 +394,8 @@ static void fill_references(const Track *track, const GopField *field, int64_t f
 }
 
 /* What a part is in low-delay frames, as cosines over time. */
-static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
-    ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+static bool code_next_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
+    const Goal *goal, Ints2 levels, Arena *scratch, Doubles2 differences) {
     const GopField *field = decoding->gop->field + k;
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width, columns = ends.columns;
@@ -360,8 +407,9 @@ static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, cons
         if (!take_doubles2(scratch, m + c, wide, &known) || !take_doubles2(scratch, m, columns, &changes)) return false;
         fill_references(track, field, part->first, known);
         for (int64_t i = 0; i < m * columns; i++) changes.data[i] = ends.data[i] - own.data[i];
+        for (int64_t i = 0; i < goal->targets.rows * columns; i++) goal->targets.data[i] -= inside.data[i];
         if (!follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes),
-                const_doubles2(rows_from(known, m, c)), levels, field->step, scratch, differences))
+                const_doubles2(rows_from(known, m, c)), goal, levels, field->step, scratch, differences))
             return false;
         for (int64_t i = 0; i < c * columns; i++) inside.data[i] += differences.data[i];
         copy_columns(ends, 0, columns, own, 0);
@@ -370,26 +418,43 @@ static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, cons
     return true;
 }
 
-/* Fill a part of the field from its coded values. */
+/* The levels that those of a part refer to, which begin at row `begin`: of the part before, or there before. */
+static ConstInts2 reference_of(const Gops *gops, const GopContext *decoding, int64_t index, int64_t begin) {
+    int64_t columns = gops->basis->columns, rows = gops->parts.part[index].width;
+    if (!has_basis(decoding->gop)) return (ConstInts2){gops->track->levels.data + begin * columns, rows, columns};
+    rows = index > 0 ? gops->parts.part[index - 1].width : 0;
+    return (ConstInts2){decoding->levels->data + (begin - rows) * columns, rows, columns};
+}
+
+/* Fill a part of the field from its coded values, or from those that an encoder chooses. */
 static bool place_part(Gops *gops, const GopContext *decoding, int64_t index, int64_t *begin, Arena *scratch) {
     const Site *part = gops->parts.part + index;
     int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;
     Singles2 dictionary;
     Doubles2 around, differences, positions, extension;
+    Goal goal = {.targets = {NULL, 0, total}};
     if (!lend_dictionary(&gops->parts, index, scratch, &dictionary) || !take_doubles2(scratch, m, total, &around)
         || !take_doubles2(scratch, c, total, &differences) || !take_doubles2(scratch, n, total, &positions)
         || !take_doubles2(scratch, n, total, &extension))
         return false;
     gather_rows(const_doubles2(gops->field), const_ints(part->around), around);
+    if (total > 0 && !extend_part(part, const_doubles2(around), scratch, extension)) return false;
+    if (chooses(gops)) {
+        if (!take_doubles2(scratch, c, total, &goal.targets)) return false;
+        gather_rows(gops->wanted, part->patch.vertices, positions);
+        for (int64_t i = 0; i < n * total; i++) positions.data[i] -= extension.data[i];
+        project(const_singles2(dictionary), const_doubles2(positions), goal.targets);
+        goal.reference = reference_of(gops, decoding, index, *begin);
+    }
     for (int k = 0; k < gops->tracks; k++) {
         int64_t columns = gops->basis[k].columns;
         Mark mark = mark_of(scratch);
         Doubles2 ends, own;
         if (!take_doubles2(scratch, m, columns, &ends) || !take_doubles2(scratch, c, columns, &own)) return false;
         copy_columns(const_doubles2(around), place, columns, ends, 0);
-        ConstInts2 levels = {decoding->levels[k].data + *begin * columns, c, columns};
-        bool done = (has_basis(decoding->gop) ? decode_learned_part : decode_next_part)(gops, decoding, k, part,
-            const_doubles2(ends), levels, scratch, own);
+        Ints2 levels = {decoding->levels[k].data + *begin * columns, c, columns};
+        bool done = (has_basis(decoding->gop) ? code_learned_part : code_next_part)(gops, decoding, k, part,
+            const_doubles2(ends), &goal, levels, scratch, own);
         if (!done) return false;
         copy_columns(const_doubles2(own), 0, columns, differences, place);
         place += columns;
@@ -397,7 +462,6 @@ static bool place_part(Gops *gops, const GopContext *decoding, int64_t index, in
     }
     *begin += c;
     if (total == 0) return true;
-    if (!extend_part(part, const_doubles2(around), scratch, extension)) return false;
     reconstruct(const_singles2(dictionary), const_doubles2(differences), positions);
     for (int64_t r = 0; r < n; r++)
         for (int64_t j = 0; j < total; j++)
@@ -424,7 +488,7 @@ static int64_t coded_rows(const Gops *gops) {
 }
 
 /* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
-static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns,
+static bool code_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns,
     Arena *scratch, Ints levels) {
     Mark mark = mark_of(scratch);
     Matrix *matrices;
@@ -438,7 +502,7 @@ static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int3
         begin += rows;
     }
     bool done =
-        read_matrices(gops->parts.context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
+        code_matrices(gops->parts.context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
     release_to(scratch, mark);
     return done;
 }
@@ -455,9 +519,10 @@ static bool begin_field(Gops *gops, const Gop *gop) {
     return true;
 }
 
-static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
+static bool code_learned(Gops *gops, const Gop *gop, Arena *scratch) {
     Context *context = gops->parts.context;
-    bool follows = gop->method == LEARNED_NEXT;
+    bool follows = gop->method == LEARNED_NEXT, choosing = chooses(gops);
+    Bank bank;
     if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to a missing GOP");
     forget_frames(gops);
     GopContext decoding = {.gop = gop};
@@ -465,23 +530,26 @@ static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
     for (int i = 1; i <= gops->tracks; i++) {
         int k = i % gops->tracks; /* the positions come last in the payload */
         const GopField *field = gop->field + k;
-        Bank bank;
-        if (field->step > 0) {
-            if (!decode_basis(context, field, gop->coded, &gops->frames, scratch, gops->basis + k)) return false;
+        if (field->step > 0 && !choosing) {
+            const ConstDoubles2 none = {NULL, 0, 0};
+            if (!code_basis(context, field, gop->coded, none, &gops->frames, scratch, gops->basis + k)) return false;
         } else {
-            gops->basis[k] = (Doubles2){NULL, field->width * gop->coded, 0};
+            gops->basis[k] = (Doubles2){NULL, field->width * gop->coded, field->components};
         }
         if (!zero_ints(scratch, coded_rows(gops) * field->components, decoding.levels + k)
             || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), decoding.found + k))
             return false;
         Mark mark = mark_of(scratch);
         if (!make_bank(scratch, MATRIX_BANK, &bank)
-            || (field->step > 0
-                && !read_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
+            || (field->step > 0 && !choosing
+                && !code_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
             return false;
-        release_to(scratch, mark);
+        if (!choosing) release_to(scratch, mark);
     }
-    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)) return false;
+    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
+        || (choosing
+            && !code_levels(gops, bank, gop->field, NULL, gop->field->components, scratch, *decoding.levels)))
+        return false;
     release_all(&gops->history);
     for (int k = 0; k < gops->tracks; k++) {
         Doubles2 found = decoding.found[k], *inherited = &gops->track[k].inherited;
@@ -540,7 +608,7 @@ static bool hold_cosines(int64_t width, ConstDoubles2 time, Arena *arena, Double
     return true;
 }
 
-static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
+static bool code_next(Gops *gops, const Gop *gop, Arena *scratch) {
     Context *context = gops->parts.context;
     if (gop->method == KEY_FRAMES) {
         if (!begin_history(gops)) return false;
@@ -551,6 +619,7 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
     forget_frames(gops);
     GopContext decoding = {.gop = gop};
     int64_t rows = coded_rows(gops);
+    bool choosing = chooses(gops);
     if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)
         || !time_cosines(gop->frames, &gops->frames, &decoding.time))
         return false;
@@ -568,12 +637,16 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
             || !take_doubles2(scratch, gops->parts.rows, columns, decoding.found + k)
             || !hold_cosines(track->width, const_doubles2(decoding.time), &gops->frames, gops->basis + k))
             return false;
-        if (field->components > 0
-            && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
+        if (field->components > 0 && !choosing
+            && !code_levels(gops, track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
             return false;
     }
     gops->together = gop->frames;
-    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)) return false;
+    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)
+        || (choosing
+            && !code_levels(gops, gops->track->bank, gop->field, gops->track->levels.data, gops->basis->columns,
+                scratch, *decoding.levels)))
+        return false;
     for (int k = 0; k < gops->tracks; k++) {
         Track *track = gops->track + k;
         memcpy(track->levels.data, decoding.levels[k].data, (size_t)track->levels.size * sizeof *track->levels.data);
@@ -592,7 +665,7 @@ bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch) {
     memcpy(shown.data, gop->shown.data, (size_t)gop->frames * sizeof *shown.data);
     gops->gop.shown = shown;
     Mark mark = mark_of(scratch);
-    bool done = (has_basis(gop) ? decode_learned : decode_next)(gops, gop, scratch);
+    bool done = (has_basis(gop) ? code_learned : code_next)(gops, gop, scratch);
     release_to(scratch, mark);
     return done;
 }
@@ -624,3 +697,58 @@ bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 
         const_doubles2(rows_from(gops->batch[track], t % BATCH * gops->parts.graph->size, gops->parts.graph->size));
     return true;
 }
+
+#ifdef BSMDEC_WRITES
+bool copy_gops(const Gops *from, int k, Context *context, Arena *arena, Gops *copy) {
+    const Track *given = from->track + k;
+    Track *own;
+    *copy = *from;
+    copy->parts.context = context;
+    copy->arena = copy->parts.dictionaries = copy->history = copy->levels = copy->frames = arena_of(context);
+    copy->tracks = 1;
+    if (!TAKE(arena, 1, own)) return false;
+    copy->track = own;
+    *own = *given;
+    int64_t size = from->parts.rows * given->width;
+    if (from->can_inherit) {
+        Doubles2 known = given->inherited;
+        if (!take_doubles2(&copy->history, known.rows, known.columns, &own->inherited)) return false;
+        copy_columns(const_doubles2(known), 0, known.columns, own->inherited, 0);
+    }
+    if (!from->can_follow) return true;
+    if (!make_bank(&copy->history, MATRIX_BANK, &own->bank)
+        || !take_ints(&copy->levels, given->levels.size, &own->levels))
+        return false;
+    memcpy(own->bank.slots.data, given->bank.slots.data, (size_t)own->bank.slots.size * sizeof(uint32_t));
+    memcpy(own->bank.weights.data, given->bank.weights.data,
+        (size_t)(own->bank.weights.rows * own->bank.weights.columns) * sizeof(int32_t));
+    memcpy(own->levels.data, given->levels.data, (size_t)own->levels.size * sizeof(int32_t));
+    for (int64_t t = 0; t < MOST_KEPT; t++) {
+        if (given->ring[t].data == NULL) continue;
+        if (!take_doubles(&copy->history, size, own->ring + t)) return false;
+        memcpy(own->ring[t].data, given->ring[t].data, (size_t)size * sizeof(double));
+    }
+    return true;
+}
+
+bool write_basis(Gops *gops, GopField field, int64_t frames, ConstDoubles2 spectrum, Writing *writing, Arena *scratch,
+    Doubles2 *basis) {
+    gops->parts.context->writing = writing;
+    bool done = code_basis(gops->parts.context, &field, frames, spectrum, scratch, scratch, basis);
+    gops->parts.context->writing = NULL;
+    return done;
+}
+
+bool write_gop(Gops *gops, int method, int64_t frames, GopField field, ConstDoubles2 wanted, Writing *writing,
+    Arena *scratch) {
+    Gop gop = {.method = method, .frames = frames, .coded = frames, .count = 1, .field = &field};
+    if (!take_longs(scratch, frames, &gop.shown)) return false;
+    for (int64_t t = 0; t < frames; t++) gop.shown.data[t] = t;
+    gops->wanted = wanted;
+    gops->parts.context->writing = writing;
+    bool done = decode_gop(gops, &gop, scratch);
+    gops->parts.context->writing = NULL;
+    gops->wanted = (ConstDoubles2){NULL, 0, 0};
+    return done;
+}
+#endif

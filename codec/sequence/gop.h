@@ -23,6 +23,13 @@ typedef struct {
     GopField *field;
 } Gop;
 
+/* Whether an encoder may choose levels, in place of those that are read. */
+#ifdef BSMDEC_WRITES
+enum { CHOOSES = 1 };
+#else
+enum { CHOOSES = 0 };
+#endif
+
 INLINE bool has_basis(const Gop *gop) { return gop->method == LEARNED || gop->method == LEARNED_NEXT; }
 
 /* An attribute that moves, and what its first values have beyond those of vertex 0; no rows if they are lost. */
@@ -70,11 +77,14 @@ typedef struct {
     int64_t together;        /* low-delay frames of the GOP before, 0 without */
     /* The present GOP: a field, and over which basis it is shown. */
     Gop gop;
+    ConstDoubles2 wanted;    /* of an encoder: the field whose levels are chosen; otherwise no rows */
     Doubles2 field;
     Doubles2 *basis;         /* of each track: d Q rows */
     Doubles2 *batch;         /* some frames of each track, from `batched` on */
     int64_t batched;
 } Gops;
+
+INLINE bool chooses(const Gops *gops) { return CHOOSES && gops->wanted.rows > 0; }
 
 /* Whether there is room for a GOP, and its work is paid for (S 8). */
 bool reserve_gop(Gops *gops, const Gop *gop, double received);

@@ -116,7 +116,9 @@ KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 mome
  * the end of a row the best survivor stays: what the rows behind are predicted from.
  */
 
-enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, LARGEST_LEVEL = (1 << 23) - 1, PRICED = 6 };
+enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, PRICED = 6 };
+/* Squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones. */
+static const double WEIGHT = 0.1;
 #define NEVER __builtin_inf()
 
 /* What magnitudes cost on either grid, in 1 / BIT_UNIT of a bit, by the class of what is known around them: means of
@@ -187,14 +189,14 @@ INLINE const int16_t (*prices_at(Ints2 levels, ConstInts2 reference, int64_t j, 
 #undef B
 }
 
-/* Fills `levels` and `decoded` from `targets`, and moments as the decoder has them afterwards. `weight` is the squared
- * steps that a bit is worth; `lead` and `stair` are as of code_matrix. Scratch: `factor` and `row` as of follow_rows,
- * `expected` of 2 STATES + 1 rows, for each coded column an entry of `slow`, and a row of STATES of the others. */
+/* Fills `levels` and `decoded` from `targets`, and moments as the decoder has them afterwards. `lead` and `stair`
+ * are as of code_matrix. Scratch: `factor` and `row` as of follow_rows, `expected` of 2 STATES + 1 rows, for each coded
+ * column an entry of `slow`, and a row of STATES of the others. */
 KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstInts2 reference, int64_t lead, int64_t stair,
-    double weight, Ints2 levels, Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row,
+    Ints2 levels, Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row,
     Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins, Longs slow) {
     int64_t count = known.columns, size = moments.rows, width = moments.columns, coded = width - count;
-    double *now = row.data, half_step = 0.5 * step, bit = 4.0 * weight / BIT_UNIT;
+    double *now = row.data, half_step = 0.5 * step, bit = 4.0 * WEIGHT / BIT_UNIT;
     int state = 0;
     for (int64_t i = 0; i < coded; i++) slow.data[i] = 0;
     for (int64_t j = 0; j < levels.rows; j++) {

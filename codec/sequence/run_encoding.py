@@ -65,8 +65,8 @@ class FirstFrame:
         """Whether decoders have the memory for a GOP, with attributes that move about as positions do."""
         (positions,) = body.fields
         others = (
-            replace(positions, width=track.width, components=-(-positions.components * track.width // 3))
-            for track in self.setting.tracks[1:]
+            replace(positions, width=width, components=-(-positions.components * width // 3))
+            for width in self.setting.widths[1:]
         )
         needed = self.kept.memory + self.setting.memory_for(replace(body, fields=(positions, *others)))
         return needed <= self.limits.memory_for(self.kept.vertices, self.kept.received + body.size)
@@ -101,7 +101,7 @@ def encode_first_frame(
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-    setting = make_setting(scheme, prepared.mesh.faces, positions, threads=options.threads, moving=moving)
+    setting = make_setting(scheme, prepared.mesh.faces, positions, moving)
     memory = mesh_memory(header.vertices, header.faces) + setting.memory
     received = len(prepared.connectivity.data) + sum(len(block.packet.data) + FRAME for block in blocks)
     kept = Kept(before.vertices + header.vertices, before.memory + memory, before.received + received)

@@ -3,11 +3,13 @@
 
 #include "bitstream/kernel.h"
 
+enum { LARGEST_LEVEL = (1 << 23) - 1 }; /* that is coded */
+
 void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 moments, double step, Doubles mean, Doubles row);
 void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded, Doubles2 moments, double step,
     Doubles2 factor, Doubles row, Doubles expected);
 void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstInts2 reference, int64_t lead, int64_t stair,
-    double weight, Ints2 levels, Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row,
+    Ints2 levels, Doubles2 decoded, Doubles2 moments, double step, Doubles2 factor, Doubles row,
     Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins, Longs slow);
 /* BENDING: the columns that GOPs know of positions about a part: they, their squares and their cubes (S 3.7).
  * INHERITED: components of a GOP that those of the next one are predicted from: motion is repeated in other mixtures.
@@ -24,9 +26,5 @@ static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 
 INLINE int64_t frames_kept(int64_t vertices) {
     return least(MOST_KEPT, largest(LEAST_KEPT, POSITIONS_KEPT / vertices));
 }
-void bend_columns(ConstDoubles2 part, ConstDoubles2 positions, Doubles2 columns);
 int64_t ISA(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames);
 int64_t ISA(turn_columns)(Doubles2 free, Doubles vector, Doubles shares);
-/* The basis of levels, d T rows of each, given cosines over time (S 5.2); there is room in all but these. */
-int64_t basis_of_levels(ConstInts2 levels, ConstInts exponents, ConstDoubles2 time, Doubles2 turned, Doubles vector,
-    Doubles shares, Doubles2 basis);

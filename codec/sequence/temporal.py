@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import codec as _kernels
-from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.arrays import Matrix
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 
 OCTAVE = 4  # exponents of the steps of a basis are in units of 1 / OCTAVE octaves
@@ -62,21 +62,12 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
 
 
 def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> Matrix:
-    """Free parameters of a basis, shape (dT, r), d being `width`, as cosines over time in steps: shape (d, T, r)."""
+    """Free parameters of a basis, shape (dT, r), d being `width`, as cosines over time in steps, shape (dT, r)."""
     rows, components = basis.shape
     cosines = time_cosines(rows // width).T @ basis.reshape(width, rows // width, components)
     free = free_of(cosines.transpose(1, 0, 2).reshape(rows, components)) / basis_steps(exponents)
-    return np.ascontiguousarray(free.reshape(rows // width, width, components).transpose(1, 0, 2))
-
-
-def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
-    """The basis, shape (dT, r), of levels, shape (d, T, r); its columns are orthogonal."""
-    width, frames, components = levels.shape
-    basis = np.empty((width * frames, components))
-    rows = np.ascontiguousarray(levels).reshape(basis.shape)
-    scratch = np.empty_like(basis), np.empty(len(basis)), np.empty(components)
-    _kernels.basis_of_levels(rows, exponents, time_cosines(frames), *scratch, basis)
-    return basis
+    by_number = free.reshape(rows // width, width, components).transpose(1, 0, 2)
+    return np.ascontiguousarray(by_number).reshape(rows, components)
 
 
 def free_of(columns: Matrix) -> Matrix:

@@ -530,9 +530,11 @@ class Chain : public Steps {
         ChainRules rules = {exact, springs, power, iterations, key_iterations, apart, key_interval, whole, shift};
         run([&] { return begin_coded_chain(chain, rules, offsets, neighbors, cores, starts, edges, members); });
     }
-    // Hang the parts that blocks grew from on each other, by a first frame.
-    void hang(ConstInts2 faces, ConstDoubles2 first_frame) {
-        run([&] { return hang_parts(chain, faces, first_frame); });
+    // Hang the parts that blocks grew from on each other, by a first frame; see chaining.h.
+    auto hang(ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths) {
+        double facts[4] = {};
+        run([&] { return hang_parts(chain, faces, first_frame, starts, widths, facts); });
+        return std::make_tuple(facts[0], facts[1], facts[2], facts[3]);
     }
     // Vertices of the next block, what continues the known ones, and weights in a blend.
     auto begin(int64_t index) {
@@ -563,30 +565,41 @@ class Chain : public Steps {
         run([&] { return commit_coded_block(chain, width, positions); });
     }
 
-    friend class Part;
+    friend class Track;
 };
 
-// A part of a mesh whose frames move, of a chain that stays, and its dictionary.
-class Part : public Steps {
-  public:
-    Part(const Chain &whole, int64_t index) {
-        run([&] { return begin_coded_part(chain, whole.chain, index); });
-        part = present_part(chain);
-    }
-    // Vertices, those around it, columns, and bytes that decoders keep of it and take for making its dictionary.
-    auto facts() {
-        return std::make_tuple(copied(part->vertices), copied(part->around), part->width, part->memory,
-            part->making);
-    }
-    void coefficients(ConstDoubles2 values, ConstDoubles2 ends, Doubles2 found) {
-        run([&] { return part_coefficients(chain, values, ends, found); });
-    }
-    void values(ConstDoubles2 coefficients, ConstDoubles2 ends, Doubles2 found) {
-        run([&] { return part_values(chain, coefficients, ends, found); });
+// Positions or an attribute that moves, as GOPs go on; of a chain that stays.
+class Track : public Steps {
+    template <typename Work> auto coded(Work work) {
+        ConstDoubles2 found = {nullptr, 0, 0};
+        run([&] {
+            Writing *writing = encoding_anew(encoding);
+            return writing != nullptr && work(writing, &found);
+        });
+        const Writing &written = *encoding_payloads(encoding);
+        return std::make_tuple(nb::bytes(written.data, (size_t)written.size),
+            copy_of(found.data, found.columns > 0 ? found.rows : 0, found.columns));
     }
 
-  private:
-    const CodedPart *part;
+  public:
+    Track(const Chain &whole, int64_t number) {
+        run([&] { return begin_track(chain, whole.chain, number); });
+    }
+    Track(const Track &other) {
+        run([&] { return begin_track(chain, other.chain, 0); });
+    }
+    // The payload of a basis, and the basis.
+    auto basis(ConstInts exponents, ConstDoubles2 spectrum) {
+        return coded([&](Writing *writing, ConstDoubles2 *found) {
+            return write_track_basis(chain, exponents, spectrum, writing, found);
+        });
+    }
+    // The payload of levels, and the field.
+    auto code(int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted) {
+        return coded([&](Writing *writing, ConstDoubles2 *found) {
+            return write_track(chain, method, frames, step, back, wanted, writing, found);
+        });
+    }
 };
 
 // A graph that is cut into parts and blocks.
@@ -673,18 +686,18 @@ NB_MODULE(_core, m) {
             "springs"_a, "power"_a, "iterations"_a, "key_iterations"_a, "apart"_a, "key_interval"_a, "whole"_a,
             "shift"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
             nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>())
-        .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a)
+        .def("hang", in_turn(&Chain::hang), "faces"_a, "first_frame"_a, "starts"_a, "widths"_a)
         .def("begin", in_turn(&Chain::begin), "index"_a)
         .def("site", in_turn(&Chain::site))
         .def("costs", in_turn(&Chain::costs), "width"_a)
         .def("dictionary", in_turn(&Chain::dictionary), "width"_a)
         .def("give", in_turn(&Chain::give), "own"_a)
         .def("commit", in_turn(&Chain::commit), "width"_a, "positions"_a);
-    nb::class_<Part>(m, "Part")
-        .def(nb::init<const Chain &, int64_t>(), "whole"_a, "index"_a, nb::keep_alive<1, 2>())
-        .def("facts", in_turn(&Part::facts))
-        .def("coefficients", in_turn(&Part::coefficients), "values"_a, "ends"_a, "found"_a)
-        .def("values", in_turn(&Part::values), "coefficients"_a, "ends"_a, "found"_a);
+    nb::class_<Track>(m, "Track")
+        .def(nb::init<const Chain &, int64_t>(), "whole"_a, "number"_a, nb::keep_alive<1, 2>())
+        .def(nb::init<const Track &>(), "other"_a, nb::keep_alive<1, 2>())
+        .def("basis", in_turn(&Track::basis), "exponents"_a, "spectrum"_a)
+        .def("code", in_turn(&Track::code), "method"_a, "frames"_a, "step"_a, "back"_a, "wanted"_a);
     nb::class_<Cut>(m, "Cut")
         .def(nb::init<ConstInts, ConstInts>(), "offsets"_a, "neighbors"_a, nb::keep_alive<1, 2>(),
             nb::keep_alive<1, 3>())

@@ -2,7 +2,7 @@
 
 #include "codec/signal/signal.h"
 #include "codec/signal/chain.h"
-#include "codec/sequence/gop.h"
+#include "codec/sequence/frames.h"
 #include "library/writing.h"
 
 struct CodedChain {
@@ -15,9 +15,7 @@ struct CodedChain {
     CodedBlock shown;
     int64_t index;
     Singles2 dictionary;
-    Parts parts;
-    const Site *site;
-    CodedPart part;
+    Gops gops;
 };
 
 CodedChain *open_chain(Writer *writer) {
@@ -28,6 +26,7 @@ CodedChain *open_chain(Writer *writer) {
 }
 
 void close_chain(CodedChain *chain) {
+    end_gops(&chain->gops);
     if (chain->blocks.count > 0) end_chains(&chain->chains);
 }
 
@@ -210,58 +209,72 @@ bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 position
     return true;
 }
 
-bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame) {
+bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths,
+    double *facts) {
     Writer *writer = chain->writer;
-    bool fits = first_frame.rows == chain->graph.size && first_frame.columns == 3 && faces.columns == 3
-        && are_below(faces.data, 3 * faces.rows, 0, first_frame.rows);
-    if (!fits) return FAIL(&writer->context, MISUSED, "the first frame does not fit the graph");
-    chain->parts = (Parts){.context = &writer->context, .header = &chain->header, .graph = &chain->graph,
-        .blocks = &chain->blocks, .arena = &writer->arena};
-    return find_parts(&chain->parts, faces, first_frame, &writer->scratch);
-}
-
-bool begin_coded_part(CodedChain *part, const CodedChain *whole, int64_t index) {
-    Writer *writer = part->writer;
-    if (index < 0 || index >= whole->parts.count) return FAIL(&writer->context, MISUSED, "part # is not there", index);
-    const Site *site = part->site = whole->parts.part + index;
-    part->part = (CodedPart){site->patch.vertices, const_ints(site->around), site->width, site->memory, site->making};
-    bool made = key_dictionary(&writer->context, &whole->header, &site->patch, const_doubles(site->springs), NULL,
-        site->width, &writer->arena, &writer->scratch, &part->dictionary);
-    release_all(&writer->scratch);
-    return made;
-}
-
-const CodedPart *present_part(const CodedChain *part) { return &part->part; }
-
-static bool extend(CodedChain *part, ConstDoubles2 ends, int64_t columns, Doubles2 *extension) {
-    Writer *writer = part->writer;
-    if (failed(&writer->context)) return false;
-    if (ends.rows != part->site->around.size || ends.columns != columns)
-        return FAIL(&writer->context, MISUSED, "values around a part do not fit it");
-    release_all(&writer->scratch);
-    return take_doubles2(&writer->scratch, part->site->patch.size, columns, extension)
-        && extend_part(part->site, ends, &writer->scratch, *extension);
-}
-
-bool part_coefficients(CodedChain *part, ConstDoubles2 values, ConstDoubles2 ends, Doubles2 coefficients) {
-    Doubles2 rest;
-    if (values.rows != part->site->patch.size || coefficients.rows != part->dictionary.columns
-        || coefficients.columns != values.columns)
-        return FAIL(&part->writer->context, MISUSED, "values do not fit the rows of a part");
-    if (!extend(part, ends, values.columns, &rest)) return false;
-    for (int64_t i = 0; i < values.rows * values.columns; i++) rest.data[i] = values.data[i] - rest.data[i];
-    project(const_singles2(part->dictionary), const_doubles2(rest), coefficients);
+    Arena *scratch = &writer->scratch;
+    int64_t n = chain->graph.size, columns = 0;
+    MovingAttribute *moving;
+    bool fits = first_frame.rows == n && first_frame.columns == 3 && faces.columns == 3 && !chain->gops.begun
+        && starts.rows == n && widths.size < MOST_ATTRIBUTES && are_below(faces.data, 3 * faces.rows, 0, n);
+    for (int64_t k = 0; k < widths.size; k++) columns += widths.data[k];
+    if (!fits || columns != starts.columns)
+        return FAIL(&writer->context, MISUSED, "a first frame does not fit the graph");
+    if (!TAKE_ZEROS(&writer->arena, widths.size, moving)) return false;
+    for (int64_t k = 0, from = 0; k < widths.size; from += widths.data[k++]) {
+        moving[k].width = widths.data[k];
+        if (!take_doubles2(scratch, n, widths.data[k], &moving[k].start)) return false;
+        for (int64_t i = 0; i < n * widths.data[k]; i++)
+            moving[k].start.data[i] = starts.data[i / widths.data[k] * columns + from + i % widths.data[k]];
+    }
+    if (!begin_gops(&chain->gops, &writer->context, &chain->header, &chain->graph, &chain->blocks, faces, first_frame,
+            n, moving, (int)widths.size, scratch))
+        return false;
+    release_all(scratch);
+    const Parts *parts = &chain->gops.parts;
+    for (int64_t i = 0; i < parts->count; i++) facts[0] += parts->part[i].memory;
+    facts[1] = parts->around;
+    facts[2] = (double)parts->largest;
+    facts[3] = parts->making;
     return true;
 }
 
-bool part_values(CodedChain *part, ConstDoubles2 coefficients, ConstDoubles2 ends, Doubles2 values) {
-    Doubles2 extension;
-    if (coefficients.rows != part->dictionary.columns || values.rows != part->site->patch.size
-        || coefficients.columns != values.columns)
-        return FAIL(&part->writer->context, MISUSED, "coefficients do not fit the columns of a part");
-    if (!extend(part, ends, values.columns, &extension)) return false;
-    reconstruct(const_singles2(part->dictionary), coefficients, values);
-    for (int64_t i = 0; i < values.rows * values.columns; i++) values.data[i] += extension.data[i];
+bool begin_track(CodedChain *track, const CodedChain *from, int64_t k) {
+    Writer *writer = track->writer;
+    if (!from->gops.begun || k < 0 || k >= from->gops.tracks)
+        return FAIL(&writer->context, MISUSED, "track # is not there", k);
+    return copy_gops(&from->gops, (int)k, &writer->context, &writer->arena, &track->gops);
+}
+
+bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, Writing *writing,
+    ConstDoubles2 *basis) {
+    Writer *writer = track->writer;
+    int64_t width = track->gops.track->width;
+    GopField field = {.width = width, .components = spectrum.columns,
+        .exponents = {(int32_t *)exponents.data, exponents.size}}; /* only read */
+    Doubles2 found;
+    if (spectrum.rows < width || spectrum.rows % width != 0 || exponents.size != spectrum.columns)
+        return FAIL(&writer->context, MISUSED, "a basis of # rows for # exponents", spectrum.rows, exponents.size);
+    release_all(&writer->scratch);
+    bool done = write_basis(&track->gops, field, spectrum.rows / width, spectrum, writing, &writer->scratch, &found);
+    if (done) *basis = const_doubles2(found);
+    return done;
+}
+
+bool write_track(CodedChain *track, int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted,
+    Writing *writing, ConstDoubles2 *field) {
+    Writer *writer = track->writer;
+    Gops *gops = &track->gops;
+    bool coded = wanted.rows > 0;
+    GopField given = {.width = gops->track->width, .components = coded ? wanted.columns : 0, .back = back,
+        .step = coded ? step : 0};
+    bool fits = frames > 0 && method >= LEARNED && method <= LEARNED_NEXT
+        && (!coded || (wanted.rows == gops->parts.graph->size && step > 0
+            && (method == LEARNED || method == LEARNED_NEXT || wanted.columns == given.width * frames)));
+    if (!fits) return FAIL(&writer->context, MISUSED, "a field of # columns for # frames", wanted.columns, frames);
+    release_all(&writer->scratch);
+    if (!write_gop(gops, method, frames, given, wanted, writing, &writer->scratch)) return false;
+    *field = const_doubles2(gops->field);
     return true;
 }
 

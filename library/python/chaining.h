@@ -54,19 +54,20 @@ ConstSingles2 present_dictionary(const CodedChain *chain);
 /* Positions become what the next block knows, and the first `width` columns its predecessor's U. */
 bool commit_coded_block(CodedChain *chain, int64_t width, ConstDoubles2 positions);
 
-/* The parts that the blocks of a chain grew from, as decoders of sequences have them; then one of them with its
- * dictionary, in memory of its own: several can be made at a time. */
-bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame);
-typedef struct {
-    ConstInts vertices, around;
-    int64_t width;
-    double memory, making; /* bytes that decoders keep of it besides its dictionary, and bytes for making that */
-} CodedPart;
-bool begin_coded_part(CodedChain *part, const CodedChain *whole, int64_t index);
-const CodedPart *present_part(const CodedChain *part);
-/* Coefficients of values less their extension from the `ends` around the part, and values of coefficients. */
-bool part_coefficients(CodedChain *part, ConstDoubles2 values, ConstDoubles2 ends, Doubles2 coefficients);
-bool part_values(CodedChain *part, ConstDoubles2 coefficients, ConstDoubles2 ends, Doubles2 values);
+/* What all GOPs of a mesh share: the parts that blocks grew from, and the first values of attributes that move, side by
+ * side in `starts`. Facts: bytes that decoders keep of parts, besides their dictionaries; rows around them; rows of the
+ * largest part; bytes for making a dictionary. */
+bool hang_parts(CodedChain *chain, ConstInts2 faces, ConstDoubles2 first_frame, ConstDoubles2 starts, ConstInts widths,
+    double *facts);
+/* Positions, or an attribute that moves, of a chain that stays, before the first GOP; or as another one is now. */
+bool begin_track(CodedChain *track, const CodedChain *from, int64_t k);
+struct Writing;
+/* Write a basis, of what is free in it, or the levels of a field (codec/sequence/frames.h); without rows it is not
+ * coded. What is decoded lasts until the next call. */
+bool write_track_basis(CodedChain *track, ConstInts exponents, ConstDoubles2 spectrum, struct Writing *writing,
+    ConstDoubles2 *basis);
+bool write_track(CodedChain *track, int method, int64_t frames, double step, int64_t back, ConstDoubles2 wanted,
+    struct Writing *writing, ConstDoubles2 *field);
 
 /* Bytes for decoding a GOP whose fields have these widths and components; `around`: rows around parts. */
 double memory_of_gop(int method, int64_t frames, ConstLongs2 fields, int64_t vertices, double around);

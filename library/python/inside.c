@@ -91,6 +91,10 @@ static bool begin_again(Encoding *encoding, int64_t room) {
     return begin_payloads(&encoding->writer.context, room, &encoding->payloads);
 }
 
+Writing *encoding_anew(Encoding *encoding) {
+    return begin_again(encoding, 1 << 12) ? &encoding->payloads : NULL;
+}
+
 bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
     int32_t *faces, uint8_t *turns) {
     return begin_again(encoding, 1 << 16)

@@ -42,6 +42,8 @@ CodedChain *encoding_chain(Encoding *encoding);
 const bsmdec_error *encoding_error(const Encoding *encoding);
 /* The payloads of the last call that wrote some. */
 const Writing *encoding_payloads(const Encoding *encoding);
+/* Where payloads are written next, in the place of these; NULL without memory. */
+Writing *encoding_anew(Encoding *encoding);
 bool encode_faces(Encoding *encoding, Written given, int64_t vertices, int32_t *order, int32_t *face_order,
     int32_t *faces, uint8_t *turns);
 /* ORDER of joined faces, which `values` has as they are coded, and of given vertices and faces, or NULL. */

@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import Place, write_faces
-from bsm.bitstream.coefficients.matrices import Levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, Splits, encode_connectivity, encode_order
 from bsm.bitstream.connectivity.partition import encode_labels
@@ -27,7 +26,7 @@ from bsm.codec.static.attributes.encoding import Surface, carry, field_of, write
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.ways.grid import levels_field
 from tools.gridded import gridded
-from tools.payloads import encode_levels
+from tools.payloads import Ints, encode_levels, make_level_bank
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 from tools.vectors.meshes import torus
 
@@ -239,7 +238,7 @@ def _joined(streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody |
     return stream_of(frames)
 
 
-def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
+def level_references(matrices: list[Ints], columns: int) -> list[Ints]:
     """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP."""
     return [np.zeros((0, columns), np.int32), *matrices[:-1]]
 

@@ -2,10 +2,9 @@ import numpy as np
 import pytest
 
 from bsm import CorruptError, OptionError
-from bsm.bitstream.coefficients.matrices import make_level_bank
 from bsm.bitstream.coefficients.packed import compress, pack_coefficients, unpack_coefficients
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod, write_gop_body
-from tools.payloads import encode_levels
+from tools.payloads import encode_levels, make_level_bank
 
 
 def empty(columns):
