@@ -40,7 +40,7 @@ def _wheels(given: list[Path]) -> Iterator[list[Path]]:
         yield given
         return
     with tempfile.TemporaryDirectory() as folder:
-        pip = [sys.executable, "-m", "pip", "--quiet"]
+        pip = [sys.executable, "-m", "pip"]  # which says what it does: compiling takes minutes
         subprocess.run([*pip, "wheel", "--no-deps", "-w", folder, str(ROOT)], check=True)
         subprocess.run([*pip, "download", "--no-deps", "--only-binary", ":all:", "-d", folder, "msgpack"], check=True)
         yield sorted(Path(folder).glob("*.whl"))
