@@ -180,6 +180,8 @@ class TestPictures:
                 assert path.read_bytes().startswith(start)
         names = {f"{stem}.{suffix}" for stem in ("m.paper", "m.nmsve", "m.theta") for suffix in ("png", "svg", "pdf")}
         assert {path.name for path in tmp_path.iterdir()} == names
+        exact = [{**found, "points": [{**p, "nmsve_db": None} for p in found["points"]]} for found in results[:3]]
+        assert [picture.name for picture in draw_all(exact)] == ["m.theta"]
 
     def test_lines_that_lie_on_each_other_are_drawn_once(self):
         points = [(1.0, -40.0), (2.0, -45.0)]

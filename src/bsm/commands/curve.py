@@ -54,6 +54,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     pictures: list[rates.Picture] = []
     with TemporaryDirectory() as folder:
         _run(args, Path(folder), console, lambda _, drawn: pictures.extend(drawn))
+    if not pictures:
+        raise OptionError(f"{output}: nothing to draw: all points are exact")
     picture = rates.in_a_row(output.stem, pictures)
     picture.save(output.parent, (output.suffix[1:],), overwrite=args.force, follow=True)
     console.note(str(output))

@@ -489,16 +489,17 @@ def draw_all(results: Iterable[Result]) -> Iterator[Picture]:
     for mesh, group in by_mesh.items():
         paper = [r for r in group if r["points"] and "bits" in r["points"][0]["settings"]]
         rest = [r for r in group if r not in paper]
-        if paper:
-            points = {r["codec"]: [(p["bpv_paper"], p["nmsve_db"]) for p in r["points"]] for r in paper}
-            lines = distinct({r["codec"]: Line(r["label"], points[r["codec"]]) for r in paper})
+        usable = {r["codec"]: (r["label"], points_of(r["points"], "nmsve_db")) for r in paper}
+        pairs = {c: Line(label, [(p["bpv_paper"], p["nmsve_db"]) for p in each]) for c, (label, each) in usable.items()}
+        if lines := distinct({codec: line for codec, line in pairs.items() if line.points}):
             yield draw_rates({title_of(group[0]): lines}, PAPER_RATE, MEASURES["nmsve_db"], f"{mesh}.paper")
         if rest:  # SVD in the paper's mode represents the paper among whole files.
             shown[mesh] = [*rest, *(r for r in paper if r["codec"] in ("svd", "oi-r2"))]
     stem = next(iter(shown)) if len(shown) == 1 else "meshes"
     for measure, label in MEASURES.items() if shown else ():
-        panels = {title_of(group[0]): lines_of(group, measure) for group in shown.values()}
-        yield draw_rates(panels, "bits per vertex, whole file", label, f"{stem}.{measure.split('_')[0]}")
+        every = {title_of(group[0]): lines_of(group, measure) for group in shown.values()}
+        if panels := {title: lines for title, lines in every.items() if lines}:
+            yield draw_rates(panels, "bits per vertex, whole file", label, f"{stem}.{measure.split('_')[0]}")
 
 
 SAME = 0.02

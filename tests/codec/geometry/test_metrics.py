@@ -98,6 +98,10 @@ def test_kg_error_is_relative_to_the_extent() -> None:
     assert compare_sequences(frames, frames + np.array([0.0, offset, 0]), TWO).kg == pytest.approx(10.0)
     points = np.zeros((2, 4, 3))
     assert compare_sequences(points, points + 1, TWO).kg == math.inf
+    steady = np.linspace(1, 2, 9, dtype=np.float32)[:, None, None] * frames[0].astype(np.float32)
+    assert (
+        compare_sequences(steady, steady + np.random.default_rng(1).normal(size=steady.shape), TWO).flicker == math.inf
+    )
 
 
 def test_wrong_shapes_are_refused() -> None:
