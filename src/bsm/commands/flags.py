@@ -126,9 +126,9 @@ def named_quality(text: str) -> tuple[str, str]:
     return name, quality
 
 
-_TYPES: dict[str, Callable[[str], Any]] = {
+_TYPES: dict[str, Callable[[str], Any]] = {str(count): numbers(count) for count in (2, 3, 6)} | {
     **{"int": int, "float": float, "length": number_or_length, "yes": lambda text: text == "yes"},
-    **{"2": numbers(2), "3": numbers(3), "count": within(0), "positive": within(1), "port": within(0, 65535)},
+    **{"count": within(0), "positive": within(1), "port": within(0, 65535)},
 }
 _ACTIONS: dict[str, dict[str, Any]] = {
     "onoff": {"action": argparse.BooleanOptionalAction},
@@ -219,10 +219,6 @@ def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
     """Return the flags of a command line as a dataclass with fields of the same names."""
     given = {field.name: getattr(args, field.name) for field in fields(kind) if hasattr(args, field.name)}  # type: ignore[arg-type]
     return kind(**{**given, **more})
-
-
-def add_limits_flag(parser: argparse.ArgumentParser) -> None:
-    add_flags(parser, "limits")
 
 
 def limits_of(name: str) -> Limits:

@@ -10,7 +10,7 @@ from typing import Any
 
 from bsm.bitstream.errors import BsmError, FormatError, OptionError, counted
 from bsm.codec.threads import available_threads
-from bsm.commands.flags import adder, asked, numbers, within
+from bsm.commands.flags import add_flags, adder, asked, within
 from bsm.console import Console, print_json
 from bsm.exits import report_error
 from bsm.files.images import ImageRule
@@ -29,22 +29,12 @@ from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    add("input", "MESH", "binary PLY, binary STL or OBJ of any size, or a URL")
-    add("-o --output", "FOLDER", "folder or URL for the shards and manifest.json", required=True)
-    add("--format", "", "format of the input (default: by its name or content)", choices=("ply", "stl", "obj"))
+    add_flags(parser, "tile")
     add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
-    add("--grid-cell", "H", "cell of the grid of all tiles (default: by the look distance)", type=float)
-    add("--grid-origin", "X,Y,Z", "a point of the grid (default 0,0,0)", type=numbers(3))
-    add("--finest", "", "write only the finest level")
-    add("--work", "FOLDER", "folder for temporary files, several times the input (default: OUTPUT/.work)")
-    add("-j --jobs", "N", "work on N tiles at a time; 0: one per core (default 1)", type=within(0), default=1)
-    add("--dask", "ADDRESS", "run on the Dask cluster of this scheduler; its machines must share the folders")
-    add("--resume", "", "continue a stopped run from the files in --work")
     more = "also write tileset.json (3D Tiles) and a GLB for each tile. "
     add("--tileset", "", more + CONTENT_HELP, nargs="?", choices=CONTENTS, const=CONTENTS[0])
     images = "how the textures of tiles are written: webp, webp:85, jpeg:90 (default webp)"
     add("--images", "RULE", images, type=ImageRule.parse, default=ImageRule("webp"))
-    add("--json", "", "print the manifest")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

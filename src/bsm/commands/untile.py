@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_limits_flag, adder, limits_of, numbers
+from bsm.commands.flags import add_flags, adder, limits_of
 from bsm.console import Console
 from bsm.files.mesh import by_name
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
@@ -14,15 +14,9 @@ from bsm.tiles.shards import open_tiles
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add, of = adder(parser), adder(parser.add_mutually_exclusive_group())
-    add("input", "FOLDER", "folder of tiles, or its URL")
-    output = ".ply of any size, - for a pipe, or .../tileset.json (3D Tiles). Other formats must fit into memory"
-    add("-o --output", "OUT", output, required=True)
-    add("--box", "X,Y,Z,X,Y,Z", "only triangles that meet this box; they must fit into memory", type=numbers(6))
-    of("--level", "N", "level of detail; 0 is the coarsest (default: the finest)", type=int)
-    of("--error", "H", "the coarsest tiles with an error of at most H, in the unit of the mesh", type=float)
-    add("--content", "", CONTENT_HELP, choices=CONTENTS, default=CONTENTS[0])
-    add_limits_flag(parser)
+    add_flags(parser, "untile", "limits")
+    add_flags(parser.add_mutually_exclusive_group(), "untile one of")
+    adder(parser)("--content", "", CONTENT_HELP, choices=CONTENTS, default=CONTENTS[0])
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
