@@ -12,9 +12,11 @@ import pytest
 import bsm
 from bsm.codec.geometry.metrics import distances_to_surface, face_normals
 from bsm.commands import tile as command
+from bsm.console import Console
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.gltf.coding import EXTENSION
 from bsm.gltf.document import read_document
+from bsm.tiles import reading
 from bsm.tiles.cutting import Lattice
 from bsm.tiles.making import simplified, welded
 from tests.bsm.program import bsm as program
@@ -277,6 +279,27 @@ def test_a_textured_tile_shows_what_the_mesh_shows(tmp_path):
     assert all(word in glb for word in (b"baseColorTexture", b"image/png", b"NORMAL"))
     tree = json.loads((tmp_path / "out" / "tileset.json").read_text())
     assert tree["root"]["geometricError"] == 16 * next(entry for _, entry in tiles.all() if entry.name == "r").error
+
+
+def test_pieces_of_an_obj_are_read_as_the_whole(tmp_path, monkeypatch):
+    image = pytest.importorskip("PIL.Image")
+    image.new("RGB", (2, 2), (255, 0, 0)).save(tmp_path / "red.png")
+    (tmp_path / "a.mtl").write_text("newmtl red\nmap_Kd red.png\nnewmtl plain\n")
+    points = [f"v {x} {y} 0\nvt {x / 9} {y / 9}\n" for y in range(9) for x in range(9)]
+    squares = [f"f {a}/{a} {a + 1}/{a + 1} {a + 10}/{a + 10} {a + 9}/{a + 9}\n" for a in range(1, 72) if a % 9]
+    last = "v 0 0 1\nvt 1 1\nusemtl plain\nf 1 2 -1\nf 2/-1 3/1 -1\n"
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\n" + "".join(points) + "usemtl red\n" + "".join(squares) + last)
+    found = []
+    for size in (1 << 23, 100):
+        monkeypatch.setattr(reading, "_TEXT", size)
+        (folder := tmp_path / str(size)).mkdir()
+        raw = reading.read_big(str(tmp_path / "a.obj"), None, folder, Console(quiet=True))
+        assert raw.textures == 2 and not raw.left_out
+        found.append(contents(folder))
+    assert found[0] == found[1]
+    faces = raw.table("faces")
+    assert faces[-2:].tolist() == [[0, 1, 81, 0, 0, 0, 1], [1, 2, 81, 82, 1, 0, 1]]
+    assert len(faces) == 130 and not faces[:-2, 6].any() and (faces[:-2, 3:6] == faces[:-2, :3] + 1).all()
 
 
 @pytest.mark.parametrize(("suffix", "names"), [("ply", "s, t"), ("obj", "texcoord")])

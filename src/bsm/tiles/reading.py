@@ -274,6 +274,8 @@ def _of_obj(text: bytes, raw: Raw) -> Pieces:
     yield "positions", piece.positions
     yield "texcoord", columns["texcoord"].values[:, :2]
     yield from (("color", column.values) for column in piece.columns if column.name == "color")
+    if not len(piece.sizes):
+        return
     points, corners = piece.positions, piece.corners
     if (piece.sizes != 3).any():
         used, corners = np.unique(piece.corners, return_inverse=True)
