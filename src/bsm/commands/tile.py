@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
     more = "also write tileset.json (3D Tiles) and a GLB for each tile. "
     add("--tileset", "", more + CONTENT_HELP, nargs="?", choices=CONTENTS, const=CONTENTS[0])
-    images = "how the textures of tiles are written: webp, webp:85, jpeg:90 (default webp)"
+    images = "how the textures of tiles are written: webp, webp:85, jpeg:90@2048 (default webp)"
     add("--images", "RULE", images, type=ImageRule.parse, default=ImageRule("webp"))
 
 
@@ -137,7 +137,7 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
         raw = read_big(args.input, args.format, work, console)
         if raw.left_out:
             console.note(
-                f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colors, normals"
+                f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colors, normals, textures"
             )
         with console.progress("cutting", until=0.3):
             threads = args.jobs or available_threads()

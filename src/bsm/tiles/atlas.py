@@ -115,6 +115,7 @@ def textured(mesh: TriangleMesh, skin: Skin, atlas: Any, rule: ImageRule) -> Tri
     flat = skin[..., :2].reshape(-1, 2).astype(np.float64) / atlas.size * [1, -1] + [0, 1]
     different, rows = np.unique(flat.astype(np.float32), axis=0, return_inverse=True)
     texcoord = Attribute("texcoord", different, "corner", "texcoord", rows.reshape(-1, 3).astype(np.int32))
+    atlas.thumbnail((rule.side or _MOST_SIDE,) * 2)
     file = io.BytesIO()
     atlas.save(file, rule.kind, quality=rule.quality)
     image: Metadata = {"material.0.map_Kd": 0, "image.0.name": f"atlas.{rule.kind}", "image.0.data": file.getvalue()}
