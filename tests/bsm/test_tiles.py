@@ -562,7 +562,7 @@ def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path, mon
     done = program("tile", tmp_path / "a.obj", "-o", tmp_path / "out", "--work", tmp_path, "--grid-cell", 1, text=True)
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
     printed = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
-    assert "left out: normal; tiles have faces, positions" in printed
+    assert "left out: normal; tiles have positions, faces" in printed
     write_mesh(
         tmp_path / "b.ply", bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 2]]), metadata={"comment": "by a scanner"})
     )

@@ -136,9 +136,8 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     try:
         raw = read_big(args.input, args.format, work, console)
         if raw.left_out:
-            console.note(
-                f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colors, normals, textures"
-            )
+            names = ", ".join(raw.left_out)
+            console.note(f"{args.input}: left out: {names}; tiles have positions, faces, colors, normals, textures")
         with console.progress("cutting", until=0.3):
             threads = args.jobs or available_threads()
             plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin, threads), args.triangles)
