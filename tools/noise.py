@@ -131,11 +131,9 @@ def _length(positions: Positions, faces: Faces, sigma: float) -> float:
     return sigma * mean_edge_length(positions, faces)
 
 
-def denoise_automatically(
-    positions: Positions, faces: Faces, goal: str = "shading"
-) -> tuple[Positions, AutomaticChoice]:
+def denoise_automatically(points: Positions, faces: Faces, goal: str = "shading") -> tuple[Positions, AutomaticChoice]:
     """Return denoised positions, shape (n, 3), of one mesh and the choice that was made for it."""
-    denoiser = FrameDenoiser(positions, faces, goal=goal)
-    (result,) = denoiser([positions])
+    denoiser = FrameDenoiser(points, faces, goal=goal)
+    (result,) = denoiser([points])
     assert denoiser.choice is not None
     return result, denoiser.choice

@@ -18,7 +18,7 @@ from tests.gltf import unpack
 from tools.attack.calls import recorded
 from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth
-from tools.attack.readers import Case, Sample, _grown, numbers, problems, read_all, samples, warm_up, written
+from tools.attack.readers import Case, Sample, grown, numbers, problems, read_all, samples, warm_up, written
 from tools.attack.taken import Taken
 from tools.attack.uses import cases, of_size, uses
 
@@ -92,7 +92,7 @@ def test_what_takes_longer_than_its_size_grows_is_found(monkeypatch):
 
 @linux
 def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
-    for sample in (_grown(1 << 17)["glb, a chain of nodes"](), of_size(USES["glb, materials"], 1 << 17)):
+    for sample in (grown(1 << 17)["glb, a chain of nodes"](), of_size(USES["glb, materials"], 1 << 17)):
         (tmp_path / "a.glb").write_bytes(sample.data)
         assert "read" in read_all(tmp_path / "a.glb", Limits()).outcome
     tree = unpack(samples()["glb"].data)[0]

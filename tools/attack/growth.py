@@ -13,7 +13,7 @@ from functools import partial
 from pathlib import Path
 
 from bsm.bitstream.limits import Limits
-from tools.attack.readers import Sample, _grown, is_ours, reading, warm_up
+from tools.attack.readers import Sample, grown, is_ours, reading, warm_up
 from tools.attack.taken import taken_by_each
 
 SIZE = 1 << 16
@@ -41,7 +41,7 @@ def main() -> int:
     parser.add_argument("--most", type=float, default=MOST_GROWTH, help="growth at four times (default: %(default)s)")
     most = parser.parse_args().most
     warm_up()
-    found = {name: growth(lambda size, name=name: _grown(size)[name](), most) for name in filter(is_ours, _grown(1))}  # type: ignore[misc]
+    found = {name: growth(lambda size, name=name: grown(size)[name](), most) for name in filter(is_ours, grown(1))}  # type: ignore[misc]
     problems = [f"{name}: {problem}" for name, problem in found.items() if problem]
     print("\n".join([*problems, f"{len(found)} files, {len(problems)} findings"]))
     return 1 if problems else 0

@@ -22,6 +22,7 @@ import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
+from itertools import starmap
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -231,12 +232,6 @@ def _remade(text: bytes, binary: bytes) -> Sample:
 # ------------------------------------------------------------------------------------------------- large for its bytes
 
 
-def grown(size: int) -> Iterator[Case]:
-    """Return valid files, or nearly so, of about `size` bytes, each large in one place."""
-    for name, make in _grown(size).items():
-        yield Case(name, make)
-
-
 def _text(suffix: str, head: bytes, line: bytes, size: int, tail: bytes = b"") -> Sample:
     return Sample(suffix, head + line * max(1, size // len(line)) + tail)
 
@@ -246,7 +241,8 @@ def _numbered(suffix: str, head: bytes, line: str, size: int, tail: bytes = b"")
     return Sample(suffix, head + b"".join(lines) + tail)
 
 
-def _grown(size: int) -> dict[str, Callable[[], Sample]]:
+def grown(size: int) -> dict[str, Callable[[], Sample]]:
+    """Return valid files, or nearly so, of about `size` bytes, each large in one place."""
     found: dict[str, Callable[[], Sample]] = {}
     triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"
     for what, line in {
@@ -590,10 +586,8 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
     def stage(inside: bytes) -> Sample:
         return Sample("usda", head + b'def Mesh "a"\n{\n' + inside + tail)
 
-    def many(head: bytes, entry: bytes, count: int, tail: bytes = b"") -> Sample:
-        return Sample(
-            "usda", b"#usda 1.0\n" + head + b"".join(entry.replace(b"#", b"%d" % n) for n in range(count)) + tail
-        )
+    def many(begun: bytes, entry: bytes, count: int, tail: bytes = b"") -> Sample:
+        return Sample("usda", head + begun + b"".join(entry.replace(b"#", b"%d" % n) for n in range(count)) + tail)
 
     begun, samples = b'def Mesh "a"\n{\n' + mesh, b"point3f[] points.timeSamples = {\n"
     return {
@@ -695,7 +689,8 @@ def main() -> int:
     parser.add_argument("--list", action="store_true", help="only say what there is")
     args = parser.parse_args()
     warm_up()
-    cases = [case for case in (*grown(args.bytes), *list(numbers())[:: args.every]) if case.name.startswith(args.only)]
+    every = (*starmap(Case, grown(args.bytes).items()), *list(numbers())[:: args.every])
+    cases = [case for case in every if case.name.startswith(args.only)]
     if args.list:
         print("\n".join(case.name for case in cases))
         return 0

@@ -160,10 +160,6 @@ def _mesh_3mf(size: int) -> str:
     return f'<object id="1"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object>'
 
 
-def _items(size: int, uses: int) -> Sample:
-    return Sample("3mf", three_mf(_mesh_3mf(size), '<item objectid="1"/>' * uses))
-
-
 def _components(size: int, uses: int) -> Sample:
     """As many components of one object, and items of that."""
     root = max(1, int(uses**0.5))
@@ -398,8 +394,9 @@ def uses() -> Iterator[tuple[str, Use]]:
         yield f"moving glb, {change.__name__.strip('_')}", partial(_gltf, change, True)
     yield "moving glb, animations", partial(_gltf, _animations, False)
     yield from (("glb, images", _images), ("gltf, images", _image_by_uri))
-    yield from (("3mf, items", _items), ("3mf, components", _components))
+    yield "3mf, items", lambda size, uses: Sample("3mf", three_mf(_mesh_3mf(size), '<item objectid="1"/>' * uses))
     yield from (
+        ("3mf, components", _components),
         ("obj, materials", _obj_materials),
         ("obj, libraries", _obj_libraries),
         ("obj, polygons", _obj_polygons),

@@ -78,11 +78,7 @@ def _unlearnt(self: Any, begin: Any = adaptive.CoefficientModel.__post_init__) -
     begin(self)
 
 
-def _upright(positions: Any, faces: Any) -> Any:
-    """Frames along the axes of space instead of along normals."""
-    return np.tile(np.eye(3).reshape(-1), (len(positions), 1))
-
-
+UPRIGHT = np.eye(3).reshape(1, 9)  # a frame along the axes of space instead of along normals
 TOOLS: dict[str, Tool] = {
     "blocks (only grids)": Tool({}, [(search.Search, "_ways", _ways(lambda way: isinstance(way, Gridded)))]),
     "refinement (only blocks)": Tool({}, [(search.Search, "_ways", _ways(lambda _: True, plain=True))]),
@@ -98,7 +94,9 @@ TOOLS: dict[str, Tool] = {
         {}, [(search.Search, "_ways", _ways(lambda way: not (isinstance(way, Gridded) and way._worth > 0)))]
     ),
     "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
-    "frames along normals": Tool({}, [(blocks, "local_frames", _upright)], decodes=False),
+    "frames along normals": Tool(
+        {}, [(blocks, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))], decodes=False
+    ),
     "unfolding of faces": Tool({}, [(blocks, "turned", lambda _: None), (grids, "turned", lambda _: None)]),
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
