@@ -68,7 +68,9 @@ def named_files(command: str, parser: Parser, args: argparse.Namespace) -> tuple
     for action in parser.file_arguments():
         given = getattr(args, action.dest) or []
         named[action.dest in written].extend([given] if isinstance(given, str) else given)
-    return named[0], [name for name in named[1] if not name.endswith("/") and not os.path.isdir(name)]
+    # Of folders that are searched, the files that are found count.
+    reads = [name for name in named[0] if not getattr(args, "recursive", False) or not os.path.isdir(name)]
+    return reads, [name for name in named[1] if not name.endswith("/") and not os.path.isdir(name)]
 
 
 def command_parser(name: str) -> Parser:

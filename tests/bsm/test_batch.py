@@ -292,17 +292,17 @@ def corpus(tmp_path):
 
 
 def test_inputs_that_differ_in_their_suffix_alone_keep_it(corpus, tmp_path):
-    done = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", tmp_path / "r.json")
+    done = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", corpus / "r.json")
     assert done.returncode == 12
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["other.bsm", "part.obj.bsm", "part.off.bsm"]
-    report = json.loads((tmp_path / "r.json").read_text())
+    report = json.loads((corpus / "r.json").read_text())
     outputs = {entry["input"].rpartition("/")[2]: entry["output"].rpartition("/")[2] for entry in report["files"]}
     assert outputs["part.obj"] == "part.obj.bsm" and outputs["other.off"] == "other.bsm"
     lines = done.stderr.splitlines()
     head = next(number for number, line in enumerate(lines) if line.startswith("input "))
     assert "broken.off" in lines[head + 1] and lines[head + 1].count("broken.off") == 1
     assert "failed: the file is cut short" in lines[head + 1]
-    again = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", tmp_path / "r.json", "--resume")
+    again = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", corpus / "r.json", "--resume")
     assert "3 of 4 were up to date" in again.stderr and "as it was" not in again.stderr.splitlines()[0]
 
 

@@ -27,10 +27,11 @@ from tests.shapes import torus
 
 
 def test_a_file_is_written(tmp_path):
-    with open_output(tmp_path / "a") as file:
+    name = 125 * "ü" + ".bsm"  # of 254 bytes
+    with open_output(tmp_path / name) as file:
         file.write(b"whole")
-        assert not (tmp_path / "a").exists()
-    assert contents(tmp_path) == {"a": b"whole"}
+        assert not (tmp_path / name).exists()
+    assert contents(tmp_path) == {name: b"whole"}
 
 
 @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt, SystemExit])

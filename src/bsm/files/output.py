@@ -200,7 +200,7 @@ def _ignores_case(folder: str) -> bool:
 
 def _temporary(target: Path) -> tuple[int, str, int | None]:
     """Make a temporary file beside `target`, with a handle that locks it; remove files of writers that died."""
-    pattern = f".{target.name[:200]}."
+    pattern = f".{target.name[:50]}."  # of at most 200 bytes
     while True:
         handle, name = tempfile.mkstemp(prefix=pattern, suffix=_TEMPORARY, dir=target.parent)
         if fcntl is None:
