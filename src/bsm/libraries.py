@@ -6,7 +6,7 @@ import math
 import os
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from traceback import walk_stack
 from types import MappingProxyType
@@ -17,11 +17,12 @@ import numpy as np
 from bsm.bitstream.errors import ArgumentError, BsmWarning, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.arrays import as_array
-from bsm.codec.geometry.attributes import Domain, Semantic
+from bsm.codec.geometry.attributes import Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import plain_fields, without_materials, without_names
 from bsm.files.formats.om import of_openmesh
-from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact, named_column
+from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact
+from bsm.files.formats.with_meshio import columns_of, of_meshio
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.images import largest_side, with_linked_images
 from bsm.files.mesh import read_mesh
@@ -34,8 +35,6 @@ if TYPE_CHECKING:
 
 _POINTS = ("vertices", "points", "positions")
 _FACES = ("faces", "triangles")
-_SURFACES = ("triangle", "quad", "polygon")
-_NO_SURFACES = ("vertex", "line")
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 _WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
@@ -152,31 +151,6 @@ def _of_arrays(positions: Any, faces: Any) -> MeshFile:
     return _of_polygons(positions, sizes, corners).checked(DEFAULT_LIMITS)
 
 
-def _of_meshio(mesh: Any) -> Polygons:
-    """The surface of a meshio mesh, in the order of its blocks of cells."""
-    kinds = [block.type for block in mesh.cells]
-    if solid := [kind for kind in kinds if kind not in (*_SURFACES, *_NO_SURFACES)]:
-        raise MeshError(f"cells of the type {solid[0]} are not triangles or polygons; take the surface of the mesh")
-    left = [f"cells of the type {kind}" for kind in _NO_SURFACES if kind in kinds]
-    for what in ("point_sets", "cell_sets", "field_data", "info"):
-        named = ", ".join(map(str, getattr(mesh, what, None) or ()))
-        left += [f"{what.replace('_', ' ')} ({named})"] if named else []
-    surfaces = [place for place, kind in enumerate(kinds) if kind in _SURFACES]
-    tables = [mesh.cells[place].data for place in surfaces]
-    rows = [
-        np.asarray(row, np.int64)
-        for table in tables
-        for row in ([table] if isinstance(table, np.ndarray) and table.ndim == 2 else table)
-    ]
-    data = {name: [np.asarray(values[place]) for place in surfaces] for name, values in mesh.cell_data.items()}
-    whole = {name: np.concatenate(tables) for name, tables in data.items() if len({t.shape[1:] for t in tables}) == 1}
-    columns = [*_columns(mesh.point_data, "vertex", left), *_columns(whole, "face", left)]
-    left += [name for name in data if name not in whole]
-    sizes = np.array([len(corners) for table in tables for corners in table], np.int64)
-    corners = np.concatenate([np.empty(0, np.int64), *(row.reshape(-1) for row in rows)])
-    return _of_polygons(mesh.points, sizes, corners, columns, left=left)
-
-
 def _of_polygons(
     positions: Any,
     sizes: Ints,
@@ -212,23 +186,10 @@ def _of_pyvista(mesh: Any) -> Polygons:
     cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
     normals, texcoords = mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name
     active: dict[str, Semantic] = {normals: "normal", texcoords: "texcoord"}
-    columns = [*_columns(mesh.point_data, "vertex", left, active), *_columns(cells, "face", left)]
+    columns = [*columns_of(mesh.point_data, "vertex", left, active), *columns_of(cells, "face", left)]
     metadata, others = plain_fields(mesh.field_data)
     left += [f"field data {name}" for name in others]
     return _of_polygons(mesh.points, *_split(np.array(mesh.faces, np.int64)), columns, metadata, left)
-
-
-def _columns(
-    data: Mapping[str, Any], domain: Domain, left: list[str], active: Mapping[str, Semantic] = _NOTHING
-) -> Iterator[Column]:
-    """Arrays of numbers by name, some of which are known to mean something."""
-    for name, given in data.items():
-        values = np.array(given)
-        values = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
-        if values.dtype.kind not in "biuf":
-            left.append(f"{name} ({values.dtype.name} values)")
-            continue
-        yield named_column(name, values, domain, active.get(name))
 
 
 def _of_open3d(mesh: Any) -> Polygons:
@@ -255,7 +216,7 @@ _LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
     ("visual", "vertex_attributes", polygons_of),
     ("fv_indices", "halfedge_to_vertex_indices", of_openmesh),
     ("graph", "geometry", lambda scene: joined(scene, DEFAULT_LIMITS)),
-    ("cells", "cell_sets", _of_meshio),
+    ("cells", "cell_sets", of_meshio),
     ("point_data", "n_lines", _of_pyvista),
     ("triangle_uvs", "vertex_colors", _of_open3d),
 )

@@ -56,7 +56,8 @@ _WRITING = 0o1103  # flags of open: O_WRONLY, O_RDWR, O_CREAT, O_TRUNC
 _THREAD, _CLONE3, _NOT_KNOWN = 0x10000, 435, 38  # clone3 has its flags where no filter sees them: clone does it then
 _QUESTIONS = {"ioctl": (0x5401, 0x5451), "fcntl": (1, 2, 3, 1030)}  # TCGETS, FIOCLEX; F_GETFD to _GETFL, _DUPFD_CLOEXEC
 _REFUSED = 3000  # and the number of a call: the error of one that is refused
-_QUIET = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PXR_WORK_THREAD_LIMIT": "1", "MALLOC_ARENA_MAX": "1"}
+_QUIET = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "PXR_WORK_THREAD_LIMIT", "MALLOC_ARENA_MAX"), "1")
+_QUIET |= {"HDF5_USE_FILE_LOCKING": "FALSE"}
 
 
 @cache

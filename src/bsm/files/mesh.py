@@ -29,7 +29,7 @@ from bsm.files.table import FORMATS, GLTF, MESH_FORMATS, USD_FORMATS, WRITTEN_FO
 
 _HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
 _ALL = 1 << 62
-_WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender (in Python, bsm.encode takes meshes of meshio)"
+_WAY = "convert it to GLB, OBJ or PLY first, for instance with Blender"
 _FOREIGN = {
     ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
     ("las", "laz", "e57", "pcd", "pts"): "it holds points; point clouds are not supported",
@@ -123,7 +123,7 @@ def read_cut(
         document = by_name("bsm.gltf.document", "Document")
         scene: MeshFile = reader(path, limits) if kind in USD_FORMATS else reader(document(data, folder, limits))
         return scene
-    polygons: Polygons = reader(data, *((path,) if kind == "dae" else ()), limits)
+    polygons: Polygons = reader(data, *((path,) if row.by_path else ()), limits)
     if row.beside:
         beside = Beside(folder, limits)
         metadata, notes = fetched(polygons.metadata, beside.read)

@@ -28,13 +28,21 @@ from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Input, Source, as_input, is_pipe, is_url
-from bsm.files.table import FORMATS, GLTF, RATE, TIMES, USD_FORMATS, WRITTEN_FORMATS
+from bsm.files.table import FORMATS, GLTF, RATE, TIMES, USD_FORMATS, WRITTEN_FORMATS, XDMF
 
 ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS, *folder.LISTS)  # forms of a whole sequence in one file
+SEQUENCES_READ = (
+    "npz",
+    "npy",
+    *CACHES,
+    *GLTF,
+    *USD_FORMATS,
+    *XDMF,
+    *folder.LISTS,
+)  # forms of a whole sequence in one file
 
 
 def open_sequence(
@@ -57,7 +65,7 @@ def open_sequence(
     if kind in folder.LISTS and given.is_file:
         names, times = folder.listed(given.name, kind, limits)
         return open_frames(names, None, limits, replace(asked, times=times), isolated=isolated)
-    moves = kind in (*CACHES, *USD_FORMATS) or (kind in GLTF and wanted is not None)
+    moves = kind in (*CACHES, *USD_FORMATS, *XDMF) or (kind in GLTF and wanted is not None)
     if moves and not given.is_file:
         return None
     head = b"" if moves else given.peek(len(NPY))
@@ -74,7 +82,9 @@ def open_sequence(
     if kind in CACHES:
         return read_cache(given.name, kind, asked, limits)
     if moves:
-        room = ("bsm.gltf.scene", "read_gltf") if kind in GLTF else ("bsm.files.motion.usd", "read_usd")
+        rooms = dict.fromkeys(GLTF, ("bsm.gltf.scene", "read_gltf"))
+        rooms |= dict.fromkeys(XDMF, ("bsm.files.formats.with_meshio", "read_series"))
+        room = rooms.get(kind, ("bsm.files.motion.usd", "read_usd"))
         found: Frames | None = by_name(*room)(given.name, asked, limits)
         return found
     return read_pipe(given, limits) if piped else read_archive(given, limits)
@@ -95,7 +105,7 @@ def open_frames(
     if is_apart(kinds, limits, isolated):
         apart: Frames = _apart(list(map(os.path.abspath, ordered)), file_format, limits, kinds[0], asked)
         return apart
-    return folder.read_files(ordered, file_format, limits, asked)
+    return folder.read_files(ordered, folder.reader_of(file_format, limits), asked)
 
 
 def _apart(*given: Any) -> Any:

@@ -25,6 +25,7 @@ class Format:
     writer: str = ""  # and its module
     own: bool = False  # read without the libraries of others
     beside: bool = False  # materials and images that its metadata name are read from its folder
+    by_path: bool = False  # the reader is told the path
     begins: bytes = b"(?!)"  # what the first bytes of a file match
     called: str = ""  # in errors, where a file has the suffix of another format
     unit: str = ""
@@ -46,6 +47,12 @@ _GLTF = Format("read_gltf_mesh", modules=("bsm.gltf.scene", "bsm.gltf.coding", "
 _GLB = replace(_GLTF, writer="bsm.gltf.write:write_glb", begins=b"glTF", called="a GLB", unit="meters", up="y")
 _PXR = ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel")
 _3MF = "bsm.files.formats.three_mf"
+XDMF = ("xdmf", "xmf")
+_SIMULATIONS = {
+    "vtk": ("vtk",), "vtu": ("vtu",), "abaqus": ("inp",), "nastran": ("bdf", "nas"), "gmsh": ("msh",),
+    "xdmf": XDMF,
+}  # fmt: skip
+_MESHIO = "bsm.files.formats.with_meshio"
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 
 FORMATS: Mapping[str, Format] = {
@@ -56,10 +63,15 @@ FORMATS: Mapping[str, Format] = {
     "gltf": _GLTF,
     "stl": _own("stl", rb"\s*solid", called="an STL", beside=True, empty=bytes(84)),
     "npz": _own("npz", rb"(?s:PK\x03\x04.*positions\.npy)", times=frozenset()),
-    "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile", times=_TIMED),
+    "vtp": _own("vtp", rb"(?s:.{0,1000})<VTKFile[^>]*PolyData", times=_TIMED),
     "3mf": Format("read_3mf", f"{_3MF}:write_3mf", unit="named", up="z", modules=(_3MF, "lib3mf")),
-    "dae": Format("read_dae", modules=("bsm.files.formats.dae", "collada", "lxml.etree")),
+    "dae": Format("read_dae", by_path=True, modules=("bsm.files.formats.dae", "collada", "lxml.etree")),
     **dict.fromkeys(USD_FORMATS, Format("read_usd_mesh", unit="named", up="named", times=_TIMED, modules=_PXR)),
+    **{
+        suffix: Format(f"read_{kind}", by_path=True, modules=(_MESHIO, f"meshio.{kind}"))
+        for kind, suffixes in _SIMULATIONS.items()
+        for suffix in suffixes
+    },
     "npy": Format(times=frozenset()),
     "pc2": Format(),
     "mdd": Format(times=_TIMED),

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import chain
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
 from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import Written
-from bsm.files.formats.polygons import CutAlike
+from bsm.files.formats.polygons import CutAlike, MeshFile
 from bsm.files.formats.vtp import elements_of
 from bsm.files.mesh import format_of_name, read_cut, save_written, written_mesh
 from bsm.files.motion.frames import Frames, Wanted, timing_of
@@ -150,19 +150,21 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     return [int(of_one[differing[0]]) for of_one in parts]
 
 
-def read_files(names: Sequence[str], file_format: str | None, limits: Limits, wanted: Wanted) -> Frames:
+def reader_of(file_format: str | None, limits: Limits) -> Callable[[str], MeshFile]:
+    return partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=False)
+
+
+def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], wanted: Wanted) -> Frames:
     """The frames in files, each read when asked for; with `runs`, faces change. Times: wanted, in files, or numbers."""
     runs, rate, times = wanted.runs, wanted.rate, wanted.times
-    cut = CutAlike()
-
-    @lru_cache(maxsize=1)  # a list may name one file for many times
-    def read_named(name: str) -> TriangleMesh:
-        return read_cut(name, file_format, limits, cut, isolated=False).mesh
+    read_once, notes = lru_cache(maxsize=1)(read_named), list[str]()  # a list may name one file for many times
 
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
             try:
-                return read_named(names[number])
+                found = read_once(names[number])
+                notes.extend(note for note in found.notes if number == 0 and note not in notes)
+                return found.mesh
             except NoFacesError as error:
                 if runs:
                     return empty_frame()
@@ -175,7 +177,7 @@ def read_files(names: Sequence[str], file_format: str | None, limits: Limits, wa
         times = [float(read(number).metadata.get(TIME_VALUE, "nan")) for number in range(len(names))]
     if len(times):
         rate, timing = timing_of(np.array(times, np.float64), rate)
-    notes = ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
+    notes += ["the times of frames are not numbers that grow, and are left out"] if timing is None else []
     shared = (rate, {**metadata, **(timing or {})})
     if runs:
         moving = [attribute.name for attribute in first.attributes if attribute.semantic == "normal"]
