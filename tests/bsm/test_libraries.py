@@ -259,8 +259,8 @@ def test_meshio_data():
     assert attribute(ours, "kind").values[:, 0].tolist() == [2, 2, 3]
     ragged = as_mesh(meshio.Mesh(SQUARE, [("polygon", [[0, 1, 2, 3]]), ("polygon", [[0, 1, 2]])]))
     assert len(ragged.faces) == 3
-    with pytest.raises(bsm.MeshError, match="tetra"):
-        as_mesh(meshio.Mesh(SQUARE, [("tetra", [[0, 1, 2, 3]])]))
+    with pytest.raises(bsm.MeshError, match="cells of the type tetra20"):
+        as_mesh(meshio.Mesh(SQUARE, [("tetra20", [[0] * 20])]))
 
 
 @pytest.mark.parametrize("library", ["trimesh", "pyvista"])

@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from itertools import count as count_from
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.runs import is_empty
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
-from bsm.files.mesh import by_name, is_apart, kind_of, read_mesh, save_written, written_mesh
+from bsm.files.formats.polygons import CutAlike
+from bsm.files.mesh import by_name, is_apart, kind_of, read_cut, read_mesh, save_written, written_mesh
 from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
@@ -34,15 +36,7 @@ ZIP = b"PK\x03\x04"
 ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-SEQUENCES_READ = (
-    "npz",
-    "npy",
-    *CACHES,
-    *GLTF,
-    *USD_FORMATS,
-    *XDMF,
-    *folder.LISTS,
-)  # forms of a whole sequence in one file
+SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS, *XDMF, *folder.LISTS)  # whole sequences in one file
 
 
 def open_sequence(
@@ -82,10 +76,8 @@ def open_sequence(
     if kind in CACHES:
         return read_cache(given.name, kind, asked, limits)
     if moves:
-        rooms = dict.fromkeys(GLTF, ("bsm.gltf.scene", "read_gltf"))
-        rooms |= dict.fromkeys(XDMF, ("bsm.files.formats.with_meshio", "read_series"))
-        room = rooms.get(kind, ("bsm.files.motion.usd", "read_usd"))
-        found: Frames | None = by_name(*room)(given.name, asked, limits)
+        row = FORMATS[kind]
+        found: Frames | None = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(given.name, asked, limits)
         return found
     return read_pipe(given, limits) if piped else read_archive(given, limits)
 
@@ -105,7 +97,8 @@ def open_frames(
     if is_apart(kinds, limits, isolated):
         apart: Frames = _apart(list(map(os.path.abspath, ordered)), file_format, limits, kinds[0], asked)
         return apart
-    return folder.read_files(ordered, folder.reader_of(file_format, limits), asked)
+    read = partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=False)
+    return folder.read_files(ordered, read, asked)
 
 
 def _apart(*given: Any) -> Any:

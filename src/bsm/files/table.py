@@ -21,7 +21,7 @@ _NUMBERED, _TIMED = frozenset((START, STEP)), frozenset((START, STEP, TIMES, RAT
 class Format:
     """A format of meshes or frames; a unit or axis is that of all files, "named" by each, or "" (not said)."""
 
-    reader: str = ""  # of a mesh, in the first of the modules
+    reader: str = ""  # of a mesh, in the first of the modules; that of a sequence is called so without _mesh
     writer: str = ""  # and its module
     own: bool = False  # read without the libraries of others
     beside: bool = False  # materials and images that its metadata name are read from its folder
@@ -40,6 +40,10 @@ def _own(kind: str, begins: bytes, **more: Any) -> Format:
     return Format(f"read_{kind}", f"{module}:write_{kind}", True, begins=begins, modules=(module,), **more)
 
 
+def _meshio(part: str) -> Format:
+    return Format(f"read_{part}", by_path=True, modules=("bsm.files.formats.with_meshio", f"meshio.{part}"))
+
+
 _EMPTY_PLY = b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
 _EMPTY_PLY += b"element face 0\nproperty list uchar int vertex_indices\nend_header\n"
 _OBJ = rb"(?:[^\0]{0,65536}[\r\n])?[ \t]*v[ \t]+[-+\d.]"
@@ -47,12 +51,8 @@ _GLTF = Format("read_gltf_mesh", modules=("bsm.gltf.scene", "bsm.gltf.coding", "
 _GLB = replace(_GLTF, writer="bsm.gltf.write:write_glb", begins=b"glTF", called="a GLB", unit="meters", up="y")
 _PXR = ("bsm.files.motion.usd", "pxr.Usd", "pxr.UsdGeom", "pxr.UsdShade", "pxr.UsdSkel")
 _3MF = "bsm.files.formats.three_mf"
+_PARTS = {"vtk": "vtk", "vtu": "vtu", "inp": "abaqus", "bdf": "nastran", "nas": "nastran", "msh": "gmsh"}  # of meshio
 XDMF = ("xdmf", "xmf")
-_SIMULATIONS = {
-    "vtk": ("vtk",), "vtu": ("vtu",), "abaqus": ("inp",), "nastran": ("bdf", "nas"), "gmsh": ("msh",),
-    "xdmf": XDMF,
-}  # fmt: skip
-_MESHIO = "bsm.files.formats.with_meshio"
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 
 FORMATS: Mapping[str, Format] = {
@@ -67,11 +67,8 @@ FORMATS: Mapping[str, Format] = {
     "3mf": Format("read_3mf", f"{_3MF}:write_3mf", unit="named", up="z", modules=(_3MF, "lib3mf")),
     "dae": Format("read_dae", by_path=True, modules=("bsm.files.formats.dae", "collada", "lxml.etree")),
     **dict.fromkeys(USD_FORMATS, Format("read_usd_mesh", unit="named", up="named", times=_TIMED, modules=_PXR)),
-    **{
-        suffix: Format(f"read_{kind}", by_path=True, modules=(_MESHIO, f"meshio.{kind}"))
-        for kind, suffixes in _SIMULATIONS.items()
-        for suffix in suffixes
-    },
+    **{kind: _meshio(part) for kind, part in _PARTS.items()},
+    **dict.fromkeys(XDMF, replace(_meshio("xdmf"), reader="read_xdmf_mesh")),
     "npy": Format(times=frozenset()),
     "pc2": Format(),
     "mdd": Format(times=_TIMED),

@@ -8,7 +8,7 @@ from bsm.files.formats.with_meshio import _SHAPES, of_meshio
 from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence
 
-meshio = pytest.importorskip("meshio")
+meshio, _ = pytest.importorskip("meshio"), pytest.importorskip("h5py")
 POINTS = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], float)
 CUBES = [[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]]
 KINDS = {"vtk": "vtk", "vtu": "vtu", "inp": "abaqus", "nas": "nastran", "msh": "gmsh", "xdmf": "xdmf"}

@@ -8,7 +8,6 @@ from contextlib import redirect_stderr
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, TypeAlias
 from xml.etree import ElementTree
 
@@ -37,11 +36,10 @@ _SHAPES = {
 many nodes there are with those amid sides and cells, which are left out."""
 _Side: TypeAlias = tuple[Ints, Ints, list[Ints], bool]
 """A side of each of some cells: their numbers, its corners as a key, its polygons, and whether one inside goes."""
-_NO_MEANINGS: Mapping[str, Semantic] = MappingProxyType({})
 
 
 def columns_of(
-    data: Mapping[str, Any], domain: Domain, left: list[str], active: Mapping[str, Semantic] = _NO_MEANINGS
+    data: Mapping[str, Any], domain: Domain, left: list[str], active: Mapping[str, Semantic] | None = None
 ) -> Iterator[Column]:
     """Arrays of numbers by name, some of which are known to mean something."""
     for name, given in data.items():
@@ -50,7 +48,7 @@ def columns_of(
         if values.dtype.kind not in "biuf":
             left.append(f"{name} ({values.dtype.name} values)")
             continue
-        yield named_column(name, values, domain, active.get(name))
+        yield named_column(name, values, domain, (active or {}).get(name))
 
 
 def _sides(block: Any, cells: Ints, points: Doubles) -> list[_Side]:
@@ -97,11 +95,10 @@ def of_meshio(mesh: Any) -> Polygons:
     numbers = row_numbers(np.concatenate([np.empty((0, 4), np.int64), *(key for _, key, _, _ in sides)]))
     once = np.split(np.bincount(numbers)[numbers] == 1, np.cumsum([len(side[0]) for side in sides])[:-1])
     kept = [(side, alone | (not side[3])) for side, alone in zip(sides, once, strict=False)]
-    pieces = [(cells[rows], table[rows]) for (cells, _, tables, _), rows in kept for table in tables]
-    nothing = np.empty(0, np.int64)
-    owner = np.concatenate([nothing, *(cells for cells, _ in pieces)])
-    sizes = np.concatenate([nothing, *(np.full(len(table), table.shape[1]) for _, table in pieces)])
-    flat, order = np.concatenate([nothing, *(table.ravel() for _, table in pieces)]), np.argsort(owner, kind="stable")
+    pieces = [(cells[taken], table[taken]) for (cells, _, tables, _), taken in kept for table in tables]
+    rows = [(cells, np.full(len(cells), table.shape[1]), table.ravel()) for cells, table in pieces]
+    owner, sizes, flat = map(np.concatenate, zip(*[(np.empty(0, np.int64),) * 3, *rows], strict=True))
+    order = np.argsort(owner, kind="stable")
     corners = flat[ranges((np.cumsum(sizes) - sizes)[order], sizes[order])]
     has_skin = any(is_skin for _, _, _, is_skin in sides)
     used = np.unique(corners) if has_skin else np.arange(len(points))
@@ -132,7 +129,7 @@ read_vtk, read_vtu, read_abaqus, read_nastran, read_gmsh = (
 )
 
 
-def read_xdmf(data: bytes, path: str | None, limits: Limits) -> Polygons:
+def read_xdmf_mesh(data: bytes, path: str | None, limits: Limits) -> Polygons:
     """The mesh of a file, or the first of its steps."""
     steps = _steps(data, name := _named(path))
     found = _found(partial(_of_step, name, steps[0][1]))
@@ -192,7 +189,7 @@ def _steps(data: bytes, path: str) -> list[tuple[float, Any]]:
         return sorted(found, key=lambda step: step[0])
 
 
-def read_series(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
+def read_xdmf(path: str, wanted: Wanted, limits: Limits) -> Frames | None:
     """The steps of an XDMF as frames; None if it has none."""
     data, cut = Path(path).read_bytes(), CutAlike()
     steps = _steps(data, path)

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import chain
 from pathlib import Path
 
@@ -148,10 +148,6 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     if len(differing) != 1 or differing[0] % 2 == 0:
         return []
     return [int(of_one[differing[0]]) for of_one in parts]
-
-
-def reader_of(file_format: str | None, limits: Limits) -> Callable[[str], MeshFile]:
-    return partial(read_cut, file_format=file_format, limits=limits, cut=CutAlike(), isolated=False)
 
 
 def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], wanted: Wanted) -> Frames:
