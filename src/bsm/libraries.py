@@ -20,7 +20,6 @@ from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import plain_fields, without_materials, without_names
-from bsm.files.formats.om import of_openmesh
 from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact
 from bsm.files.formats.with_meshio import columns_of, of_meshio
 from bsm.files.formats.with_trimesh import joined, polygons_of
@@ -214,7 +213,6 @@ def _table(mesh: Any, name: str) -> Array | None:
 
 _LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
     ("visual", "vertex_attributes", polygons_of),
-    ("fv_indices", "halfedge_to_vertex_indices", of_openmesh),
     ("graph", "geometry", lambda scene: joined(scene, DEFAULT_LIMITS)),
     ("cells", "cell_sets", of_meshio),
     ("point_data", "n_lines", _of_pyvista),
