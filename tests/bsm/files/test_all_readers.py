@@ -17,7 +17,8 @@ from tests.gltf import unpack
 from tests.motion import bending, save_frames
 from tests.shapes import torus
 
-LIBRARIES = {"3mf": "lib3mf", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr")}
+MESHIO = {kind: row.modules[1][7:] for kind, row in FORMATS.items() if row.modules[1:] and "meshio." in row.modules[1]}
+LIBRARIES = {"3mf": "lib3mf", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr"), **dict.fromkeys(MESHIO, "h5py")}
 READ = sorted(kind for kind, row in FORMATS.items() if row.reader)
 LIMITS = Limits(vertices=10_000, faces=10_000)
 
@@ -36,6 +37,10 @@ def valid(kind: str, folder: Path) -> bytes:
         document["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{content}"
         return json.dumps(document).encode()
     path = folder / f"valid.{'usdc' if kind == 'usdz' else kind}"
+    if kind in MESHIO:
+        meshio = pytest.importorskip("meshio")
+        meshio.write(path, meshio.Mesh(mesh.positions.round(3), {"triangle": mesh.faces}), MESHIO[kind])
+        return path.read_bytes()
     save_frames(path, path.suffix[1:], *bending(2, 6, 5))
     if kind == "usdz":
         from pxr import UsdUtils
@@ -53,7 +58,7 @@ def test_no_reader_lets_another_error_out(kind: str, tmp_path: Path) -> None:
     cuts = [whole[: len(whole) * part // 9] for part in range(1, 9)]
     counts = [whole[: m.start()] + b"999999999" + whole[m.end() :] for m in list(re.finditer(rb"\d+", whole))[:40:4]]
     longs = [whole[:at] + b"\xff\xff\xff\x7f" + whole[at + 4 :] for at in range(0, min(len(whole) - 4, 400), 20)]
-    if kind in ("usd", "usdc"):  # usd-core takes memory for such counts, and only isolation bounds it
+    if kind in ("usd", "usdc", *MESHIO):  # these libraries take memory for such counts, and only isolation bounds it
         counts = longs = []
     path = tmp_path / f"mesh.{kind}"
     path.write_bytes(whole)
