@@ -734,7 +734,8 @@ bool copy_gops(const Gops *from, int k, Context *context, Arena *arena, Gops *co
 bool write_basis(Gops *gops, GopField field, int64_t frames, ConstDoubles2 spectrum, Writing *writing, Arena *scratch,
     Doubles2 *basis) {
     gops->parts.context->writing = writing;
-    bool done = code_basis(gops->parts.context, &field, frames, spectrum, scratch, scratch, basis);
+    release_all(&gops->frames);
+    bool done = code_basis(gops->parts.context, &field, frames, spectrum, &gops->frames, scratch, basis);
     gops->parts.context->writing = NULL;
     return done;
 }

@@ -89,7 +89,7 @@ class GopEncoder:
     def copy(self) -> GopEncoder:
         """One that goes on from the same state."""
         twin = copy(self)
-        twin._track = Track(self._track)
+        twin._track = Track(self._track, self._setting.whole)
         return twin
 
     def beside(self, number: int) -> GopEncoder:

@@ -585,7 +585,7 @@ class Track : public Steps {
     Track(const Chain &whole, int64_t number) {
         run([&] { return begin_track(chain, whole.chain, number); });
     }
-    Track(const Track &other) {
+    Track(const Track &other, const Chain &) {
         run([&] { return begin_track(chain, other.chain, 0); });
     }
     // The payload of a basis, and the basis.
@@ -695,7 +695,7 @@ NB_MODULE(_core, m) {
         .def("commit", in_turn(&Chain::commit), "width"_a, "positions"_a);
     nb::class_<Track>(m, "Track")
         .def(nb::init<const Chain &, int64_t>(), "whole"_a, "number"_a, nb::keep_alive<1, 2>())
-        .def(nb::init<const Track &>(), "other"_a, nb::keep_alive<1, 2>())
+        .def(nb::init<const Track &, const Chain &>(), "other"_a, "whole"_a, nb::keep_alive<1, 3>())
         .def("basis", in_turn(&Track::basis), "exponents"_a, "spectrum"_a)
         .def("code", in_turn(&Track::code), "method"_a, "frames"_a, "step"_a, "back"_a, "wanted"_a);
     nb::class_<Cut>(m, "Cut")
