@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
@@ -271,8 +270,6 @@ class Draft:
     decoded: Positions
     places: Levels | None = None
     may_be_brief: bool = False  # in format 1.1
-    begun: float = math.inf  # bytes of the first packet on a grid
-    cut: bool = False  # after that, as it is larger than another one
 
     @cached_property
     def frames(self) -> tuple[bytes, ...]:
@@ -280,7 +277,7 @@ class Draft:
 
     @property
     def size(self) -> int:
-        return sys.maxsize if self.cut else sum(map(len, self.frames))
+        return sum(map(len, self.frames))
 
     def _write(self) -> Iterator[bytes]:
         writer, may_be_brief = Writer(), self.may_be_brief and not self.header.light

@@ -137,10 +137,6 @@ UNITS = {
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
-STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
-STRIDE, NEAREST = 2.0, 0.1
-"""Between two tries, in the logarithm; and where both sides of a bound are known, the part of the interval by which
-a try stays away from both."""
 
 
 class Attempted(Protocol):
@@ -211,7 +207,7 @@ class Target:
 
 
 def secant(
-    excess: Callable[[float], float | None],
+    excess: Callable[[float], float],
     first: float,
     least: float,
     most: float,
@@ -219,35 +215,21 @@ def secant(
     rise: float = 1.0,
     slack: float = SLACK,
 ) -> None:
-    """Try numbers, to come to about the largest one whose excess is at most 0; None says that no other is wanted."""
-    low, high = math.log(least), math.log(most)
-    step, slope, before = min(max(first, least), most), rise, (math.nan, math.nan)
-    at = math.log(step)
-    tried: list[tuple[float, float]] = []
+    """Try numbers, to come to about the largest one whose excess is at most 0."""
+    low, high, sides = math.log(least), math.log(most), dict[bool, tuple[float, float]]()
+    at, before = min(max(math.log(first), low), high), math.nan
     for _ in range(tries):
-        value = excess(step)
-        if value is None:
+        if at == before:
             return
-        if before[0] != at:
-            found = (value - before[1]) / (at - before[0])
-            slope = min(max(found, 1.0 / STEEPEST), STEEPEST) if math.isfinite(found) else slope
-        before = at, value
-        tried.append(before)
-        good = max((step for step in tried if step[1] <= 0.0), default=None)
-        bad = min((step for step in tried if step[1] > 0.0 and (good is None or step[0] > good[0])), default=None)
-        if good is None and len(tried) > tries // 2 and value > tried[0][1] - abs(at - tried[0][0]) / STEEPEST**2:
-            return  # what breaks a bound is not the step
-        if (-slack < value <= 0.0) or (bad is None and at >= high) or (good is None and at <= low):
+        before, value = at, excess(math.exp(at)) + slack / 2.0
+        sides[value > slack / 2.0] = at, value
+        if abs(value) < slack / 2.0:
             return
-        if good is None or bad is None:
-            at += min(max((-slack / 2.0 - value) / slope, -STRIDE), STRIDE)
-        elif bad[0] - good[0] < slack / STEEPEST:
-            return
+        if len(sides) > 1:  # from the bad side to the good one
+            (bad, over), (good, under) = sides[True], sides[False]
+            at = good + (bad - good) * min(max(under / (under - over), 0.1), 0.9)
         else:
-            share = (-slack / 2.0 - good[1]) / (bad[1] - good[1])
-            at = good[0] + min(max(share, NEAREST), 1.0 - NEAREST) * (bad[0] - good[0])
-        at = min(max(at, low), high)
-        step = math.exp(at)
+            at, rise = min(max(at - value / rise, low), high), rise / 2.0
 
 
 Found = TypeVar("Found", bound=Attempted)

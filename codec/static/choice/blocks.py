@@ -286,12 +286,6 @@ class Refined:
         self.least, self.most = FINEST_LAYER, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), FINEST_LAYER)
         self.at = lru_cache(1)(self._made)
 
-    def replaced(self, first: float, prepared: Prepared) -> "Refined":
-        """This way with other blocks, from another step on."""
-        other = Refined(prepared, self._options, self._bounds, self._settled, self.ratio)
-        other.first = first
-        return other
-
     @cached_property
     def first(self) -> float:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.

@@ -89,7 +89,6 @@ class Trial:
     settled: bool = False  # whether levels are kept within reach, whatever the step is
     guess: Callable[[], float] | None = None
     also: Callable[[Callable[[], Draft]], Draft] = lambda make: make()  # the same positions, perhaps in fewer bytes
-    like: Callable[..., int] = lambda *given: 0  # bytes of a grid with so many transforms; many if it begins with more
     decoded: Positions | None = None  # in the unit of the mesh, where `positions` are rounded
 
     @cached_property

@@ -26,16 +26,12 @@ MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more t
 LEAST_SAVED = 0.03  # of the bytes: a share that is worth another try, or a fifth more time of decoding
 
 
-def grid_draft(prepared: Prepared, grid: Raster, places: Levels, brief: bool = False, most: float = math.inf) -> Draft:
-    """The stream of places on a grid, shape (n, 3), none negative; cut if its first packet takes more than `most`."""
+def grid_draft(prepared: Prepared, grid: Raster, places: Levels, brief: bool = False) -> Draft:
+    """The stream of places on a grid, shape (n, 3), none negative."""
     grid = replace(grid, light=grid.light or prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     coded = encode_grid(prepared.linked if brief else prepared.mesh.faces, grid, places)  # if others follow
-    first = next(coded)
-    body, begun = (*prepared.before_grid, first), len(first.data)
-    if begun <= most:
-        body += (*coded,)
-    return Draft(header, body, grid.positions(places), places, brief, begun, begun > most)
+    return Draft(header, (*prepared.before_grid, *coded), grid.positions(places), places, brief)
 
 
 def may_repeat(prepared: Prepared) -> bool:
@@ -53,7 +49,7 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     for i in range(count := len(kept), max(count - 3, 0), -1):  # first without whole vertices, which decode slowly
         some = kept[:i] + kept[i + 1 :]
         grid = replace(grid, transforms=np.concatenate(some), whole=i < count and draft.header.whole)
-        coded = grid_draft(prepared, grid, places, draft.may_be_brief, draft.begun)
+        coded = grid_draft(prepared, grid, places, draft.may_be_brief)
         wins = coded.size < (1.0 - LEAST_SAVED * (i == count)) * draft.size
         draft, kept = (coded, some) if wins else (draft, kept)
     return draft
@@ -129,8 +125,8 @@ class Gridded:
 
     def __init__(self, prepared: Prepared, bounds: Bounds, worth: float = 0.0, turn: Turn = UNTURNED) -> None:
         self._prepared, self._shaper = prepared, bounds.measures.shaper
-        self._worth, self._turn = worth, turn
-        self.transforms = -1  # with about so many a grid surely takes fewer bytes
+        self._worth, self.turn = worth, turn
+        self.transforms = -1  # 0: with twins, 1: with transforms, too, a grid surely takes fewer bytes
         own = turned_by(prepared.mesh.positions, turn, back=True)
         self._positions = prepared.units.into(own) if any(turn) else prepared.positions
         low = box_around(own)[0]
@@ -156,7 +152,7 @@ class Gridded:
         held = single(max(step, self.least) * unit)
         origin = self._origin
         if mirrored and may_repeat(self._prepared):
-            origin = np.array([self._hold(x) for x in mirrored_origin(self._prepared, origin, held, self._turn)])
+            origin = np.array([self._hold(x) for x in mirrored_origin(self._prepared, origin, held, self.turn)])
         low = self._prepared.units.into(origin)
         places = np.floor((self._positions - low) / (held / unit) + 0.5).astype(np.int32)
         if self._worth:
@@ -167,10 +163,10 @@ class Gridded:
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
         """Places from `low` on; vertices that would close a gap between parts are moved away, a cell or a few."""
-        gaps, toward = self._bounds.gaps, turned_by(self._bounds.gaps.closing[:, 0], self._turn, back=True)
+        gaps, toward = self._bounds.gaps, turned_by(self._bounds.gaps.closing[:, 0], self.turn, back=True)
         away = -np.rint(toward / np.abs(toward).max(axis=1, keepdims=True)).astype(np.int32)
         for first in (1, 0, 0) if len(away) else ():
-            closed = gaps.closed(turned_by(places * cell + low - self._positions, self._turn)) > 1.0
+            closed = gaps.closed(turned_by(places * cell + low - self._positions, self.turn)) > 1.0
             wrong = closed & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one of two parts
             places[gaps.ends[wrong, 0]] += away[wrong]
         return places
@@ -179,12 +175,12 @@ class Gridded:
         """Places from the origin on, some below it, perhaps."""
         least = places.min(axis=0)
         origin = tuple(self._hold(value) for value in start + least * held)
-        grid = Raster(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self._turn)
+        grid = Raster(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)), turn=self.turn)
         candidate = self._candidate(grid, places - least)
 
         def unfold() -> Trial | None:
             cell = held / self._prepared.units.scale
-            directions = cell * turned_by(np.eye(3), self._turn).reshape(1, 9)
+            directions = cell * turned_by(np.eye(3), self.turn).reshape(1, 9)
             reach = np.minimum(self._bounds.reaches, SPIKE * cell)
             turned = self._shaper.unfold(candidate.positions, places, directions, reach)
             return None if turned is None else self._placed(held, turned, start)
@@ -203,6 +199,14 @@ class Gridded:
         own, others = (grid.at(self.first).congruent.size for grid in (self, other))
         return other if others < (1.0 - LEAST_SAVED) * own else self
 
+    def repeat(self, first: Trial) -> float:
+        """Predict by congruent parts from now on if that pays in the first trial; return about its bytes."""
+        if first.congruent.size >= (1.0 - LEAST_SAVED) * first.draft.size:
+            return first.size
+        self.transforms = min(first.congruent.header.transforms, 1)
+        self.at.cache_clear()
+        return first.congruent.size
+
     def covered(self, step: float) -> float:
         """The share of vertices that congruent parts may predict at a step."""
         return covered(self._prepared, step * self._prepared.units.scale)
@@ -216,37 +220,28 @@ class Gridded:
                 exactly = _made_on_grid(positions, round(float(extent_of(positions).max()) / step))
                 yield from () if exactly is None else (self._candidate(*exactly),)
 
-    def rounded(self, bits: int) -> Trial:
-        return self._candidate(*_rounded(self._prepared, bits=bits))
-
     def _candidate(self, grid: Raster, places: Levels) -> Trial:
         repeats, quick = may_repeat(self._prepared), self._prepared.light
         brief, step = repeats and not quick, grid.step / self._prepared.units.scale
         linked = self._prepared.linked if brief else self._prepared.mesh.faces
         light = partial(grid_draft, self._prepared, replace(grid, light=True), places, brief)
         sampled, few = lru_cache(partial(sampled_size, linked, grid, places)), len(places) <= SAMPLE
-        drafts = dict[int, Draft]()
 
-        def coded(transforms: int, most: float = math.inf) -> Draft:
-            kind = min(transforms, 1)
-            if kind not in drafts or drafts[kind].cut:
-                some = None if kind < 0 else transforms_of(self._prepared, grid)[: kind * MOST]
-                drafts[kind] = grid_draft(self._prepared, replace(grid, transforms=some), places, brief, most)
-            return drafts[kind]
+        @lru_cache
+        def coded(transforms: int) -> Draft:
+            some = None if transforms < 0 else transforms_of(self._prepared, grid)[: transforms * MOST]
+            return grid_draft(self._prepared, replace(grid, transforms=some), places, brief)
 
         def also(make: Callable[[], Draft]) -> Draft:
-            if self.transforms >= 0:
-                return coded(self.transforms)
             draft = make()
-            if not repeats:
+            if self.transforms >= 0 or not repeats:
                 return draft
             kind = replace(grid, transforms=(transforms := transforms_of(self._prepared, grid)))
             if not len(transforms) and (quick or not (few or sampled_size(linked, kind, places) < sampled())):
                 return draft
-            return min(draft, coded(len(transforms)), key=lambda made: made.size)
+            return min(draft, coded(min(len(transforms), 1)), key=lambda made: made.size)
 
-        guess = None if few or self._prepared.light else lambda: light().size * (sampled() / sampled(1))
+        guess = None if few or quick or self.transforms >= 0 else lambda: light().size * (sampled() / sampled(1))
         decoded = grid.positions(places)
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
-        make, like = partial(coded, -1), lambda *given: coded(*given).size
-        return Trial(step, positions, make, guess=guess, also=also, like=like, decoded=decoded)
+        return Trial(step, positions, partial(coded, self.transforms), guess=guess, also=also, decoded=decoded)

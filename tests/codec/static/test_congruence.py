@@ -15,7 +15,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.congruence import coded_transforms, transforms_of
-from bsm.codec.static.choice.grids import Gridded, paying, rounded
+from bsm.codec.static.choice.grids import Gridded, _rounded, paying, rounded
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
@@ -52,7 +52,7 @@ def prepared_of(mesh: TriangleMesh, bits: int) -> Prepared:
 def coded(prepared: Prepared, bits: int) -> tuple[Draft, Draft]:
     """A grid of so many bits, without and with congruent parts."""
     grids = Gridded(prepared, Bounds(Measures(prepared, 1), Contract(0.01)))
-    return rounded(prepared, bits), grids.rounded(bits).congruent
+    return rounded(prepared, bits), grids._candidate(*_rounded(prepared, bits=bits)).congruent
 
 
 def version_of(data: bytes) -> int:

@@ -80,7 +80,7 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
     assert not encoder.notes
     assert reached[kind] <= value * (1 + 1e-9 * np.sign(value))
     # A finer step may take fewer bytes, and a wider one look better, where parts repeat.
-    assert reached[kind] >= (value - 0.25 if kind == "nmsve_db" else 0.85 * value)
+    assert reached[kind] >= (value - 2.0 if kind == "nmsve_db" else 0.85 * value)
 
 
 def test_blocks_get_no_room_that_only_grids_give_back() -> None:
