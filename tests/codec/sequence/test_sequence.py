@@ -291,6 +291,13 @@ def test_gops_begin_where_motion_changes(changes, monkeypatch):
         assert changes or len(encoded(positions, faces, gop=longest, step=0.005)[0]) > 1.1 * len(data)
 
 
+def test_a_large_basis_is_the_decoders():
+    positions, faces = bending(160)
+    positions = positions + 2e-3 * np.random.default_rng(1).normal(size=positions.shape)
+    data, wanted = encoded(positions, faces, gop=160, step=1e-3)
+    np.testing.assert_allclose(bsm.decode_sequence(data)[0], wanted, atol=0.02)
+
+
 def test_frames_that_are_shown_grant_work():
     data, _ = encoded(*bending(16), gop=16)
     with bsm.SequenceDecoder(bsm.Limits(work_per_byte=0)) as decoder:
