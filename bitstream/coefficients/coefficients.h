@@ -148,7 +148,7 @@ INLINE int64_t level_selector(const Chain *chain) { return *chain->blocks == 0 ?
 extern INSIDE const BankPlan BLOCK_BANK;
 int64_t code_block(Coder coder, Bank bank, Past past, ConstInts2 expectations, Ints2 levels);
 
-/* Entropy coding of a sequence's levels. See matrices.py. */
+/* Entropy coding of a sequence's levels. See matrices.c. */
 enum { CLASSES = 12 };
 
 /* Magnitude class 0 .. 11 of a sum of magnitudes. */

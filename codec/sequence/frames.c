@@ -1,4 +1,4 @@
-/* GOPs to frames (specification, S 3.7 to S 7, S 10): codec/sequence/gop.py and tracks.py. */
+/* GOPs to frames, and back to GOPs (specification, S 3.7 to S 7, S 10). */
 #include "codec/sequence/frames.h"
 
 #include "bitstream/coefficients/coefficients.h"
