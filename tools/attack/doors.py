@@ -2,7 +2,8 @@
 
 Each file is read, encoded with `lossless` (or `grid14`, where single precision is too coarse), decoded and compared
 with what trimesh, meshio, PyMeshLab and usd-core read: area, orientation, places, colors, texture coordinates
-and normals as moments, which do not depend on the order of faces; the number of triangles; and names of materials.
+and normals as moments, which do not depend on the order of faces; the number of triangles; names of materials; and
+their colors, of glTF (with images) by trimesh and of DAE by pycollada.
 The polygons of OBJ, OFF and USD are also read here. Their area vectors do not depend on the cut, and if ours are the
 same, another reader's triangles are not a finding. Polygons that are not flat, and quads whose edges cross, have a
 tolerance: what their heights and the milder cut add.
@@ -37,6 +38,8 @@ import numpy.typing as npt
 import bsm
 from bsm.bitstream.errors import imported
 from bsm.codec.geometry.attributes import at_corners
+from bsm.files.conventions import to_linear
+from bsm.files.formats.appearance import appearance
 from bsm.files.formats.metadata import materials_in, names_in, rgba
 from bsm.gltf.compress import compress, restore
 from bsm.gltf.document import read_document
@@ -46,6 +49,7 @@ from tools.replicate.fetch import unpacked
 Array = npt.NDArray[Any]
 LIST = Path(__file__).parent / "doors.json"
 EXACT, ON_GRID = 1e-5, 1e-3  # by how much moments may differ, relative to what they add up
+OF_LOOKS = 0.02  # by how much linear colors may differ: others round them to bytes
 UNEVEN = 0.05  # the most that polygons which are not flat, or cross themselves, add to that
 LARGEST = 3_000_000  # bytes of a file
 USD = ("usd", "usda", "usdc", "usdz")
@@ -66,6 +70,7 @@ class Read:
     groups: set[str] = field(default_factory=set)
     normals: Array | None = None
     uneven: float = 0.0
+    looks: list[tuple[float, ...]] = field(default_factory=list)  # linear colors of materials; 1 if it has an image
 
     def count(self) -> int:
         """The number of triangles with an area."""
@@ -105,13 +110,16 @@ def of_ours(mesh: bsm.TriangleMesh) -> Read:
     names = {str(material.get("name", "")) for material in materials_in(mesh.metadata).values()}
     groups = {name for what in ("part", "group", "object") for name in names_in(mesh.metadata, what).values()}
     groups |= {str(mesh.metadata.get("name", ""))}
-    return Read(mesh.positions[mesh.faces], values, names - {""}, groups - {""})
+    known = map(appearance, materials_in(mesh.metadata).values())
+    looks = [(*look.color, float(look.color_texture is not None)) for look in known]
+    return Read(mesh.positions[mesh.faces], values, names - {""}, groups - {""}, looks=looks)
 
 
 def of_trimesh(path: Path) -> Read:
     library = imported("trimesh", "files are compared with trimesh", "formats")
     scene = library.load_scene(path, process=False)
     triangles, values, names = [np.zeros((0, 3, 3))], dict[str, list[Array]](), set[str]()
+    looks = list[tuple[float, ...]]()
     parts = [(scene.graph[node][0], scene.geometry[scene.graph[node][1]]) for node in scene.graph.nodes_geometry]
     for matrix, part in parts:
         if not hasattr(part, "faces"):
@@ -123,6 +131,10 @@ def of_trimesh(path: Path) -> Read:
             if uv is not None and np.shape(uv) == (len(part.vertices), 2):
                 values.setdefault("texcoord", []).append(np.asarray(uv)[faces])
             names.add(str(getattr(part.visual.material, "name", "") or ""))
+            color = getattr(part.visual.material, "baseColorFactor", None)
+            if color is not None and path.suffix.lower() in (".glb", ".gltf"):  # of others, it is not linear
+                has_image = part.visual.material.baseColorTexture is not None
+                looks.append((*(np.asarray(color)[:3] / 255).tolist(), float(has_image)))
         elif part.visual.kind == "vertex":
             values.setdefault("color", []).append(part.visual.vertex_colors[faces][..., :3] / 255)
         if "vertex_normals" in part._cache and np.array_equal(matrix, np.eye(4)):
@@ -130,7 +142,19 @@ def of_trimesh(path: Path) -> Read:
     whole = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
     several = path.suffix.lower() == ".3mf" and len(parts) == len(scene.geometry) > 1
     groups = {name for name in scene.geometry if several and not name.isdigit()}  # a number is its own, for no name
-    return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"}, groups)
+    return Read(np.concatenate(triangles), whole, names - {"", "default", "material_0"}, groups, looks=looks)
+
+
+def of_collada(path: Path) -> Read:
+    """The colors of the effects that a DAE uses."""
+    library = imported("collada", "DAE files are compared with pycollada", "formats")
+    document = library.Collada(str(path), ignore=[library.common.DaeError])
+    parts = [part for node in document.scene.objects("geometry") for part in node.primitives()]
+    drawn = [part for part in parts if part.material and "Line" not in type(part).__name__]
+    plain = [part.material.effect.diffuse for part in drawn if isinstance(part.material.effect.diffuse, tuple)]
+    return Read(
+        np.zeros((min(len(drawn), 1), 3, 3)), looks=[(*to_linear(np.array([c[:3]]))[0].tolist(), 0.0) for c in plain]
+    )
 
 
 def of_meshio(path: Path) -> Read:
@@ -254,6 +278,7 @@ OTHERS: dict[str, tuple[Callable[[Path], Read], tuple[str, ...]]] = {
     "trimesh": (of_trimesh, ("ply", "obj", "stl", "off", "dae", "3mf", "glb", "gltf")),
     "meshio": (of_meshio, ("ply", "obj", "stl", "off", "vtp")),
     "pymeshlab": (of_pymeshlab, ("ply", "obj", "stl", "off", "dae", "3mf")),
+    "pycollada": (of_collada, ("dae",)),
     "usd": (of_usd, USD),
     "off polygons": (of_off, ("off",)),
     "obj polygons": (of_obj, ("obj",)),
@@ -332,7 +357,8 @@ def compared(path: Path, readers: Sequence[str], apart: Apart) -> Iterator[tuple
 def differences(name: str, ours: Read, read: Read, most: float, said: str) -> Iterator[tuple[str, str]]:
     """In what ours differs from another reader's, and how."""
     moments, most = ours.moments(), most + min(read.uneven, UNEVEN)
-    for what, value in read.moments().items():
+    has_shape = name != "pycollada"  # which is asked for colors only
+    for what, value in (read.moments() if has_shape else {}).items():
         mine = moments.get(what)
         off = np.inf if mine is None or mine.shape != value.shape else float(np.abs(mine - value).max())
         if not off <= most * (1 if what != "area" else float(value[0])):
@@ -340,7 +366,10 @@ def differences(name: str, ours: Read, read: Read, most: float, said: str) -> It
     for what in ("materials", "groups"):
         if lost := getattr(read, what) - getattr(ours, what):
             yield what, f"lost: {', '.join(sorted(lost)[:5])}"
-    fans = read.normals is not None  # corners in line have no area in one cut, and one in another
+    for look in sorted({*read.looks}):
+        if not any(np.abs(np.subtract(look, mine)).max() < OF_LOOKS for mine in ours.looks):
+            yield "looks", f"lost: {np.round(look, 3).tolist()}"
+    fans = read.normals is not None or not has_shape  # corners in line have no area in one cut, and one in another
     if (mine_too := ours.count()) != (count := read.count()) and "without area" not in said and not fans:
         yield "triangles", f"{mine_too}, by {name} {count}"
 
