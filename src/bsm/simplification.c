@@ -178,10 +178,10 @@ INLINE int64_t bucket_of(float cost) {
 }
 
 /* Make fewer of triangles with three different corners, about `target`. `wedges` number the values of their corners: a
- * vertex with several, SEAM of `states`, becomes only another one along a seam. `states` is FIXED for vertices that stay
- * where they are, and STEADY for all if none may move. Returns how many triangles there are,
- * which stand first; `owners` are what vertices have become. Scratch: quadrics, `ends` and `marks` for each vertex, one
- * more of `starts`, three of `around` for each triangle, `joins` for each wedge, and as many costs as there are edges. */
+ * vertex with several, SEAM of `states`, becomes another one along a seam. `states` is FIXED for vertices that
+ * stay where they are, and STEADY for all if none may move. Returns how many triangles there are, which stand first;
+ * `owners` are what vertices have become. Scratch: quadrics, `ends` and `marks` for each vertex, one more of
+ * `starts`, three of `around` for each triangle, `joins` for each wedge, a cost for each edge. */
 int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Doubles2 quadrics, Ints starts,
                  Ints around, Ints ends, Ints marks, Ints joins, Ints owners, Singles costs, Ints buckets,
                  int64_t target) {

@@ -183,9 +183,9 @@ class TestTables:
         spread = (tmp_path / "outside-spread.md").read_text().replace(" ", "")
         for what, meshes in (("default", 2), ("default,lookof0.85to1", 1)):
             assert f"|{what}|100-SSIMULACRA2|{meshes}|1.00|1.00|0.00|1.00|" in spread
-        assert "| 0.750 |" in (tmp_path / "denoising.md").read_text()
-        assert "| estimates |     11 | 1.500 |" in (tmp_path / "denoising.md").read_text()
-        assert "| 1.5 to 2.0 |" in (tmp_path / "denoising-pairs.md").read_text()
+        noise = (tmp_path / "denoising.md").read_text().replace(" ", "")
+        assert "|0.750|" in noise and "|estimates|11|1.500|" in noise
+        assert "|1.5to2.0|" in (tmp_path / "denoising-pairs.md").read_text().replace(" ", "")
 
     def test_tables_are_put_into_the_page_and_others_stay(self, tmp_path, monkeypatch):
         page = tmp_path / "measured.md"

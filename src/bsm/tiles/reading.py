@@ -124,7 +124,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
 
 
 def _textures(raw: Raw, beside: Beside) -> int:
-    """Write the picture of each material; return how many there are, none at all if there is no image."""
+    """Write the picture of each material; return how many there are, or 0 without any image."""
     if raw.rows.get("texcoord", 0) <= 1:
         return 0
     about = {f"material.{number}.name": name for name, number in raw.materials.items()}
