@@ -26,7 +26,7 @@ from tests.bsm.program import bsm as program
 from tests.gltf import Built
 from tests.shapes import ply_head
 from tests.streams import memory_below
-from tools.attack.readers import Case, _grown, chained_objects, problems, three_mf, warm_up
+from tools.attack.readers import Case, chained_objects, grown, problems, three_mf, warm_up
 from tools.vectors.meshes import torus
 
 LITTLE = "binary_little_endian"
@@ -162,7 +162,7 @@ LARGE = "ply, quads of bytes", "ply, long polygons of bytes", "glb, accessors of
 def test_what_multiplies_is_refused_or_within_the_promised_memory_and_time(limits):
     pytest.importorskip("trimesh")
     warm_up()
-    made = _grown(1 << 19)
+    made = grown(1 << 19)
     assert not list(problems([Case(name, made[name]) for name in LARGE], limits))
 
 
