@@ -49,10 +49,5 @@ void bind_bitstream(nb::module_ &m) {
     }, "kernel"_a, nb::sig("def bank_plan(kernel: str) -> tuple[int, int, int, int, int]"));
 
     CHECKED(code_labels)
-
-    m.def("points_of_levels", [](ConstInts2 levels, Doubles2 points) {
-        int64_t count = least(levels.rows * levels.columns, points.rows * points.columns);
-        values_of_levels(levels.data, count, 1.0, points.data);
-    }, "levels"_a, "points"_a, Unlocked());
     CHECKED(code_block) CHECKED(nearest_levels) CHECKED(code_matrix)
 }

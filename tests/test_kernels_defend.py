@@ -38,7 +38,7 @@ KERNELS = {
 }
 REFUSALS = 40
 """Of a kernel, after which it is left alone."""
-NOTHING_SHORT = {"priors", "start", "bank_plan", "constant", "code_uniform", "points_of_levels"}
+NOTHING_SHORT = {"priors", "start", "bank_plan", "constant", "code_uniform"}
 """Kernels that are given no array, or one that may be of any length."""
 
 

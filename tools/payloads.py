@@ -12,7 +12,7 @@ from bsm._core import Decoder
 from bsm._core import bitstream as _kernels
 from bsm.bitstream.coefficients.adaptive import CoefficientModel
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, Writer
-from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder, bank_of, finish_writing, make_room, start_writing
+from bsm.bitstream.entropy.range_coder import Bank, Coder, bank_of, finish_writing, start_writing
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import CONNECTIVITY, NEED
@@ -21,6 +21,7 @@ from tools.surgery import Cursor
 Ints = npt.NDArray[np.int32]
 Lead: TypeAlias = tuple[int, int]
 """Columns coded of the first row, and more of each next one; without a lead all, after a half those with any."""
+POSITION = _kernels.constant("CODER_POSITION")
 AHEAD = 4  # bytes that a reader holds besides those that a writer is done with
 
 
@@ -83,9 +84,8 @@ def encode_levels(
     bank: Bank, matrices: Sequence[Ints], references: Sequence[Ints], leads: Sequence[Lead | None] | None = None
 ) -> bytes:
     """Code matrices one after the other."""
-    coder = start_writing(0)
+    coder = start_writing(sum(16 * matrix.size + 64 for matrix in matrices))
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
-        coder = make_room(coder, 16 * matrix.size + 64)
         occupied = np.flatnonzero(matrix.any(axis=1))
         rows, slow = int(occupied[-1]) + 1 if len(occupied) else 0, np.empty(matrix.shape[1], np.int64)
         _kernels.code_matrix(coder, bank, matrix, reference, rows, *extent_of(matrix, lead), slow)

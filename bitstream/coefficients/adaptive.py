@@ -44,13 +44,6 @@ Levels = npt.NDArray[np.int32]
 STATES = constant("TRELLIS_STATES")  # the numbers of the last three grids, the latest in the lowest bit
 
 
-def points_of_levels(levels: Levels) -> npt.NDArray[np.float64]:
-    """Coefficients of a block in half steps, shape (c, 3); levels follow each other row by row."""
-    points = np.empty(levels.shape)
-    _kernels.points_of_levels(levels, points)
-    return points
-
-
 class Experience(NamedTuple):
     """Learned numbers, in the order of the specification."""
 

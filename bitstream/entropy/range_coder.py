@@ -10,8 +10,6 @@ from bsm.bitstream.errors import OptionError
 
 ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
 
-POSITION = _kernels.constant("CODER_POSITION")
-
 
 class Coder(NamedTuple):
     """A range coder over a buffer; made by `start_writing`."""
@@ -44,16 +42,6 @@ def make_bank(slots: int, selectors: int, inputs: int, limit: int = 255, rate: i
 def start_writing(capacity: int) -> Coder:
     """Make a coder that writes at most `capacity` bytes; one coded bit takes two bytes at the very most."""
     return Coder(np.array([0, (1 << 32) - 1, 0, 0, 0], np.int64), np.empty(capacity + 8, np.uint8))
-
-
-def make_room(coder: Coder, capacity: int) -> Coder:
-    """Return a coder that continues `coder` and can write at least `capacity` bytes more."""
-    if int(coder.state[POSITION]) + capacity < coder.data.size:
-        return coder
-    written = int(coder.state[POSITION])
-    data = np.empty(written + capacity + 8, np.uint8)
-    data[:written] = coder.data[:written]
-    return Coder(coder.state, data)
 
 
 def finish_writing(coder: Coder) -> bytes:

@@ -16,18 +16,9 @@ instructions (C. Ashcraft, R. Grimes, "The influence of relaxed supernode partit
 import numpy as np
 
 from bsm._core import Solver
-from bsm.codec.arrays import Matrix
 from bsm.codec.blocks.overlap import Block
 
 
 def solver_of(block: Block, shift: float) -> Solver:
     """L + delta I of a block, factorised."""
     return Solver(block.offsets, block.neighbors, np.full(block.size, shift))
-
-
-def dense_laplacian(block: Block) -> Matrix:
-    """L of a block, with all weights one, as a dense matrix, shape (n, n)."""
-    laplacian = np.zeros((block.size, block.size))
-    laplacian[np.repeat(np.arange(block.size), block.degrees), block.neighbors] = -1.0
-    np.fill_diagonal(laplacian, block.degrees)
-    return laplacian

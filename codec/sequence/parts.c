@@ -3,29 +3,10 @@
 
 #include "codec/signal/signal.h"
 #include "codec/basis/dictionary_costs.h"
+#include "codec/geometry/geometry.h"
 #include "codec/sequence/temporal.h"
 
 static const double TETHER = 0x1p-16, SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4;
-
-static void sift(int32_t *heap, int64_t root, int64_t count) {
-    for (int64_t child; (child = 2 * root + 1) < count; root = child) {
-        if (child + 1 < count && heap[child + 1] > heap[child]) child++;
-        if (heap[root] >= heap[child]) return;
-        int32_t other = heap[root];
-        heap[root] = heap[child];
-        heap[child] = other;
-    }
-}
-
-static void sort_numbers(int32_t *numbers, int64_t count) {
-    for (int64_t root = count / 2; root-- > 0;) sift(numbers, root, count);
-    for (int64_t end = count; end-- > 1;) {
-        int32_t last = numbers[end];
-        numbers[end] = numbers[0];
-        numbers[0] = last;
-        sift(numbers, 0, end);
-    }
-}
 
 /* Number the vertices around a part, ascending; `place`, one for each vertex of the mesh, holds -1 before and after. */
 static bool number_around(Ints outer, Ints place, Arena *scratch, Ints *around) {
@@ -35,7 +16,7 @@ static bool number_around(Ints outer, Ints place, Arena *scratch, Ints *around) 
         if (place.data[outer.data[i]] < 0) around->data[around->size++] = outer.data[i];
         place.data[outer.data[i]] = 0;
     }
-    sort_numbers(around->data, around->size);
+    sort_ascending(around->data, around->size);
     for (int64_t i = 0; i < around->size; i++) place.data[around->data[i]] = (int32_t)i;
     for (int64_t i = 0; i < outer.size; i++) outer.data[i] = place.data[outer.data[i]];
     for (int64_t i = 0; i < around->size; i++) place.data[around->data[i]] = -1;

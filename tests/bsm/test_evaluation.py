@@ -10,7 +10,6 @@ import pytest
 
 from bsm import CorruptError, EncodeOptions, MeshError, TriangleMesh
 from bsm.cli import main
-from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
@@ -39,6 +38,7 @@ from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
 from bsm.pictures import render, view_matrix
 from tests.shapes import patch, torus
+from tools.laplacians import dense_laplacian
 from tools.replicate.paper.compression import EXACT
 from tools.vectors.meshes import shuffled
 

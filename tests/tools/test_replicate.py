@@ -12,13 +12,13 @@ import pytest
 from threadpoolctl import threadpool_info
 
 from bsm import TriangleMesh
-from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.codec.denoise.denoise_shapes import grid
 from tests.shapes import torus
+from tools.laplacians import dense_laplacian
 from tools.replicate import ablation, denoising, fetch, outside, paper, quotes, rates, report, run, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance

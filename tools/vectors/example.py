@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.coefficients.adaptive import CoefficientModel, points_of_levels
+from bsm.bitstream.coefficients.adaptive import CoefficientModel
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
@@ -15,6 +15,7 @@ from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
+from bsm.codec.signal.transform import placed
 from bsm.codec.static.coding import rules_of
 from tools.payloads import decode_coefficients
 from tools.surgery import frames_of, header_entries, scan
@@ -79,7 +80,8 @@ def _numbers(stream: bytes) -> list[str]:
     chain = Chain(rules_of(header.constants, header.key_interval), blocks)
     vertices = chain.begin(0)[0]
     subspace = chain.dictionary(payload[1])
-    coefficients = points_of_levels(levels) * (header.step / 2)
+    unit = np.eye(len(levels), dtype=np.float32)
+    coefficients = placed(np.zeros(levels.shape), unit, levels, header.step)
     return [
         "The faces are " + ", ".join(f"({a} {b} {c})" for a, b, c in mesh.faces.tolist()) + ".",
         "The rows of the only block are the vertices " + " ".join(map(str, vertices.tolist())) + ".",

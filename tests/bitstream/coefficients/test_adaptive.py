@@ -15,9 +15,9 @@ from bsm.bitstream.coefficients.adaptive import (
     CoefficientModel,
     encode_coefficients,
     nearest_levels,
-    points_of_levels,
     shipped_experience,
 )
+from bsm.codec.signal.transform import placed
 from tools.payloads import decode_coefficients
 
 HASH = "2a093067f31fc03a6ec865ebc6193347d2b21ff18e6f4903e80cfc3af97c39d0"
@@ -76,6 +76,11 @@ def test_the_shipped_experience_is_that_of_the_format() -> None:
 
 
 UNITS = st.integers(-5, 5) | st.integers(-3000, 3000) | st.sampled_from([MAX_LEVEL * TARGET_UNIT])
+
+
+def points_of_levels(levels: np.ndarray) -> np.ndarray:
+    """Coefficients of a block in half steps."""
+    return placed(np.zeros(levels.shape), np.eye(len(levels), dtype=np.float32), levels, 2.0)
 
 
 def squared_error(levels: np.ndarray, wanted: np.ndarray) -> float:

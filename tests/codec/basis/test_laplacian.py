@@ -5,9 +5,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.basis.laplacian import dense_laplacian, solver_of
+from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
+from tools.laplacians import dense_laplacian
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 150), st.just(3)), elements=st.integers(0, 69))
 

@@ -3,13 +3,13 @@ import pytest
 
 from bsm import Encoder, decode
 from bsm._core import Solver
-from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.options import encode_options
 from tests.shapes import patch, torus
+from tools.laplacians import dense_laplacian
 
 RULES = ChainRules(exact=True, key_interval=1, power=2, iterations=1, key_iterations=1, shift=0.125, springs=False)
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import Block, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
+from tools.laplacians import dense_laplacian
 from tools.replicate.paper.dictionaries import Floats, in_file_order
 from tools.replicate.paper.figures import save_matrices
 from tools.replicate.paper.models import Model, Study

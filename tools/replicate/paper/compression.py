@@ -11,10 +11,10 @@ import scipy.linalg
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import eigsh
 
-from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.static.encoder import Encoder
 from bsm.evaluation.curve import Line as Drawn
 from bsm.evaluation.curve import Spectral, distinct, measure, paper_options
+from tools.laplacians import dense_laplacian
 from tools.replicate.paper.dictionaries import BITS, Cut, Floats
 from tools.replicate.paper.dynamic import codec_rule
 from tools.replicate.paper.figures import save_lines

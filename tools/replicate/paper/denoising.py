@@ -10,13 +10,13 @@ from functools import partial
 import numpy as np
 import scipy.linalg
 
-from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import Blend, Blocks
 from bsm.codec.denoise.coarse import KEEP, RULES, CoarseFilter
 from bsm.codec.denoise.normals import bilateral_normal_filtering, guided_normal_filtering
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.static.choice.blocks import MOST_APART
+from tools.laplacians import dense_laplacian
 from tools.noise import gaussian_along_normals
 from tools.replicate.paper.dictionaries import Floats, degree_weights, eigenvectors
 from tools.replicate.paper.figures import save_surfaces

@@ -11,12 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Basis, Indices, Positions
-from bsm.codec.basis.laplacian import dense_laplacian, solver_of
+from bsm.codec.basis.laplacian import solver_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 from bsm.codec.blocks.overlap import Blend, Block
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.static.choice.blocks import MOST_APART
 from bsm.codec.static.options import Paper
+from tools.laplacians import dense_laplacian
 from tools.replicate.paper.models import Model
 
 Floats = npt.NDArray[np.float64]

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from bsm.codec.basis.laplacian import dense_laplacian
+from tools.laplacians import dense_laplacian
 from tools.replicate.paper.dictionaries import BITS, SHIFT, Cut, Floats, iterated
 from tools.replicate.paper.models import Study
 from tools.replicate.paper.published import Line, claim, printed
