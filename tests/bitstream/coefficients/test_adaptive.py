@@ -103,13 +103,6 @@ def test_nearest_levels_have_the_least_error_of_all_ways(seed: int) -> None:
     assert squared_error(nearest_levels(wanted), wanted) == min(squared_error(way, wanted) for way in every)
 
 
-def test_the_trellis_saves_a_decibel_of_error() -> None:
-    wanted = np.random.default_rng(7).integers(20 * TARGET_UNIT, 60 * TARGET_UNIT, (2000, 3))
-    assert 10 * np.log10(squared_error(nearest_levels(wanted), wanted) / wanted.size * 12) == pytest.approx(
-        -1.09, abs=0.05
-    )
-
-
 def test_targets_beyond_the_largest_level_are_refused() -> None:
     with pytest.raises(OptionError, match="levels up to"):
         nearest_levels(np.full((1, 3), (MAX_LEVEL + 1) * TARGET_UNIT))
