@@ -37,7 +37,7 @@ FLOORS = {
         ("api",),
         ("gltf", "research", "viewer"),
         ("tiles", "vtk"),
-        ("pyvista", "trimesh"),
+        ("openmesh", "pyvista", "trimesh"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),

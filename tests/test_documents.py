@@ -159,7 +159,7 @@ def test_blocks(name, block, folder):
     if re.search(BY_CI, block):
         assert block.strip() in _run_by_ci()
     elif is_python(block):
-        for library in re.findall(r"import (?:bsm, )?(?:bsm\.)?(trimesh|pyvista|meshio|open3d)\b", block):
+        for library in re.findall(r"import (?:bsm, )?(?:bsm\.)?(trimesh|pyvista|meshio|open3d|openmesh)\b", block):
             pytest.importorskip(library)
         (folder / "snippet.py").write_text(SETTING + block)
         passed(run(folder, "python snippet.py"))

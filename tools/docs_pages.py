@@ -16,6 +16,7 @@ MODULES = {
     "bsm.research": "One's own dictionary, prediction or partition in place of ours",
     "bsm.trimesh": "Streams in trimesh",
     "bsm.pyvista": "Streams in pyvista",
+    "bsm.openmesh": "Meshes of OpenMesh",
     "bsm.vtk": "Streams in pipelines of VTK, and ParaView",
 }
 """Modules that are public beside `bsm` itself."""

@@ -6,10 +6,9 @@ import math
 import os
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from traceback import walk_stack
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,10 +16,10 @@ import numpy as np
 from bsm.bitstream.errors import ArgumentError, BsmWarning, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.arrays import as_array
-from bsm.codec.geometry.attributes import Semantic
+from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import plain_fields, without_materials, without_names
-from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_column, compact
+from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, compact, named_column
 from bsm.files.formats.with_meshio import columns_of, of_meshio
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.images import largest_side, with_linked_images
@@ -34,7 +33,6 @@ if TYPE_CHECKING:
 
 _POINTS = ("vertices", "points", "positions")
 _FACES = ("faces", "triangles")
-_NOTHING: Mapping[str, Any] = MappingProxyType({})
 _WITH_NOTES = ("bsm.cli", "bsm.commands.", "bsm.jobs.", "bsm.viewer.contents")
 
 
@@ -56,11 +54,7 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         return mesh.mesh
     if isinstance(mesh, (str, os.PathLike, Input)):
         return read_any(mesh if isinstance(mesh, Input) else Input(mesh))
-    return with_warnings(_of_library(mesh))
-
-
-def with_warnings(found: MeshFile) -> TriangleMesh:
-    """Return the mesh, after warnings about changes and losses."""
+    found = _of_library(mesh)
     warn(found.notes)
     return found.mesh
 
@@ -150,21 +144,13 @@ def _of_arrays(positions: Any, faces: Any) -> MeshFile:
     return _of_polygons(positions, sizes, corners).checked(DEFAULT_LIMITS)
 
 
-def _of_polygons(
-    positions: Any,
-    sizes: Ints,
-    corners: Array,
-    columns: Sequence[Column] = (),
-    metadata: Metadata = _NOTHING,
-    left: Sequence[str] = (),
-) -> Polygons:
+def _of_polygons(positions: Any, sizes: Ints, corners: Array, columns: Sequence[Column] = ()) -> Polygons:
     points = as_array(positions, "positions", np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     if corners.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {corners.dtype}")
-    flat = corners.astype(np.int64)
-    return Polygons(points, sizes.astype(np.int64), flat, (), tuple(left), tuple(columns), metadata)
+    return Polygons(points, sizes.astype(np.int64), corners.astype(np.int64), columns=tuple(columns))
 
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:
@@ -187,23 +173,19 @@ def _of_pyvista(mesh: Any) -> Polygons:
     active: dict[str, Semantic] = {normals: "normal", texcoords: "texcoord"}
     columns = [*columns_of(mesh.point_data, "vertex", left, active), *columns_of(cells, "face", left)]
     metadata, others = plain_fields(mesh.field_data)
-    left += [f"field data {name}" for name in others]
-    return _of_polygons(mesh.points, *_split(np.array(mesh.faces, np.int64)), columns, metadata, left)
+    found = _of_polygons(mesh.points, *_split(np.array(mesh.faces, np.int64)), columns)
+    return replace(found, dropped=(*left, *(f"field data {name}" for name in others)), metadata=metadata)
 
 
 def _of_open3d(mesh: Any) -> Polygons:
     normals, colors, uvs = (_table(mesh, name) for name in ("vertex_normals", "vertex_colors", "triangle_uvs"))
-    materials, columns = _table(mesh, "triangle_material_ids"), list[Column]()
-    if normals is not None:
-        columns.append(Column("normal", compact(normals), semantic="normal"))
-    if colors is not None:
-        columns.append(color_column(colors, "vertex"))
-    if uvs is not None:
-        columns.append(Column("texcoord", compact(uvs), "corner", "texcoord"))
+    columns = _shown(("normal", "vertex", normals), ("color", "vertex", colors), ("texcoord", "corner", uvs))
+    materials = _table(mesh, "triangle_material_ids")
     if materials is not None:
         columns.append(Column("material", materials.reshape(-1, 1), "face"))
-    left, faces = ["textures"] if len(getattr(mesh, "textures", ())) else [], np.asarray(mesh.triangles)
-    return _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns, left=left)
+    left, faces = ("textures",) if len(getattr(mesh, "textures", ())) else (), np.asarray(mesh.triangles)
+    found = _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns)
+    return replace(found, dropped=left)
 
 
 def _table(mesh: Any, name: str) -> Array | None:
@@ -211,8 +193,36 @@ def _table(mesh: Any, name: str) -> Array | None:
     return values if values.size else None
 
 
+def _of_openmesh(mesh: Any) -> Polygons:
+    """A `TriMesh` or `PolyMesh`: a face has a halfedge to each of its corners, and then -1."""
+    try:
+        table, ends = np.atleast_2d(mesh.fh_indices()), np.asarray(mesh.halfedge_to_vertex_indices())
+    except RuntimeError as error:  # deleted elements leave gaps
+        raise MeshError(f"{str(error).rstrip('.')}: mesh.garbage_collection()") from error
+    halfedges = table[table >= 0]
+
+    def held(name: str) -> Array | None:
+        return np.array(getattr(mesh, name)()) if getattr(mesh, f"has_{name}")() else None
+
+    uvs = held("halfedge_texcoords2D")
+    columns = _shown(
+        ("normal", "vertex", held("vertex_normals")),
+        ("color", "vertex", held("vertex_colors")),
+        ("color", "face", held("face_colors")),
+        ("texcoord", "vertex", held("vertex_texcoords2D")) if uvs is None else ("texcoord", "corner", uvs[halfedges]),
+    )
+    return _of_polygons(mesh.points(), (table >= 0).sum(axis=1), ends[halfedges], columns)
+
+
+def _shown(*given: tuple[Semantic, Domain, Array | None]) -> list[Column]:
+    """Columns of the values that a mesh has."""
+    there = ((meaning, domain, compact(values)) for meaning, domain, values in given if values is not None)
+    return [named_column(meaning, values, domain, meaning) for meaning, domain, values in there]
+
+
 _LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
     ("visual", "vertex_attributes", polygons_of),
+    ("fv_indices", "halfedge_to_vertex_indices", _of_openmesh),
     ("graph", "geometry", lambda scene: joined(scene, DEFAULT_LIMITS)),
     ("cells", "cell_sets", of_meshio),
     ("point_data", "n_lines", _of_pyvista),

@@ -18,17 +18,16 @@ from typing import IO, Any
 import numpy as np
 
 from bsm.api import decode, encode
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.errors import imported
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import Material, Texture, appearance, in_gltf
 from bsm.files.formats.polygons import Array
-from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
-from bsm.libraries import as_mesh, with_warnings
+from bsm.libraries import as_mesh
 
 __all__ = ["from_trimesh", "to_scene", "to_trimesh"]
-_library = import_trimesh(".bsm files are opened by trimesh only")
+_library = imported("trimesh", ".bsm files are opened by trimesh only with trimesh", "formats")
 
 
 def to_trimesh(mesh: Any) -> Any:
@@ -55,8 +54,7 @@ def to_scene(mesh: Any) -> Any:
 
 def from_trimesh(mesh: Any) -> TriangleMesh:
     """Convert a mesh of trimesh, or a scene with all its parts at their places, with attributes and materials."""
-    found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
-    return with_warnings(found.checked(DEFAULT_LIMITS))
+    return as_mesh(mesh)
 
 
 def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from tools.noise import gaussian_along_normals
 NAMES = [name for name in bsm.__all__ if inspect.isfunction(getattr(bsm, name)) or inspect.isclass(getattr(bsm, name))]
 VALUES = {"__version__", "END_OF_STREAM", "NEED_DATA", "PRESETS"}
 """What is neither: the pages of `Signal` and of `EncodeOptions` tell of them."""
-NEEDS = {"bsm.trimesh": "trimesh", "bsm.pyvista": "pyvista", "bsm.vtk": "vtkmodules"}
+NEEDS = {"bsm.trimesh": "trimesh", "bsm.pyvista": "pyvista", "bsm.vtk": "vtkmodules", "bsm.openmesh": "openmesh"}
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.appearance import Material
@@ -21,11 +20,6 @@ _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """The padding after a PNG or JPEG in GLB files."""
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
 """Metadata that trimesh has added."""
-
-
-def import_trimesh(what: str) -> Any:
-    """The library; `DependencyError` where it is missing."""
-    return imported("trimesh", f"{what} with trimesh", "formats")
 
 
 def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
