@@ -502,6 +502,7 @@ things = st.sampled_from(["", "1 0 0", "1 1 1 x", "nan", "-s 1", "\n", "\ud800"]
 
 @settings(max_examples=60)
 @example(statements={(0, "Kd"): float("inf")}, images={}, kind="glb")
+@example(statements={(0, "name"): "\ud800"}, images={}, kind="3mf")
 @given(
     statements=st.dictionaries(st.tuples(st.integers(0, 2), words), things, max_size=5),
     images=st.dictionaries(st.integers(0, 2), st.sampled_from([b"", b"x", png(), png()[:20]]), max_size=2),

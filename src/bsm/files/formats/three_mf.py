@@ -20,7 +20,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement, unit_named
 from bsm.files.formats import metadata as formats
-from bsm.files.formats.appearance import Material, appearance, held_by, lost, within
+from bsm.files.formats.appearance import Material, appearance, held_by, lost, one_line, within
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.room import NO_DOUBLES, Doubles, Ints, as_format_error, as_library_error, single_suffices
 from bsm.files.unread import Taken, rows_of
@@ -251,12 +251,12 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
             first = painted[rows[0]]
             item.SetObjectLevelProperty(int(first["ResourceID"]), int(first["PropertyIDs"][0]))
             _call(item, "meshobject_setalltriangleproperties", *_counted(painted[rows], library.TriangleProperties))
-        item.SetName(name)
+        item.SetName(one_line(name))
         model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
     said = {"Application": mesh.metadata.get("provenance"), **mesh.metadata}
     for name in _KNOWN:
         if isinstance(value := said.get(name), str):
-            model.GetMetaDataGroup().AddMetaData("", name, value, "xs:string", True)
+            model.GetMetaDataGroup().AddMetaData("", name, value.encode(errors="replace").decode(), "xs:string", True)
             held |= {key for key in (name, "provenance") if mesh.metadata.get(key) == value}
     writer = model.QueryWriter("3mf")
     largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
@@ -290,7 +290,7 @@ def _colored(library: Any, model: Any, numbers: Ints, materials: Mapping[int, Ma
         look, _ = within(appearance(words))
         shares = conventions.to_srgb(np.array([*look.color, look.opacity]))
         rgba = library.Color(*np.rint(255 * shares).astype(int).tolist())
-        places[place] = group.AddMaterial(str(words.get("name") or f"material {number}"), rgba)
+        places[place] = group.AddMaterial(one_line(str(words.get("name") or f"material {number}")), rgba)
         held |= {f"material.{number}.{word}" for word in words.keys() - {*lost(words, held_by("3MF"))}}
     given = np.zeros(len(numbers), np.dtype(library.TriangleProperties))
     given["ResourceID"], given["PropertyIDs"] = group.GetUniqueResourceID(), places[where][:, None]
