@@ -104,11 +104,6 @@ class Idea:
     predictor: Callable[[Site], npt.ArrayLike] | None = None
     partition: Callable[[Integers, Integers, int], npt.ArrayLike] | None = None
 
-    @property
-    def needed_to_decode(self) -> bool:
-        """Whether decoders cannot decode a stream made with it."""
-        return self.dictionary is not None or self.predictor is not None
-
 
 @dataclass(frozen=True, eq=False)
 class BlockArrays:
@@ -143,7 +138,7 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
     prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, idea, options)
     draft = _draft(prepared, idea, options)
     stream = b"".join(draft.frames)
-    if idea.needed_to_decode:
+    if idea.dictionary is not None or idea.predictor is not None:
         if b"".join(_draft(prepared, idea, options).frames) != stream:
             raise OptionError("the dictionary or predictor returns different values for the same site")
         stream = MARK + stream

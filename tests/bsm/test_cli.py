@@ -81,14 +81,6 @@ def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, e
     assert expected in text and absent not in text
 
 
-def test_the_papers_rate_counts_every_coefficient(folder, tmp_path):
-    options = ["--set", "bits=12", "--set", "coefficients=15", *SMALL]
-    main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options])
-    info = run_json("info", tmp_path / "a.bsm")
-    assert info["coefficients"] == [15] * info["blocks"]
-    assert info["bpv_paper"] == pytest.approx(3 * 12 * 15 * info["blocks"] / info["vertices"])
-
-
 def test_compare_takes_streams_files_and_permutations(folder, tmp_path, mesh):
     stream = run_json("compare", folder / "sample.ply", folder / "sample.bsm")
     main(["decode", str(folder / "sample.bsm"), "-q", "-o", str(tmp_path / "a.npz")])
@@ -236,10 +228,3 @@ def test_the_flags_are_fields_and_show_their_defaults():
             assert not default or "yes" in shown
         elif default is not None:
             assert f"{default}" in shown, flag.field
-
-
-def test_info_counts_one_face(tmp_path, capsys):
-    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    assert main(["encode", "-q", str(tmp_path / "a.obj"), "-o", str(tmp_path / "a.bsm")]) == 0
-    assert main(["info", str(tmp_path / "a.bsm")]) == 0
-    assert "3 vertices, 1 face\n" in capsys.readouterr().out

@@ -127,6 +127,7 @@ REFUSED = {
     "threads must": (bsm.ArgumentError, lambda: bsm.decode(stream(), threads="2")),
     "start": (bsm.OptionError, lambda: bsm.SequenceDecoder(start=-1)),
     "start must": (bsm.OptionError, lambda: bsm.SequenceDecoder(start=1 << 70)),
+    "expected, not NoneType": (bsm.ArgumentError, lambda: bsm.load(None)),
     r"unknown goal 'typo'.*shading": (bsm.OptionError, lambda: bsm.denoise(torus(5, 5), goal="typo")),
 }
 

@@ -38,7 +38,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     rule = ImageRule.parse(args.images) if args.images else None
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"{args.output}: the output must be a .glb")
-    if not Path(args.input).is_dir() and is_stream(args.input) and _moves(args.input):
+    streamed = not Path(args.input).is_dir() and is_stream(args.input)
+    if streamed and (header := peek_header(read_chunks(args.input))[0]) and header.gop_frames:
         if any((args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)) or (
             args.preset != PRESETS[-1]
         ):
@@ -89,11 +90,6 @@ def _notes_on(found: Compressed, document: Document, before: int, *, shrinks: bo
     if not shrinks and 2 * images > len(found.data):
         yield f"{images} bytes are unchanged images; --images webp:85 makes them smaller"
     yield from (f"{count} unchanged: {reason}" for reason, count in found.left.items())
-
-
-def _moves(path: str) -> bool:
-    header = peek_header(read_chunks(path))[0]
-    return header is not None and header.gop_frames > 0
 
 
 def _document(path: str, console: Console) -> tuple[Document, int | None]:

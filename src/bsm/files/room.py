@@ -101,11 +101,6 @@ def continued(data: bytes) -> bytes:
     return re.sub(rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", lambda found: found[1] or b" ", data, flags=re.M)
 
 
-def without_comments(data: bytes) -> bytes:
-    """`data` with everything from a # to the end of its line taken out."""
-    return re.sub(rb"#[^\n\r]*", b"", data) if b"#" in data else data
-
-
 def require_lines(present: int, claimed: int) -> None:
     """Raise `TruncatedError` if fewer lines are present than the header of a file claims."""
     if present < claimed:

@@ -78,10 +78,6 @@ def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
         return Outcome({}, failure, tuple(console.kept or ()))
 
 
-def far_outcome(work: Work, task: Task) -> Outcome:
-    return outcome_of(work, task, Console(task.quiet, kept=[]))
-
-
 def anywhere(name: str) -> str:
     """Return an absolute path, which is valid in every process and on machines that share the folders."""
     return name if not name or pipes.is_url(name) else os.path.abspath(name)

@@ -18,9 +18,10 @@ from functools import partial
 from typing import Any
 
 from bsm.bitstream.errors import DependencyError, imported
+from bsm.console import Console
 from bsm.exits import exit_of
 from bsm.files.output import Terminated, handled, termination_as_exception
-from bsm.jobs.task import Outcome, Outcomes, Task, Tasks, Work, far_outcome
+from bsm.jobs.task import Outcome, Outcomes, Task, Tasks, Work, outcome_of
 
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
 GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was asked to end
@@ -137,6 +138,6 @@ def _end_with_parent() -> None:
 
 def _task(work: Work, task: Task) -> Outcome:
     try:
-        return far_outcome(work, task)
+        return outcome_of(work, task, Console(task.quiet, kept=[]))
     except Terminated:  # unfinished files are removed; do not start another job
         os._exit(exit_of(Terminated()).code)

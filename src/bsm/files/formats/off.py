@@ -11,7 +11,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, unsaid
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
-from bsm.files.room import Doubles, Ints, Rows, point_row, require_count, require_lines, text_table, without_comments
+from bsm.files.room import Doubles, Ints, Rows, point_row, require_count, require_lines, text_table
 
 _OFF_HEADER = re.compile(
     rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF"
@@ -20,7 +20,7 @@ _OFF_HEADER = re.compile(
 
 
 def read_off(data: bytes, limits: Limits) -> Polygons:
-    text = without_comments(data)
+    text = re.sub(rb"#[^\n\r]*", b"", data)
     header = _OFF_HEADER.match(text)
     if header is None:
         raise FormatError("this is not an OFF file: it does not begin with OFF and the numbers of vertices and faces")

@@ -31,7 +31,7 @@ from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, between, painted_like
 from bsm.files.room import Doubles, Ints, as_format_error, as_library_error, require_count, single_suffices
 from bsm.files.unread import Said, Taken, rows_of
-from bsm.lengths import metres
+from bsm.lengths import metres, unit_of
 
 _COORDINATES = "st"  # what texture coordinates are called
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
@@ -771,8 +771,7 @@ def _begun(
     geom, rate = pxr.UsdGeom, shared.frame_rate or USUAL_RATE
     metadata = formats.without_materials(first.metadata)
     geom.SetStageUpAxis(stage, geom.Tokens.z if str(metadata.get("up", "y")).lower() == "z" else geom.Tokens.y)
-    unit = metadata.get("unit")
-    size = metres(unit) if isinstance(unit, str) else None
+    size = metres(unit_of(metadata))
     geom.SetStageMetersPerUnit(stage, size or 1.0)
     stage.SetTimeCodesPerSecond(rate)
     stage.SetFramesPerSecond(rate)
