@@ -27,7 +27,7 @@ template <typename T, size_t count> static nb::tuple tuple_of(const T (&numbers)
 }
 
 void bind_codec(nb::module_ &m) {
-    KERNEL(vertex_faces) KERNEL(normals_apart) KERNEL(geometric_laplacian) KERNEL(build_tree)
+    KERNEL(normals_apart) KERNEL(geometric_laplacian) KERNEL(build_tree)
     KERNEL(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
     CHECKED(averaged) CHECKED(contrast) KERNEL(add_copies) KERNEL(collect_edges) KERNEL(patch_guidance)
     KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)
@@ -41,6 +41,6 @@ void bind_codec(nb::module_ &m) {
     m.def("quarters", [] { return tuple_of(QUARTERS); }, nb::sig("def quarters() -> tuple[float, ...]"));
     CHECKED(label_components) KERNEL(weighted_angle)
     CHECKED(local_frames) CHECKED(tangent_steps) CHECKED(add_heights) CHECKED(add_slides)
-    CHECKED(collect_flaps) CHECKED(group_flaps) CHECKED(shape_levels) CHECKED(collect_creases) CHECKED(hang_creases)
+    CHECKED(collect_flaps) CHECKED(shape_levels) CHECKED(collect_creases)
     CHECKED(find_motions) CHECKED(settle_levels) CHECKED(count_folds) CHECKED(unfold_levels) CHECKED(shape_grid)
 }

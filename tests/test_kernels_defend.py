@@ -26,11 +26,11 @@ from tools.vectors.meshes import tangled
 
 STAGES = (
     *("smooth_all", "place_block", "back_into_unit", "show_frames", "draw_shaded", "averaged"),
-    *("contrast", "shown_normals", "collect_creases", "hang_creases"),
+    *("contrast", "shown_normals", "collect_creases"),
     *("settle_levels", "paint_checker", "paint_colors"),
 )
 """Of the codec's kernels those that do whole stages; others are called by what has looked at its arrays."""
-NAMING, BEYOND = {"draw_shaded", "shown_normals", "collect_creases", "hang_creases", *STAGES[-3:]}, 10**6
+NAMING, BEYOND = {"draw_shaded", "shown_normals", "collect_creases", *STAGES[-3:]}, 10**6
 """Kernels that look at each index that they are given."""
 KERNELS = {
     **{name: kernel for name, kernel in vars(of_bytes).items() if callable(kernel)},

@@ -16,7 +16,6 @@ typedef struct {
 
 int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, int64_t most,
     double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp, Doubles costs);
-int64_t hang_creases(ConstInts2 faces, ConstInts2 pairs, Ints starts, Ints members);
 
 bool fits_rows(ConstInts starts, ConstInts members, int64_t rows, int64_t count);
 bool fits_creases(const Creases *creases, int64_t vertices);
@@ -46,7 +45,6 @@ typedef struct {
 } Aim;
 
 int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints pending, Ints2 flaps);
-int64_t group_flaps(ConstInts2 flaps, Ints starts, Ints members);
 int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
     ConstDoubles scales, double pull, Bytes open);
 int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,

@@ -7,8 +7,8 @@
 
 enum { SIDES = 3 };
 
-INLINE bool has(const int32_t *face, int sides, int32_t vertex) {
-    for (int k = 0; k < sides; k++)
+INLINE bool has(const int32_t *face, int32_t vertex) {
+    for (int k = 0; k < SIDES; k++)
         if (face[k] == vertex) return true;
     return false;
 }
@@ -70,7 +70,7 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstL
                 int shared = 0;
                 bool first = true; /* of the vertices that they share */
                 for (int k = 0; k < SIDES; k++)
-                    if (has(other, SIDES, face[k])) shared++, first &= face[k] >= v;
+                    if (has(other, face[k])) shared++, first &= face[k] >= v;
                 if (!first) continue;
                 if (found < pairs.rows) {
                     pairs.data[2 * found] = around.data[i], pairs.data[2 * found + 1] = around.data[j];
@@ -81,36 +81,6 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstL
             }
     }
     return found;
-}
-
-/* The vertices of a pair, each once; returns how many. */
-INLINE int vertices_of(const int32_t *faces, const int32_t *pair, int32_t *vertices) {
-    int count = 0;
-    for (int k = 0; k < 2 * SIDES; k++) {
-        int32_t v = faces[SIDES * (int64_t)pair[k / SIDES] + k % SIDES];
-        if (!has(vertices, count, v)) vertices[count++] = v;
-    }
-    return count;
-}
-
-/* Group pairs by the vertices of their faces: `members`, with room for six a pair, gets those of vertex v from
- * `starts[v]` on. Returns how many members there are. */
-KERNEL int64_t hang_creases(ConstInts2 faces, ConstInts2 pairs, Ints starts, Ints members) {
-    int64_t n = starts.size - 1;
-    if (n < 0 || !fits_faces(faces, n) || !fits_pairs(pairs, faces.rows) || members.size < 2 * SIDES * pairs.rows)
-        return MISUSED;
-    int32_t vertices[2 * SIDES];
-    for (int64_t v = 0; v <= n; v++) starts.data[v] = 0;
-    for (int64_t i = 0; i < pairs.rows; i++)
-        for (int k = vertices_of(faces.data, pairs.data + 2 * i, vertices); k-- > 0;) starts.data[vertices[k] + 1]++;
-    for (int64_t v = 0; v < n; v++) starts.data[v + 1] += starts.data[v];
-    int32_t all = starts.data[n]; /* ends of rows, one place on, become starts while these are filled from behind */
-    for (int64_t i = pairs.rows; i-- > 0;)
-        for (int k = vertices_of(faces.data, pairs.data + 2 * i, vertices); k-- > 0;)
-            members.data[--starts.data[vertices[k] + 1]] = (int32_t)i;
-    for (int64_t v = 0; v < n; v++) starts.data[v] = starts.data[v + 1];
-    starts.data[n] = all;
-    return all;
 }
 
 bool fits_creases(const Creases *c, int64_t vertices) {

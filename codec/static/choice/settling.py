@@ -120,7 +120,6 @@ def creases_of(positions: Positions, faces: Faces) -> Creases:
         return found, pairs, sharp, costs
 
     _, pairs, sharp, costs = collect(collect(0)[0])
-    starts, members = np.empty(count + 1, np.int32), np.empty(6 * len(pairs), np.int32)
-    hanging = _kernels.hang_creases(faces, pairs, starts, members)
+    starts, members = vertex_faces(faces[pairs].reshape(-1, 6), count)
     area = max(float(crosses[:, 3].sum()), 1e-300)
-    return Creases(faces, pairs, sharp, costs / area, starts, members[:hanging].copy(), CREASE)
+    return Creases(faces, pairs, sharp, costs / area, starts.astype(np.int32), members, CREASE)

@@ -389,20 +389,3 @@ int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Int
         }
     return count;
 }
-
-/* The flaps of each vertex: 2 f where it is an end of flap f's edge, 2 f + 1 where it is opposite. */
-int64_t group_flaps(ConstInts2 flaps, Ints starts, Ints members) {
-    if (flaps.columns != 4 || members.size != 4 * flaps.rows || starts.size < 1) return MISUSED;
-    int64_t n = starts.size - 1;
-    for (int64_t v = 0; v <= n; v++) starts.data[v] = 0;
-    for (int64_t i = 0; i < 4 * flaps.rows; i++) starts.data[flaps.data[i] + 1]++;
-    for (int64_t v = 0; v < n; v++) starts.data[v + 1] += starts.data[v];
-    for (int64_t i = 4 * flaps.rows; i-- > 0;) {
-        int32_t v = flaps.data[i];
-        members.data[--starts.data[v + 1]] = (int32_t)(2 * (i / 4) + (i % 4 >= 2));
-    }
-    /* Every end has come down to where the row begins: move them up by one. */
-    for (int64_t v = 0; v < n; v++) starts.data[v] = starts.data[v + 1];
-    starts.data[n] = (int32_t)members.size;
-    return 0;
-}

@@ -96,6 +96,6 @@ class Shaper:
         pending = np.empty(len(graph.neighbors), np.int32)
         count = _kernels.collect_flaps(faces, graph.offsets, graph.neighbors, pending, flaps)
         flaps = flaps[:count].copy()
-        starts, members = np.empty(graph.size + 1, np.int32), np.empty(4 * count, np.int32)
-        _kernels.group_flaps(flaps, starts, members)
-        return flaps, starts, members
+        starts, members = vertex_faces(flaps, graph.size)
+        opposite = (flaps[members, 2:] == np.repeat(np.arange(graph.size), np.diff(starts))[:, None]).any(axis=1)
+        return flaps, starts.astype(np.int32), 2 * members + opposite
