@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 from bsm import __version__
 from bsm.codec.choices import suggestion
 from bsm.console import Console
-from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, report_error
+from bsm.exits import EXITS, USAGE, behind, exit_of, is_expected, report_error
 from bsm.files.output import Terminated, refuse_collisions
 from bsm.synonyms import OPTIONS, advice_on_command, refuse_misplaced
 
@@ -79,10 +79,11 @@ def command_parser(name: str) -> Parser:
 
 def program_parser(*, complete: bool = True) -> Parser:
     """The parser of the program, for shtab, too; with `complete` it also knows what each command takes."""
+    codes = "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
     parser = Parser(
         prog="bsm",
         description="Compress, decode and compare triangle meshes and moving meshes.",
-        epilog=f"exit codes (for several inputs, that of the first failure):\n{exit_table()}",
+        epilog=f"exit codes (for several inputs, that of the first failure):\n{codes}",
     )
     parser.add_argument("--version", action="store_true", help="show the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND")

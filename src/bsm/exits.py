@@ -62,10 +62,6 @@ def is_expected(error: BaseException) -> bool:
     return isinstance(error, failures.BsmError) or exit_of(error) is not UNEXPECTED
 
 
-def exit_table() -> str:
-    return "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
-
-
 def behind(error: BaseException) -> BaseException:
     """Return the signal that caused an error, if any; otherwise the error."""
     cause: BaseException | None = error

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import imported
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import SAMPLES, Canvas
 
 SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
@@ -98,11 +99,7 @@ def render(
     fine = size * _SUPERSAMPLING
     placed = (positions - center) @ view.T / radius
     pixels = (placed * (1.0, -1.0, 1.0) + (1.0, 1.0, 0.0)) * (fine / 2, fine / 2, 1.0)
-    corners = placed[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    normals /= np.where(lengths > 0, lengths, 1.0)[:, None]
-    shade = 0.25 + 0.75 * np.abs(normals @ _LIGHT)
+    shade = 0.25 + 0.75 * np.abs(face_normals(placed, faces) @ _LIGHT)
     owner = nearest_faces(pixels, faces, fine)
     table = np.vstack([shade[:, None] * (_BASE if colors is None else colors), np.ones(3)])
     image = table[owner]

@@ -149,7 +149,8 @@ class Source:
         shares = []
         for one, two, bound in ((self.whole, other, self._reach), (other, self.whole, reach)):
             allowed = np.concatenate([bound, *_of_sides(bound[one.faces], np.min)])
-            far = distances_to_surface(_samples(one), two.positions, two.faces, enough=allowed)
+            places = np.concatenate([one.positions, *_of_sides(one.positions[one.faces], np.mean)])
+            far = distances_to_surface(places, two.positions, two.faces, enough=allowed)
             shares.append(float((far / allowed).max()))
         return max(shares)
 
@@ -260,11 +261,6 @@ def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Fac
     used[faces] = True
     numbers = np.where(used, np.cumsum(used, dtype=np.int32) - 1, -1).astype(np.int32)
     return rows[used], numbers[faces], numbers
-
-
-def _samples(mesh: TriangleMesh) -> Matrix:
-    """The vertices and the middles of edges and faces."""
-    return np.concatenate([mesh.positions, *_of_sides(mesh.positions[mesh.faces], np.mean)])
 
 
 def _of_sides(corners: Matrix, each: Callable[..., Matrix]) -> list[Matrix]:

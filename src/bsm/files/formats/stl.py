@@ -8,6 +8,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import first_of, group_rows, keep_apart
 from bsm.files.formats.appearance import text_of
 from bsm.files.formats.metadata import Written, face_numbers, left_out, named
@@ -101,11 +102,7 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     if not single_suffices(mesh.positions):
         raise MeshError(NO_DOUBLES.format("STL"))
     triangles = np.zeros(len(mesh.faces), RECORD)
-    corners = mesh.positions[mesh.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    triangles["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    triangles["corners"] = corners
+    triangles["normal"], triangles["corners"] = face_normals(mesh.positions, mesh.faces), mesh.positions[mesh.faces]
     attribute = face_numbers(mesh, _ATTRIBUTE)
     if attribute is not None and attribute.values.dtype == np.uint16:
         triangles["attribute"] = attribute.values[:, 0]
