@@ -871,7 +871,7 @@ def test_formats_without_materials_say_so(kind, tmp_path):
     assert write_mesh(tmp_path / "a.obj", mesh) == () and "Kd 1 0 0" in (tmp_path / "a.mtl").read_text()
 
 
-@pytest.mark.parametrize("kind", ["vtk", "bdf", "inp", "mesh", "msh", "xyz"])
+@pytest.mark.parametrize("kind", ["mesh", "post", "su2", "med", "ugrid", "xyz"])
 def test_formats_of_other_libraries_do_not_leak_in(kind, tmp_path):
     (tmp_path / f"a.{kind}").write_text("1 2 3\n")
     with pytest.raises(FormatError, match=f"{kind} is not a mesh format"):
