@@ -133,12 +133,6 @@ def test_the_two_sides_differ() -> None:
     assert result.forward == result.hausdorff == pytest.approx(np.sqrt(0.5))
 
 
-def test_a_different_triangulation_of_the_same_surface_is_no_distance() -> None:
-    middle = np.concatenate([SQUARE, [[0.3, 0.6, 0.0]]])
-    fan = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], dtype=np.int32)
-    assert surface_distance(SQUARE, TWO, middle, fan, samples=2000).hausdorff < 1e-12
-
-
 @settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1))
 def test_the_tree_finds_the_nearest_triangle(seed: int) -> None:

@@ -1,7 +1,6 @@
 """Grids that are predicted from congruent parts: transforms are found, pay, and come back."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,7 +22,6 @@ from bsm.codec.static.targets import Contract, Target
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 from bsm.commands.info import summarize
 from bsm.files.inspection import inspect_stream
-from bsm.files.mesh import read_mesh
 from tools.surgery import with_header
 from tools.vectors.good_congruence import about, mirrors
 from tools.vectors.good_fields import header_of
@@ -189,11 +187,3 @@ def test_vertices_are_split_where_that_takes_fewer_bytes():
     assert whole.header.whole and split.header.transforms > 0 and not split.header.whole
     assert split.size < 0.9 * whole.size
     assert (decode(b"".join(split.frames)).positions == whole.decoded).all()
-
-
-@pytest.mark.real
-@pytest.mark.parametrize("name", ["assets/1002_tray_bottom.STL", "assets/ADIS16480.STL"])
-def test_real_parts_take_fewer_bytes(meshes: Path, name):
-    mesh = read_mesh(str(meshes / name)).mesh
-    plain, both = (encode(mesh, EncodeOptions(congruence=congruent)) for congruent in (False, True))
-    assert len(both) < 0.95 * len(plain)
