@@ -189,14 +189,6 @@ def face_normals(positions: Positions, faces: Faces) -> Floats:
     return face_geometry(positions, faces).normals
 
 
-def flat_faces(positions: Positions, faces: Faces) -> Mask:
-    """Which faces, shape (m,), have no area, but for the rounding of coordinates."""
-    a, b, c = (np.asarray(positions, np.float64)[corner] for corner in np.ascontiguousarray(faces.T))
-    longest = np.sqrt(np.max([squares_of(side) for side in (b - a, c - b, a - c)], axis=0))
-    area = np.sqrt(squares_of(np.cross(b - a, c - a)))
-    return np.asarray(area <= 8.0 * np.finfo(np.float64).eps * np.abs(positions).max(initial=0.0) * longest)
-
-
 def folded_edges(positions: Positions, faces: Faces) -> int:
     """How many edges that two faces share are folded by more than 90 degrees; faces without area fold none."""
     normals = face_normals(positions, faces)

@@ -50,9 +50,4 @@ const char *encode_message(void) { return stream == NULL ? "out of memory" : str
 const uint8_t *encode_bytes(void) { return stream->bytes; }
 int encode_size(void) { return (int)stream->size; }
 
-void encode_end(void) {
-    bsmenc_release(stream);
-    stream = NULL;
-}
-
 #endif

@@ -11,11 +11,11 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError, public
-from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.arrays import Faces, Mask, Order, Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Comparison, compare, face_geometry, flat_faces
+from bsm.codec.geometry.mesh import TriangleMesh, squares_of
+from bsm.codec.geometry.metrics import Comparison, compare, face_geometry
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import join, joined
 from bsm.files.conventions import shares_of
@@ -240,7 +240,7 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
     first, second, faces = paired.original.positions, paired.positions, paired.original.faces
     positions = compare(first, second, faces)  # refuses sizes that overflow below
-    flattened = int((flat_faces(second, faces) & ~flat_faces(first, faces)).sum())
+    flattened = int((_flat_faces(second, faces) & ~_flat_faces(first, faces)).sum())
     places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
     found: dict[str, AttributeComparison | None] = {}
     areas = np.repeat(face_geometry(original.positions, original.faces).areas, 3)[paired.corners]
@@ -259,3 +259,11 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
             found[attribute.name] = compare_values(values, others, areas if attribute.semantic == "normal" else None)
     counts = {"flattened": flattened, "merged": max(0, places[0] - places[1])}
     return MeshComparison(**asdict(positions), attributes=found, **counts)
+
+
+def _flat_faces(positions: Positions, faces: Faces) -> Mask:
+    """Which faces, shape (m,), have no area, but for the rounding of coordinates."""
+    a, b, c = (np.asarray(positions, np.float64)[corner] for corner in np.ascontiguousarray(faces.T))
+    longest = np.sqrt(np.max([squares_of(side) for side in (b - a, c - b, a - c)], axis=0))
+    area = np.sqrt(squares_of(np.cross(b - a, c - a)))
+    return np.asarray(area <= 8.0 * np.finfo(np.float64).eps * np.abs(positions).max(initial=0.0) * longest)
