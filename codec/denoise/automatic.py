@@ -88,9 +88,7 @@ class AutomaticChoice:
     @property
     def reliable(self) -> bool:
         """Whether the expected errors can be relied on."""
-        if self.forecast is None:
-            return True
-        return self.forecast.known and self.expected < self.untreated
+        return self.forecast is None or (self.forecast.known and self.expected < self.untreated)
 
     @property
     def at_most(self) -> float:

@@ -26,18 +26,11 @@ class CoarseFilter:
     """A low-pass filter of everything that lives on the vertices of one connectivity."""
 
     def __init__(
-        self,
-        faces: Faces,
-        n: int,
-        keep: float = KEEP,
-        block: int = BLOCK_SIZE,
-        rules: ChainRules = RULES,
-        *,
-        overlap: float = OVERLAP,
+        self, faces: Faces, n: int, keep: float = KEEP, block: int = BLOCK_SIZE, rules: ChainRules = RULES
     ) -> None:
         graph = graph_of_faces(np.ascontiguousarray(faces, dtype=np.int32), n)
         partition = metis_partition(graph, max(1, round(n / block)))
-        self._size = block_size(partition, overlap)
+        self._size = block_size(partition, OVERLAP)
         blocks = grow_blocks(graph, partition, self._size)
         self._blocks = _dictionaries(blocks, self._width(keep), rules)
 

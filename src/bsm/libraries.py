@@ -178,19 +178,16 @@ def _of_pyvista(mesh: Any) -> Polygons:
 
 
 def _of_open3d(mesh: Any) -> Polygons:
-    normals, colors, uvs = (_table(mesh, name) for name in ("vertex_normals", "vertex_colors", "triangle_uvs"))
-    columns = _shown(("normal", "vertex", normals), ("color", "vertex", colors), ("texcoord", "corner", uvs))
-    materials = _table(mesh, "triangle_material_ids")
-    if materials is not None:
+    columns = _shown(
+        ("normal", "vertex", mesh.vertex_normals),
+        ("color", "vertex", mesh.vertex_colors),
+        ("texcoord", "corner", mesh.triangle_uvs),
+    )
+    if (materials := np.asarray(mesh.triangle_material_ids)).size:
         columns.append(Column("material", materials.reshape(-1, 1), "face"))
     left, faces = ("textures",) if len(getattr(mesh, "textures", ())) else (), np.asarray(mesh.triangles)
     found = _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns)
     return replace(found, dropped=left)
-
-
-def _table(mesh: Any, name: str) -> Array | None:
-    values = np.asarray(getattr(mesh, name))
-    return values if values.size else None
 
 
 def _of_openmesh(mesh: Any) -> Polygons:
@@ -201,23 +198,23 @@ def _of_openmesh(mesh: Any) -> Polygons:
         raise MeshError(f"{str(error).rstrip('.')}: mesh.garbage_collection()") from error
     halfedges = table[table >= 0]
 
-    def held(name: str) -> Array | None:
-        return np.array(getattr(mesh, name)()) if getattr(mesh, f"has_{name}")() else None
+    def held(name: str) -> Any:
+        return getattr(mesh, name)() if getattr(mesh, f"has_{name}")() else ()
 
     uvs = held("halfedge_texcoords2D")
     columns = _shown(
         ("normal", "vertex", held("vertex_normals")),
         ("color", "vertex", held("vertex_colors")),
         ("color", "face", held("face_colors")),
-        ("texcoord", "vertex", held("vertex_texcoords2D")) if uvs is None else ("texcoord", "corner", uvs[halfedges]),
+        ("texcoord", "corner", uvs[halfedges]) if len(uvs) else ("texcoord", "vertex", held("vertex_texcoords2D")),
     )
     return _of_polygons(mesh.points(), (table >= 0).sum(axis=1), ends[halfedges], columns)
 
 
-def _shown(*given: tuple[Semantic, Domain, Array | None]) -> list[Column]:
-    """Columns of the values that a mesh has."""
-    there = ((meaning, domain, compact(values)) for meaning, domain, values in given if values is not None)
-    return [named_column(meaning, values, domain, meaning) for meaning, domain, values in there]
+def _shown(*given: tuple[Semantic, Domain, Any]) -> list[Column]:
+    """Columns of the values that there are."""
+    tables = [(meaning, domain, np.array(values)) for meaning, domain, values in given]
+    return [named_column(meaning, compact(table), domain, meaning) for meaning, domain, table in tables if table.size]
 
 
 _LIBRARIES: tuple[tuple[str, str, Callable[[Any], Polygons]], ...] = (
