@@ -1,4 +1,5 @@
-/* bsmenc: an encoder of triangle meshes to BSM streams, with positions on a grid or exact. bsmdec.h reads them.
+/* bsmenc: an encoder of triangle meshes to BSM streams, with positions on a grid or exact, and of frames that share
+ * their faces. bsmdec.h reads them.
  *
  *     bsmenc_mesh mesh = {sizeof mesh, vertices, faces, NULL, positions, corners};
  *     bsmenc_stream *stream;
@@ -76,6 +77,9 @@ typedef struct {
     size_t attribute_count;
     const bsmdec_metadata *metadata; /* names must be different, and at most 255 bytes long */
     size_t metadata_count;
+    /* 0: one mesh. Otherwise a sequence: all positions of the first frame are followed by those of the next one, and so
+     * on. No coordinate of a frame is farther off than on a grid of the options' bits, or cells. Attributes stay. */
+    int64_t frames;
 } bsmenc_mesh;
 
 /* What positions become. */

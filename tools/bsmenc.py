@@ -32,7 +32,7 @@ class Mesh(Structure):
     _fields_ = [
         *(("size", c_size_t), ("vertices", c_int64), ("faces", c_int64)),
         *((name, c_void_p) for name in ("positions", "positions_single", "corners", "attributes")),
-        *(("attribute_count", c_size_t), ("metadata", c_void_p), ("metadata_count", c_size_t)),
+        *(("attribute_count", c_size_t), ("metadata", c_void_p), ("metadata_count", c_size_t), ("frames", c_int64)),
     ]
 
 
@@ -138,8 +138,9 @@ def encode(library: ctypes.CDLL, mesh: TriangleMesh, qualities: Any = (), **opti
         both = value if kind == 1 else 0, value if kind == 2 else 0.0
         entries[i] = Entry(name.encode(), kind, *both, at, size)
     arrays = kept[0].ctypes.data, None, kept[1].ctypes.data, ctypes.addressof(given)
-    whole = Mesh(ctypes.sizeof(Mesh), len(kept[0]), len(kept[1]), *arrays, len(given), ctypes.addressof(entries))
-    whole.metadata_count = len(entries)
+    frames = options.pop("frames", 0)  # whose positions follow each other
+    sizes = len(kept[0]) // max(frames, 1), len(kept[1])
+    whole = Mesh(ctypes.sizeof(Mesh), *sizes, *arrays, len(given), ctypes.addressof(entries), len(entries), frames)
     chosen = Options(ctypes.sizeof(Options))
     for name, value in options.items():
         setattr(chosen, name, (c_double * 3)(*value) if name == "origin" else value)

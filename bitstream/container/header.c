@@ -83,9 +83,12 @@ Record header_record(const Header *h) {
     return (Record){
         .number = {[VERTICES] = {(double)h->vertices}, [FACES] = {(double)h->faces}, [SCALE] = {h->scale},
             [CENTER] = {center[0], center[1], center[2]}, [ATTRIBUTES] = {(double)h->attributes},
-            [GRID] = {grid[0], grid[1], grid[2]}, [LIGHT_KEY] = {h->light}},
-        .count = {[VERTICES] = 1, [FACES] = 1, [SCALE] = 1, [CENTER] = 3, [ATTRIBUTES] = 1, [GRID] = 3,
-            [LIGHT_KEY] = 1}};
+            [GRID] = {grid[0], grid[1], grid[2]}, [LIGHT_KEY] = {h->light}, [BLOCKS] = {(double)h->blocks},
+            [BLOCK_SIZE] = {(double)h->block_size}, [COEFFICIENTS] = {(double)h->coefficients}, [STEP] = {h->step},
+            [SEQUENCE] = {(double)h->frames, (double)h->gop_frames}},
+        .count = {[VERTICES] = 1, [FACES] = 1, [SCALE] = 1, [CENTER] = 3, [ATTRIBUTES] = 1,
+            [GRID] = h->is_sequence ? 0 : 3, [LIGHT_KEY] = 1, [BLOCKS] = 1, [BLOCK_SIZE] = 1, [COEFFICIENTS] = 1,
+            [STEP] = h->is_sequence, [SEQUENCE] = h->is_sequence ? 2 : 0}};
 }
 #endif
 

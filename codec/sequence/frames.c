@@ -155,8 +155,7 @@ void end_gops(Gops *gops) {
     gops->begun = false;
 }
 
-/* The orthonormal cosines of T frames: row t, column frequency (S 5.1). */
-static bool time_cosines(int64_t frames, Arena *arena, Doubles2 *columns) {
+bool time_cosines(int64_t frames, Arena *arena, Doubles2 *columns) {
     Doubles table;
     if (!take_doubles2(arena, frames, frames, columns) || !take_doubles(arena, frames + 8, &table)) return false;
     cosines(table, *columns);

@@ -6,6 +6,8 @@
 bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
     ConstInts2 faces, ConstDoubles2 first_frame, int64_t given, const MovingAttribute *moving, int count,
     Arena *scratch);
+/* The orthonormal cosines of T frames: row t, column frequency (S 5.1). */
+bool time_cosines(int64_t frames, Arena *arena, Doubles2 *columns);
 /* Keep only what a later run of the mesh cannot do without. */
 void suspend_gops(Gops *gops);
 void end_gops(Gops *gops);

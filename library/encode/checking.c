@@ -3,8 +3,8 @@
 
 #ifdef BSMDEC_WRITES
 
-enum { MOST_FACES = (1 << 30) / 3, MOST_VERTICES = 1 << 30, MOST_GRID_BITS = 20, MOST_VALUE_BITS = 32,
-    MOST_LABEL = 1 << 24, MOST_LABELS = 1 << 16, NAME_WORDS = (MOST_NAME + 1) / 8 };
+enum { MOST_FACES = (1 << 30) / 3, MOST_VERTICES = 1 << 30, MOST_FRAMES = 1 << 28, MOST_GRID_BITS = 20,
+    MOST_VALUE_BITS = 32, MOST_LABEL = 1 << 24, MOST_LABELS = 1 << 16, NAME_WORDS = (MOST_NAME + 1) / 8 };
 static const double MOST_COORDINATE = 1e290, LEAST_EXTENT = 1e-290;
 
 /* ---- Before ---- */
@@ -19,19 +19,24 @@ static bool check_shape(Encoder *encoder) {
     for (int64_t i = 0; i < 3 * mesh->faces; i++)
         if (mesh->corners[i] >= (uint64_t)mesh->vertices)
             return FAIL(context, MISUSED, "corner # is vertex # of #", i, mesh->corners[i], mesh->vertices);
-    Doubles2 positions = {(double *)mesh->positions, mesh->vertices, 3}; /* only read */
+    int64_t frames = largest(mesh->frames, 1), rows = frames * mesh->vertices;
+    if (mesh->frames < 0 || frames > MOST_FRAMES / mesh->vertices)
+        return FAIL(context, MISUSED, "a sequence cannot have # frames", mesh->frames);
+    Doubles2 positions = {(double *)mesh->positions, rows, 3}; /* only read */
     if (mesh->positions == NULL) {
-        if (!take_doubles2(&encoder->writer.arena, mesh->vertices, 3, &positions)) return false;
-        for (int64_t i = 0; i < 3 * mesh->vertices; i++) positions.data[i] = mesh->positions_single[i];
+        if (!take_doubles2(&encoder->writer.arena, rows, 3, &positions)) return false;
+        for (int64_t i = 0; i < 3 * rows; i++) positions.data[i] = mesh->positions_single[i];
     }
-    for (int64_t i = 0; i < 3 * mesh->vertices; i++)
+    for (int64_t i = 0; i < 3 * rows; i++)
         if (!is_finite(positions.data[i]))
-            return FAIL(context, MISUSED, "a coordinate of vertex # is not finite", i / 3);
+            return FAIL(context, MISUSED, "a coordinate of vertex # is not finite", i / 3 % mesh->vertices);
     double low[3], high[3], extent = box_of(const_doubles2(positions), low, high);
     if (reach_of(low, high, 3) > MOST_COORDINATE)
         return FAIL(context, MISUSED, "the mesh is too far from the origin: scale it");
     if (extent > 0.0 && extent < LEAST_EXTENT) return FAIL(context, MISUSED, "the mesh is too small: scale it");
-    encoder->given = (GivenMesh){mesh->vertices, mesh->faces, const_doubles2(positions), mesh->corners};
+    encoder->given = (GivenMesh){mesh->vertices, mesh->faces, frames, const_doubles2(positions), mesh->corners};
+    if (mesh->frames > 0 && encoder->options.positions == BSMENC_LOSSLESS)
+        return FAIL(context, MISUSED, "frames of a sequence are not kept to the bit: take bits, or cells");
     return true;
 }
 
@@ -192,15 +197,16 @@ static int64_t given_corner(const Proof *proof, int64_t f, int64_t k) {
 }
 
 /* Faces join the vertices that they joined, and each vertex is where it was, but for rounding. */
-static bool prove_shape(Proof *proof) {
+static bool prove_shape(Proof *proof, int64_t frame) {
     Encoder *encoder = proof->encoder;
     const bsmenc_stream *stream = &encoder->stream;
     const Rounded *rounded = &encoder->rounded;
-    const double *given = encoder->given.positions.data;
+    const double *given = encoder->given.positions.data + 3 * encoder->given.vertices * frame;
     /* A place is within half a step. Coordinates in single precision add at most a 64th, and computing with them four
      * roundings of the largest place; doubles add their last digit. */
     double cells = largest(largest(rounded->largest[0], rounded->largest[1]), rounded->largest[2]) * 0x1p-22;
-    double step = rounded->exact ? 0.0 : rounded->step * (0.5 + 1.0 / 64.0 + cells), farthest = 0.0;
+    double step = rounded->exact ? 0.0 : rounded->step * (0.5 + (encoder->mesh->frames > 0 ? 0.0 : 1.0 / 64.0 + cells));
+    double farthest = encoder->stream.error;
     if (proof->vertices != stream->vertices || proof->faces != stream->faces) return differs(proof, "sizes");
     for (int64_t i = 0; i < 3 * proof->faces; i++) {
         uint32_t own = encoder->given.corners[given_corner(proof, i / 3, i % 3)], decoded = proof->corners.data[i];
@@ -290,6 +296,19 @@ static bool prove_metadata(Proof *proof) {
     return true;
 }
 
+static bool prove_frame(Proof *proof, const bsmdec_event *event, int64_t frame) {
+    proof->vertices = event->vertices;
+    proof->faces = event->faces;
+    release_all(&proof->arena);
+    if (!take_doubles2(&proof->arena, proof->vertices, 3, &proof->positions)
+        || !take_words(&proof->arena, 3 * proof->faces, &proof->corners))
+        return false;
+    if (bsmdec_faces(proof->decoder, proof->corners.data, (size_t)proof->corners.size) != BSMDEC_OK
+        || bsmdec_positions(proof->decoder, proof->positions.data, (size_t)(3 * proof->vertices)) != BSMDEC_OK)
+        return differs(proof, "sizes");
+    return prove_shape(proof, frame);
+}
+
 /* The decoder's limits and memory are also the encoder's. */
 static bool decode_all(Proof *proof) {
     Encoder *encoder = proof->encoder;
@@ -302,8 +321,12 @@ static bool decode_all(Proof *proof) {
     if (proof->decoder == NULL) return FAIL(context, NO_MEMORY, "out of memory");
     bsmdec_push(proof->decoder, encoder->out.bytes.data, (size_t)encoder->out.bytes.size);
     bsmdec_finish(proof->decoder);
-    do bsmdec_next(proof->decoder, &event);
-    while (event.type != BSMDEC_END && event.type != BSMDEC_ERROR);
+    int64_t frames = 0;
+    do {
+        bsmdec_next(proof->decoder, &event);
+        bool shown = event.type == (encoder->mesh->frames > 0 ? BSMDEC_FRAME : BSMDEC_END);
+        if (shown && frames < encoder->given.frames && !prove_frame(proof, &event, frames++)) return false;
+    } while (event.type != BSMDEC_END && event.type != BSMDEC_ERROR);
     const bsmdec_error *error = bsmdec_last_error(proof->decoder);
     if (error->status != BSMDEC_OK) {
         bool usual = error->status == BSMDEC_LIMIT || error->status == BSMDEC_NO_MEMORY
@@ -312,20 +335,12 @@ static bool decode_all(Proof *proof) {
         if (!usual) context->error.status = BSMDEC_FAULT;
         return false;
     }
-    proof->vertices = event.vertices;
-    proof->faces = event.faces;
-    if (!take_doubles2(&proof->arena, proof->vertices, 3, &proof->positions)
-        || !take_words(&proof->arena, 3 * proof->faces, &proof->corners))
-        return false;
-    if (bsmdec_faces(proof->decoder, proof->corners.data, (size_t)proof->corners.size) != BSMDEC_OK
-        || bsmdec_positions(proof->decoder, proof->positions.data, (size_t)(3 * proof->vertices)) != BSMDEC_OK)
-        return differs(proof, "sizes");
-    return true;
+    return frames == encoder->given.frames || differs(proof, "numbers of frames");
 }
 
 bool prove_stream(Encoder *encoder) {
     Proof proof = {.encoder = encoder, .arena = arena_of(&encoder->writer.context)};
-    bool done = decode_all(&proof) && prove_shape(&proof) && prove_metadata(&proof);
+    bool done = decode_all(&proof) && prove_metadata(&proof);
     if (done && bsmdec_attribute_count(proof.decoder) != encoder->carried_count)
         done = differs(&proof, "numbers of attributes");
     for (int i = 0; done && i < encoder->carried_count; i++)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "library/encode/carrying.h"
+#include "library/encode/moving.h"
 #include "library/encode/rounding.h"
 
 typedef struct {
@@ -14,6 +15,7 @@ typedef struct {
     JoinedMesh joined;
     CodedMesh coded;
     Rounded rounded;
+    Motion motion;        /* of a sequence */
     Doubles2 positions;   /* that a decoder has of the coded vertices */
     bsmenc_attribute *attributes; /* those that are carried, with their qualities */
     Carried *carried;

@@ -7,7 +7,7 @@
 #ifdef BSMDEC_WRITES
 
 /* Vertices of the first section of a grid, and of each that follows: large meshes are seen early while they arrive. */
-enum { FIRST_CHUNK = 1 << 12, CHUNK = 1 << 13, USUAL_BITS = 14, MOST_BITS = 20 };
+enum { FIRST_CHUNK = 1 << 12, CHUNK = 1 << 13, USUAL_BITS = 14 };
 static const double LOST_OF_DIAGONAL = 1e-6, LOST_OF_EDGE = 1e-3; /* by rounding to single precision, at most */
 /* What is done, of all, after each step. */
 static const double JOINED = 0.05, FACES_CODED = 0.2, ATTRIBUTES_CODED = 0.5, POSITIONS_CODED = 0.7;
@@ -63,28 +63,51 @@ static bool make_single(Encoder *encoder) {
     return true;
 }
 
+/* Make a grid of so many cells of positions, of which a decoder will have those in `encoder->positions`. */
 static bool round_positions(Encoder *encoder) {
     Context *context = &encoder->writer.context;
     const bsmenc_options *options = &encoder->options;
-    Arena *arena = &encoder->writer.arena;
-    int64_t n = encoder->coded.vertex_order.size;
     Rounded *rounded = &encoder->rounded;
     Doubles2 *positions = &encoder->positions;
-    if (!take_doubles2(arena, n, 3, positions) || !take_ints2(arena, n, 3, &rounded->places)) return false;
-    for (int64_t v = 0; v < n; v++) {
-        int64_t from = encoder->joined.first.data[encoder->coded.vertex_order.data[v]];
-        memcpy(positions->data + 3 * v, encoder->given.positions.data + 3 * from, 3 * sizeof(double));
-    }
     ConstDoubles2 exact = const_doubles2(*positions);
+    if (!take_ints2(&encoder->writer.arena, exact.rows, 3, &rounded->places)) return false;
     if (options->positions == BSMENC_LOSSLESS) return round_exactly(context, exact, rounded);
     bool done = options->positions == BSMENC_CELLS
         ? round_to_cells(context, exact, options->cell, options->origin, rounded)
-        : round_to_bits(context, exact, options->bits > 0 ? options->bits : USUAL_BITS, rounded);
-    for (int64_t i = 0; done && i < 3 * n; i++) positions->data[i] = rounded_at(rounded, i / 3, (int)(i % 3));
+        : round_to_bits(context, exact, options->bits, rounded);
+    for (int64_t i = 0; done && i < 3 * exact.rows; i++)
+        positions->data[i] = rounded_at(rounded, i / 3, (int)(i % 3));
     return done;
 }
 
-static bool write_positions(Encoder *encoder) {
+/* Code frames with the error of such a grid at most. */
+static bool code_frames(Encoder *encoder) {
+    const bsmenc_options *options = &encoder->options;
+    ConstDoubles2 positions = const_doubles2(encoder->positions);
+    double low[3], high[3], extent = box_of(positions, low, high);
+    int64_t cells = (INT64_C(1) << options->bits) - 1, frames = encoder->given.frames;
+    if (options->keep_order && encoder->joined.loose > 0)
+        return FAIL(&encoder->writer.context, MISUSED, "frames keep no vertices in no face: leave them out");
+    encoder->rounded.step = options->positions == BSMENC_CELLS ? options->cell
+        : (extent > 0.0 ? extent : 1.0) / (double)cells;
+    return code_motion(&encoder->writer, const_ints2(encoder->coded.faces),
+        (ConstDoubles2){positions.data, frames, 3 * positions.rows / frames}, encoder->rounded.step / 2,
+        &encoder->motion);
+}
+
+/* Put positions, of all frames, in the order of coding, and code frames, or make a grid. */
+static bool prepare_positions(Encoder *encoder) {
+    int64_t n = encoder->coded.vertex_order.size, rows = encoder->given.frames * n;
+    if (!take_doubles2(&encoder->writer.arena, rows, 3, &encoder->positions)) return false;
+    for (int64_t i = 0; i < rows; i++) {
+        int64_t from = encoder->joined.first.data[encoder->coded.vertex_order.data[i % n]];
+        memcpy(encoder->positions.data + 3 * i,
+            encoder->given.positions.data + 3 * (encoder->given.vertices * (i / n) + from), 3 * sizeof(double));
+    }
+    return encoder->mesh->frames > 0 ? code_frames(encoder) : round_positions(encoder);
+}
+
+static bool write_grid(Encoder *encoder) {
     Writer *writer = &encoder->writer;
     Context *context = &writer->context;
     const CodedMesh *coded = &encoder->coded;
@@ -115,6 +138,16 @@ static bool write_positions(Encoder *encoder) {
     }
     end_field(field);
     return done && !failed(context);
+}
+
+/* Write sections of the motion from number `first` on, before number `end`. */
+static void write_motion(Encoder *encoder, FrameType type, int64_t first, int64_t end) {
+    const Motion *motion = &encoder->motion;
+    for (int64_t i = first; i < end; i++) {
+        int64_t start = i > 0 ? motion->ends.data[i - 1] : 0;
+        put_bytes(&encoder->out.payload, (Span){motion->bytes.data + start, motion->ends.data[i] - start});
+        put_section(&encoder->out, type);
+    }
 }
 
 /* ---- Faces and their order ---- */
@@ -200,7 +233,7 @@ static bool code_attribute(Encoder *encoder, int index, Chunks *chunks) {
         || !code_carried(writer, &encoder->coded, carried, NULL, &chunks->bytes, chunks->ends))
         return false;
     bool done = true;
-    if (can_lean(d)) {
+    if (can_lean(d) && encoder->mesh->frames == 0) {
         done = code_carried(writer, &encoder->coded, carried, encoder->rounded.places.data, &leaning.bytes,
             leaning.ends);
         if (done && leaning.bytes.size < chunks->bytes.size) {
@@ -233,10 +266,13 @@ static bool write_body(Encoder *encoder, const Writing *connectivity, Chunks *ch
     StreamWriter *out = &encoder->out;
     const Rounded *rounded = &encoder->rounded;
     Header header = {.vertices = encoder->coded.vertex_order.size, .faces = encoder->coded.faces.rows,
-        .attributes = encoder->carried_count, .scale = rounded->step,
+        .scale = rounded->step,
         .light = rounded->exact ? EXACT_FLOATS : encoder->options.quick ? LIGHT : 0};
     memcpy(header.center, rounded->origin, sizeof header.center);
     memcpy(header.grid, rounded->largest, sizeof header.grid);
+    bool moves = encoder->mesh->frames > 0;
+    if (moves) header = encoder->motion.header;
+    header.attributes = encoder->carried_count;
     for (int k = 0; k < encoder->carried_count; k++) {
         double part = (double)(k + 1) / encoder->carried_count;
         if (!code_attribute(encoder, k, &chunks[k])
@@ -253,10 +289,13 @@ static bool write_body(Encoder *encoder, const Writing *connectivity, Chunks *ch
     if (encoder->options.keep_order && !write_order_section(encoder)) return false;
     for (int k = 0; k < encoder->carried_count; k++)
         if (!declare_carried(&encoder->writer, &encoder->coded, k, encoder->carried, out)) return false;
-    if (!write_positions(encoder)) return false;
+    if (!moves && !write_grid(encoder)) return false;
+    write_motion(encoder, BLOCK_FRAME, 0, header.blocks);
     for (int k = 0; k < encoder->carried_count; k++) write_values(encoder, k, &chunks[k]);
+    write_motion(encoder, GOP_FRAME, header.blocks, encoder->motion.ends.size);
     write_metadata(encoder, true);
-    end_stream(out, const_doubles2(encoder->positions));
+    ConstDoubles2 positions = const_doubles2(encoder->positions);
+    end_stream(out, moves ? encoder->motion.sum : crc32_of_positions(&out->sums, positions, 0));
     return !failed(&encoder->writer.context);
 }
 
@@ -295,7 +334,7 @@ static bool encode(Encoder *encoder) {
         || !report(encoder, JOINED) || !TAKE_ZEROS(&writer->arena, encoder->carried_count, chunks))
         return false;
     bool done = begin_payloads(context, 1 << 16, &connectivity) && code_faces_first(encoder, &connectivity)
-        && report(encoder, FACES_CODED) && round_positions(encoder);
+        && report(encoder, FACES_CODED) && prepare_positions(encoder);
     for (int k = 0; done && k < encoder->carried_count; k++)
         done = carry_attribute(writer, &encoder->coded, &encoder->attributes[k], k, encoder->carried);
     done = done && write_body(encoder, &connectivity, chunks);
@@ -327,6 +366,7 @@ EXACTLY(bsmenc_status, bsmenc_encode,
     bsmenc_options known = BSMENC_OPTIONS;
     bool sized = options == NULL || options->size == sizeof known;
     if (sized && options != NULL) known = *options;
+    if (known.bits == 0) known.bits = USUAL_BITS;
     bool allocates = known.allocator == NULL
         || (known.allocator->size >= sizeof host && known.allocator->allocate != NULL
             && known.allocator->release != NULL);
@@ -360,6 +400,7 @@ void bsmenc_release(bsmenc_stream *stream) {
     if (encoder == NULL) return;
     bsmdec_allocator host = encoder->host;
     give_stream(&encoder->out);
+    give_motion(&encoder->motion);
     close_writer(&encoder->writer);
     host.release(host.host, encoder, sizeof *encoder);
 }

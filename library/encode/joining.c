@@ -100,13 +100,19 @@ bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, Jo
         || !take_ints(scratch, n, &place) || !zero_ints(scratch, n, &seen))
         return false;
     Longs2 bits;
-    if (!take_longs2(scratch, n, 3, &bits)) return false;
-    for (int64_t i = 0; i < 3 * n; i++) {
-        double value = exact ? given->positions.data[i] : given->positions.data[i] + 0.0;
-        memcpy(bits.data + i, &value, sizeof value);
+    if (!take_longs2(scratch, n, 4, &bits)) return false;
+    int64_t places = n;
+    for (int64_t v = 0; v < n; v++) place.data[v] = 0;
+    for (int64_t t = 0; t < given->frames; t++) {
+        for (int64_t i = 0; i < 3 * n; i++) {
+            double value = given->positions.data[3 * n * t + i];
+            if (!exact) value += 0.0;
+            memcpy(bits.data + i / 3 * 4 + i % 3, &value, sizeof value);
+            bits.data[i / 3 * 4 + 3] = place.data[i / 3];
+        }
+        if ((places = number_rows(bits.data, n, 4, scratch, place)) < 0) return false;
     }
-    int64_t places = number_rows(bits.data, n, 3, scratch, place);
-    if (places < 0 || (places < n && !keep_apart(given, scratch, place))) return false;
+    if (places < n && !keep_apart(given, scratch, place)) return false;
     for (int64_t i = 0; i < 3 * m; i++) {
         mentioned += !seen.data[corners[i]];
         seen.data[corners[i]] = 1;

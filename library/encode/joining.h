@@ -17,8 +17,8 @@ INLINE double in_single(double value) {
 }
 
 typedef struct {
-    int64_t vertices, faces;
-    ConstDoubles2 positions;
+    int64_t vertices, faces, frames;
+    ConstDoubles2 positions; /* of all frames */
     const uint32_t *corners;
 } GivenMesh;
 
@@ -34,6 +34,6 @@ typedef struct {
 /* The number of each row of `width` integers: that of an equal row before it, or the next. Returns how many there are,
  * -1 without memory. */
 int64_t number_rows(const int64_t *rows, int64_t count, int width, Arena *scratch, Ints numbers);
-/* Make one vertex of those at one position; -0.0 is there where 0.0 is, unless `exact`. With `keep`, faces without area
- * stay. */
+/* Make one vertex of those at one position in all frames; -0.0 is there where 0.0 is, unless `exact`. With `keep`,
+ * faces without area stay. */
 bool join_mesh(const GivenMesh *given, bool exact, bool keep, Writer *writer, JoinedMesh *joined);

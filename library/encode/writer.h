@@ -38,5 +38,5 @@ void start_stream(StreamWriter *writer, Context *context);
 /* Write a section with the payload, which is empty then. */
 void put_section(StreamWriter *writer, FrameType type);
 /* Write END, with the checksum of decoded positions. */
-void end_stream(StreamWriter *writer, ConstDoubles2 positions);
+void end_stream(StreamWriter *writer, uint32_t positions);
 void give_stream(StreamWriter *writer);

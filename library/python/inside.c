@@ -129,7 +129,7 @@ bool encode_place(Encoding *encoding, ConstInts2 given, ConstInts index, ConstIn
         || !are_below(given.data, 3 * given.rows, 0, index.size) || !are_below(kept.data, kept.size, 0, given.rows)
         || !are_below(face_order.data, m, 0, kept.size) || !are_below(faces.data, 3 * m, 0, vertices))
         return FAIL(&writer->context, MISUSED, "a mesh and its order of coding do not fit together");
-    encoding->given = (GivenMesh){index.size, given.rows, {NULL, 0, 3}, (const uint32_t *)given.data};
+    encoding->given = (GivenMesh){index.size, given.rows, 1, {NULL, 0, 3}, (const uint32_t *)given.data};
     encoding->joined = (JoinedMesh){.index = {(int32_t *)index.data, index.size},
         .kept = {(int32_t *)kept.data, kept.size}}; /* only read */
     encoding->coded = (CodedMesh){.given = &encoding->given, .joined = &encoding->joined, .keeps = keeps,

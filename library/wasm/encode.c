@@ -1,4 +1,4 @@
-/* What a page asks of the encoder: one mesh, part by part. Arrays are in memory of `page_take`. */
+/* What a page asks of the encoder: one mesh or sequence, part by part. Arrays are in memory of `page_take`. */
 #include "library/bsmenc.h"
 #include "library/wasm/page.h"
 
@@ -18,8 +18,9 @@ static int tell(void *host, double part) {
     return page_progress(part);
 }
 
-void encode_begin(int vertices, int faces, const double *positions, const float *single, const uint32_t *corners) {
-    mesh = (bsmenc_mesh){sizeof mesh, vertices, faces, positions, single, corners, attributes, 0, entries, 0};
+void encode_begin(int vertices, int faces, const double *positions, const float *single, const uint32_t *corners,
+    int frames) {
+    mesh = (bsmenc_mesh){sizeof mesh, vertices, faces, positions, single, corners, attributes, 0, entries, 0, frames};
 }
 
 /* An attribute of which the page says the numbers in this order; false if there are too many. */

@@ -12,9 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bsm import Attribute, TriangleMesh
+from bsm import Attribute, FrameEvent, TriangleMesh
 from tests.library.conftest import linked
+from tests.motion import bending
 from tests.shapes import boxes, patch, soup, tetrahedron, together, torus
+from tests.streams import all_events
 from tools import bsmenc
 from tools.amalgamate import ROOT
 from tools.bsmdec import Entry
@@ -45,6 +47,11 @@ def dressed(mesh):
     )
     metadata = {"unit": "mm", "count": -70000, "scale": 0.1, "image.0.data": bytes(range(256)), "name": "Ü" * 40}
     return replace(mesh, attributes=attributes, metadata=metadata)
+
+
+def filmed(positions, faces, *attributes):
+    """Frames, shape (T, n, 3), one below the other, as a mesh that the encoder in C takes for them."""
+    return TriangleMesh(positions.reshape(-1, 3), faces, attributes)
 
 
 @pytest.mark.parametrize("keep", [False, True])
@@ -129,6 +136,8 @@ def test_wrong_meshes_and_options_are_refused(encoder):
         ({"positions": CELLS, "cell": 1e300}, "from 1e-290"),
         ({"positions": LOSSLESS, "quick": 1}, "exclude each other"),
         ({"size": 8}, "options.size"),
+        ({"frames": -3}, "-3 frames"),
+        ({"frames": 1, "positions": LOSSLESS}, "to the bit"),
     ):
         found = encode(encoder, mesh, **options)
         assert (found.status, found.data) == (2, b"")
@@ -136,6 +145,7 @@ def test_wrong_meshes_and_options_are_refused(encoder):
     assert "'heat'" in encode(encoder, mesh, {"heat": ("angle", 1.0)}).message
     far = TriangleMesh(mesh.positions + 1e7, mesh.faces)
     assert encode(encoder, far, positions=LOSSLESS).status == UNREACHABLE
+    assert encode(encoder, far, frames=1, positions=CELLS, cell=1e-14).status == UNREACHABLE
     broken = replace(mesh)
     object.__setattr__(broken, "faces", np.where(mesh.faces == 5, 63, mesh.faces).astype(np.int32))
     assert "vertex 63 of 63" in encode(encoder, broken).message
@@ -171,15 +181,15 @@ def test_progress_ascends_and_can_stop(encoder):
         assert (stopped.status, stopped.data) == (STOPPED, b"")
 
 
-def test_no_memory_at_any_place_is_an_error_and_everything_is_given_back(encoder):
-    mesh = dressed(torus(5, 4))
+@pytest.mark.parametrize(("mesh", "frames"), [(dressed(torus(5, 4)), 0), (filmed(*bending(9)), 9)])
+def test_no_memory_at_any_place_is_an_error_and_everything_is_given_back(encoder, mesh, frames):
     allocator = Allocator()
     at = ctypes.addressof(allocator)
-    expected = encode(encoder, mesh, allocator=at, keep_order=1)
+    expected = encode(encoder, mesh, allocator=at, keep_order=1, frames=frames)
     assert expected.status == 0 and not allocator.held
     for refused in range(1, allocator.calls + 1):
         hungry = Allocator([refused])
-        found = encode(encoder, mesh, allocator=ctypes.addressof(hungry), keep_order=1)
+        found = encode(encoder, mesh, allocator=ctypes.addressof(hungry), keep_order=1, frames=frames)
         assert (found.status, found.data) == (8, b""), refused
         assert not hungry.held
 
@@ -215,3 +225,31 @@ def test_the_program_of_the_documents_writes_a_stream(tmp_path):
     write = linked(compiled_whole(), tmp_path / "write.c", tmp_path / "write", "-O0", "-Wall", "-Werror")
     subprocess.run([write], cwd=tmp_path, check=True)
     assert len(bsm.load(tmp_path / "tetrahedron.bsm").faces) == 4
+
+
+@pytest.mark.parametrize("keep", [0, 1])
+def test_frames_come_back_within_half_a_cell_and_colors_stay(encoder, keep):
+    positions, faces = bending(19)
+    color = Attribute("color", np.arange(len(faces), dtype=np.uint8)[:, None], "face", "color")
+    doubled = np.concatenate([positions, positions[:, faces[0]]], axis=1)  # which are merged, but with their order
+    again = faces.copy()
+    again[0] = positions.shape[1] + np.arange(3)
+    found = encode(encoder, filmed(doubled, again, color), frames=19, bits=9, keep_order=keep)
+    assert found.status == 0 and found.counts[0] == (0 if keep else 3)
+    with bsm.SequenceDecoder() as decoder:
+        frames = [event for event in all_events(decoder, [found.data]) if isinstance(event, FrameEvent)]
+    assert all(np.array_equal(frame.attributes[0].values, color.values[found.orders[1]]) for frame in frames)
+    decoded, decoded_faces = bsm.decode_sequence(found.data)
+    given = doubled[:, found.orders[0]]
+    cell = np.ptp(doubled, axis=(0, 1)).max() / (2**9 - 1)
+    assert np.abs(decoded - given).max() == pytest.approx(found.error, rel=1e-9) and found.error <= cell / 2
+    corners = np.sort(given[0][decoded_faces].reshape(len(faces), -1), axis=1)
+    assert np.array_equal(corners, np.sort(doubled[0][again[found.orders[1]]].reshape(len(faces), -1), axis=1))
+
+
+def test_frames_without_extent_or_with_loose_vertices(encoder):
+    positions, faces = bending(3)
+    loose = np.concatenate([positions, positions[:, :1]], axis=1)
+    assert encode(encoder, filmed(loose, faces), frames=3).counts[1] == 1
+    assert "no face" in encode(encoder, filmed(loose, faces), frames=3, keep_order=1).message
+    assert encode(encoder, filmed(np.zeros_like(positions), faces), frames=3).status == 0  # all at one place

@@ -15,7 +15,7 @@ function sourcesIn(folder) {
 }
 
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
-const SOURCES = ["bitstream", "codec", "library"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)|coefficients.nearest/.test(path));
+const SOURCES = ["bitstream", "codec", "library"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/metrics)|^library\/(examples|python|ahead)/.test(path));
 
 /** Functions for the page (library/wasm/page.c, library/bsmdec.h). */
 const PAGE = [
@@ -141,7 +141,8 @@ export const KERNEL_BUILDS = {
     "built/kernels.wasm": {},
     "built/small.wasm": { without: /(library\/(sequence|attribute|attribute_set|split|whole)|codec\/sequence\/(gop|parts|frames)|container\/declaration|payloads\/zstd)\.c/, lacks: "record.count[SEQUENCE] || record.number[PAPER][0] > 0 || header->attributes" },
     "built/moving.wasm": { without: /(library\/(attribute|attribute_set|split|whole)|payloads\/(grid|zstd)|signal\/layer|container\/declaration)\.c/, long: true, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0 || header->attributes" },
-    "built/encode.wasm": { exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "!header->on_grid || header->congruence" },
+    "built/encode.wasm": { exported: ENCODE, writes: true, without: /^codec(?!\/basis\/structure)|fields\/(twins|images)|payloads\/zstd\.c|library\/(sequence|split|whole|changes)\.c|library\/encode\/moving\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "!header->on_grid || header->congruence" },
+    "built/encode-moving.wasm": { exported: [...ENCODE, "make_priors"], writes: true, without: /fields\/(twins|images)|payloads\/zstd\.c|signal\/layer\.c|library\/(split|whole|changes)\.c|library\/wasm\/(page|light)\.c/, long: true, lacks: "header->on_grid || header->refined || record.number[PAPER][0] > 0" },
     "built/quick.wasm": { exported: LIGHT, without: /^codec(?!\/basis\/structure)/, fast: /conquest/, light: true },
 };
 

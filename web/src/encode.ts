@@ -8,15 +8,18 @@ export { EncodeError, encodeWith, type AttributeInput, type EncodeOptions, type 
 /** A `BufferGeometry` or an `Object3D` of three.js. */
 export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
 
-let loaded: Promise<WebAssembly.Module> | undefined;
+const loaded = new Map<string, Promise<WebAssembly.Module>>();
 
-/** The compiled encoder. */
-export function loadEncoder(wasm: EncodeOptions["wasm"] = new URL("./encode.wasm", import.meta.url)): Promise<WebAssembly.Module> {
+/** The compiled encoder of meshes, or of sequences. */
+export function loadEncoder(wasm?: EncodeOptions["wasm"], moves = false): Promise<WebAssembly.Module> {
     if (wasm instanceof WebAssembly.Module) return Promise.resolve(wasm);
-    if (typeof wasm !== "string" && !(wasm instanceof URL)) return WebAssembly.compile(wasm);
-    loaded ??= compiled(new URL(wasm, globalThis.document?.baseURI ?? globalThis.location?.href));
-    loaded.catch(() => (loaded = undefined));
-    return loaded;
+    const given = wasm ?? (moves ? new URL("./encode-moving.wasm", import.meta.url) : new URL("./encode.wasm", import.meta.url));
+    if (typeof given !== "string" && !(given instanceof URL)) return WebAssembly.compile(given);
+    const url = new URL(given, globalThis.document?.baseURI ?? globalThis.location?.href);
+    const module = loaded.get(url.href) ?? compiled(url);
+    loaded.set(url.href, module);
+    module.catch(() => loaded.delete(url.href));
+    return module;
 }
 
 /** A mesh as it is given, or as three.js draws it, which is there then. */
@@ -26,7 +29,8 @@ async function wholeOf(input: MeshInput | Drawn, { onNote }: EncodeOptions): Pro
 
 /** Encode in this thread, which waits for that. */
 export async function encodeHere(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
-    return encodeWith(await loadEncoder(options.wasm), await wholeOf(input, options), options);
+    const mesh = await wholeOf(input, options);
+    return encodeWith(await loadEncoder(options.wasm, Boolean(mesh.frames)), mesh, options);
 }
 
 /** A worker; undefined where there can be none. */
@@ -46,7 +50,8 @@ function started(): Worker | undefined {
 export async function encode(input: MeshInput | Drawn, options: EncodeOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
     const { onProgress, onNote: _, signal, wasm, ...plain } = options;
     signal?.throwIfAborted();
-    const [module, mesh] = await Promise.all([loadEncoder(wasm), wholeOf(input, options)]);
+    const mesh = await wholeOf(input, options);
+    const module = await loadEncoder(wasm, Boolean(mesh.frames));
     const worker = started();
     if (!worker) return encodeWith(module, mesh, options);
     try {

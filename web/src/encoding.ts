@@ -19,7 +19,10 @@ export interface AttributeInput {
 }
 
 export interface MeshInput {
+    /** Of a sequence, those of its first frame, then those of the next one, and so on. */
     positions: ArrayLike<number>;
+    /** Frames of a sequence: each coordinate keeps to half a cell of the grid; attributes do not change. */
+    frames?: number;
     /** Three vertices of each face. */
     faces: ArrayLike<number>;
     attributes?: readonly AttributeInput[];
@@ -45,7 +48,7 @@ export interface EncodeOptions {
     /** Is told the finished part, from 0 to 1. */
     onProgress?: (part: number) => void;
     signal?: AbortSignal;
-    /** Where encode.wasm is; by default beside this module. */
+    /** Where encode.wasm is, or encode-moving.wasm for sequences; by default beside this module. */
     wasm?: string | URL | BufferSource | WebAssembly.Module;
 }
 
@@ -58,7 +61,7 @@ export class EncodeError extends Error {
 }
 
 /** The functions of `library/wasm/encode.c`. */
-type EncoderCalls = { memory: WebAssembly.Memory } & Record<`page_${string}` | `encode_${string}`, (...numbers: number[]) => number>;
+type EncoderCalls = { memory: WebAssembly.Memory; make_priors?: () => void } & Record<`page_${string}` | `encode_${string}`, (...numbers: number[]) => number>;
 
 /** As `bsmenc_quality` numbers them. */
 const WAYS = ["default", "exact", "bits", "bound", "percent", "degrees", "recompute"];
@@ -102,19 +105,22 @@ export function encodeWith(module: WebAssembly.Module, mesh: MeshInput, options:
         return at;
     };
     const text = (value: string): number => put(new TextEncoder().encode(value), true);
-    const { positions: given, attributes = [], metadata = {} } = mesh;
+    const { positions: given, frames = 0, attributes = [], metadata = {} } = mesh;
     const faces = wholes(mesh.faces, "vertices of faces");
     const isSingle = kindOf(given) === "float32";
     const positions = isSingle || kindOf(given) === "float64" ? (given as Float64Array) : Float64Array.from(given);
-    if (positions.length % 3 || faces.length % 3) refuse("positions and faces are three numbers each");
+    const vertices = positions.length / 3 / (frames || 1);
+    if (![vertices, frames, faces.length / 3].every(Number.isSafeInteger)) refuse("positions, in each frame, and faces are three numbers each");
+    if (frames && !calls.make_priors) refuse("sequences need encode-moving.wasm");
+    calls.make_priors?.();
     const places = put(positions);
-    calls.encode_begin(positions.length / 3, faces.length / 3, isSingle ? 0 : places, isSingle ? places : 0, put(faces));
+    calls.encode_begin(vertices, faces.length / 3, isSingle ? 0 : places, isSingle ? places : 0, put(faces), frames);
     for (const { name, values: numbers, components, domain = "vertex", semantic = "generic", indices, quality } of attributes) {
         const values = (kindOf(numbers) ? numbers : Float32Array.from(numbers)) as Float32Array;
         const asked = options.qualities?.[name] ?? quality ?? "default";
         const [way, amount] = typeof asked === "string" ? [asked, 0] : Object.entries(asked)[0];
         const rows = indices && domain === "corner" ? indices.length : values.length / components;
-        if (rows !== { vertex: positions.length / 3, corner: faces.length, face: faces.length / 3 }[domain]) refuse(`the attribute ${name} has not ${components} numbers for each ${domain}`);
+        if (rows !== { vertex: vertices, corner: faces.length, face: faces.length / 3 }[domain]) refuse(`the attribute ${name} has not ${components} numbers for each ${domain}`);
         if (name.includes("\0") || !Number.isFinite(amount) || !WAYS.includes(way)) refuse(`the attribute ${name.replaceAll("\0", "?")} has a name or a quality that nothing can have`);
         const row = [DOMAINS.indexOf(domain), SEMANTICS.indexOf(semantic), KINDS.indexOf(kindOf(values)!), components, values.length / components] as const;
         if (!calls.encode_attribute(text(name), ...row, put(values), indices ? put(wholes(indices, `indices of ${name}`)) : 0, WAYS.indexOf(way), amount)) refuse("too many attributes");

@@ -11,7 +11,7 @@ import { BSMExporter, encodeHere, encodeWith, type AttributeInput } from "../src
 import { meshOf } from "../src/content";
 import { decode } from "../src/index";
 import { POLICY, serveSite } from "./server";
-import { CHROMIUM, kernels, FLAGS, PATIENCE, WEB } from "./shared";
+import { CHROMIUM, eventsOf, kernels, FLAGS, PATIENCE, WEB } from "./shared";
 
 const wasm = readFileSync(join(WEB, "built/encode.wasm"));
 const module = await WebAssembly.compile(wasm);
@@ -133,5 +133,26 @@ describe("encoding", () => {
         assert.match(String(run(source, target).stderr), /two\.obj: there are no meshes/);
         assert.equal(run(join(folder, "a.step"), target).status, 2);
         assert.equal(run(join(folder, "none.ply"), target).status, 1);
+    });
+
+    test("the command makes a sequence of a folder, which comes back within half a cell", (context) => {
+        const folder = mkdtempSync(join(tmpdir(), "bsm-frames-"));
+        context.after(() => rmSync(folder, { recursive: true }));
+        const target = join(folder, "all.bsm");
+        const write = (frame: number, z: number, ...faces: string[]): void => writeFileSync(join(folder, `${frame}.ply`), `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face ${faces.length}\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 ${z}\n${faces.map((corners) => `3 ${corners}\n`).join("")}`);
+        const run = (): ReturnType<typeof spawnSync> => spawnSync(process.execPath, [join(WEB, "mesh.js"), folder, target, "10"], { encoding: "utf8" });
+        const heights = Array.from({ length: 11 }, (_, frame) => 2 + Math.sin(frame)); // 10.ply comes last
+        heights.forEach((z, frame) => write(frame, z, "0 1 2", "0 2 3", "0 3 1"));
+        assert.equal(run().status, 0);
+        const found = [...eventsOf(kernels, readFileSync(target), Infinity)].flatMap((event) => (event.type === "frame" ? [Math.max(...event.positions)] : []));
+        assert.equal(found.length, heights.length);
+        found.forEach((z, frame) => assert.ok(Math.abs(z - heights[frame]) <= 3 / (2 ** 10 - 1) / 2, `frame ${frame}`));
+        write(4, NaN, "0 1 2", "0 2 3", "0 3 1");
+        assert.match(String(run().stderr), /finite/);
+        for (const faces of [["0 1 2", "0 3 1", "0 2 3"], ["0 1 2", "0 2 3"]]) {
+            write(4, 2, ...faces);
+            assert.match(String(run().stderr), /4\.ply: it has other faces than 0\.ply/);
+        }
+        for (const [frames, words] of [[2, /encode-moving/], [4, /in each frame/]] as const) assert.throws(() => encodeWith(module, { positions: new Float32Array(18), faces: [0, 1, 2], frames }), words);
     });
 });

@@ -196,6 +196,7 @@ pub fn encode(mesh: &Mesh, options: &EncodeOptions) -> Result<Vec<u8>, Error> {
         attribute_count: attributes.len(),
         metadata: metadata.as_ptr(),
         metadata_count: metadata.len(),
+        frames: 0,
     };
     let (positions, bits, cell, origin) = match options.positions {
         Positions::Bits(bits) => (0, bits.min(255).max(1) as c_int, 0.0, [0.0; 3]),

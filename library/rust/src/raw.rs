@@ -218,6 +218,7 @@ pub struct bsmenc_mesh {
     pub attribute_count: usize,
     pub metadata: *const bsmdec_metadata,
     pub metadata_count: usize,
+    pub frames: i64,
 }
 
 #[repr(C)]
