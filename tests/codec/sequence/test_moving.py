@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from tests.shapes import torus
 from tests.streams import frames_in, moving_events_of, packets_of, without
 
 MESH = torus(24, 12)
+kind_of = attrgetter("values.dtype", "domain", "semantic")
 
 
 def with_attributes(t: int, mesh: TriangleMesh = MESH) -> TriangleMesh:
@@ -64,11 +66,7 @@ def errors(frames: Sequence[TriangleMesh], encoder: SequenceEncoder, found: Sequ
         assert set(own) == {attribute.name for attribute in given.attributes}
         for attribute in given.attributes:
             back = own[attribute.name]
-            assert (back.values.dtype, back.domain, back.semantic) == (
-                attribute.values.dtype,
-                attribute.domain,
-                attribute.semantic,
-            )
+            assert kind_of(back) == kind_of(attribute)
             wanted = attribute.values[encoder.vertex_order].astype(float)
             off = np.abs(back.values - wanted)
             worst[attribute.name] = max(worst.get(attribute.name, 0.0), float(off.max()))
@@ -112,9 +110,8 @@ def test_what_stays_costs_next_to_nothing() -> None:
 
 @pytest.mark.parametrize("options", [{"gop": 3}, {"low_delay": 1}], ids=str)
 def test_an_attribute_may_begin_to_move_later_and_stop(options: dict[str, object]) -> None:
-    frames = [
-        replace(with_attributes(t), attributes=with_attributes(0 if t < 4 else min(t, 6)).attributes) for t in range(10)
-    ]
+    shown = [0, 0, 0, 0, 4, 5, 6, 6, 6, 6]
+    frames = [replace(with_attributes(t), attributes=with_attributes(k).attributes) for t, k in enumerate(shown)]
     data, encoder = encoded(frames, **options)
     off = errors(frames, encoder, decoded(data))
     assert off["color rms"] <= 0.01 * extent("color") and off["heat rms"] <= 0.0025 * extent("heat")
@@ -148,12 +145,7 @@ def test_a_lost_attribute_costs_those_behind_it(kind: type) -> None:
 
 def test_runs_have_attributes_that_move() -> None:
     other = torus(18, 10)
-    frames = [
-        with_attributes(0),
-        with_attributes(1),
-        *(with_attributes(t, other) for t in (2, 3)),
-        *(with_attributes(t) for t in (4, 5, 6)),
-    ]
+    frames = [with_attributes(t, other if t in (2, 3) else MESH) for t in range(7)]
     data, encoder = encoded(frames, runs=True)
     found = decoded(data)
     assert encoder.run_starts == [0, 2, 4] and len(found) == 7
@@ -170,10 +162,8 @@ def test_a_mesh_of_one_face_and_a_mesh_of_many_components() -> None:
     far = np.concatenate([corner.positions + 3 * k for k in range(20)])
     many = TriangleMesh(far, (np.arange(60).reshape(-1, 3)).astype(np.int32))
     for mesh in (corner, many):
-        frames = [
-            replace(mesh, attributes=(Attribute("heat", t * np.arange(len(mesh.positions), dtype=np.float32)),))
-            for t in range(4)
-        ]
+        heat = np.arange(len(mesh.positions), dtype=np.float32)
+        frames = [replace(mesh, attributes=(Attribute("heat", t * heat),)) for t in range(4)]
         data, encoder = encoded(frames)
         assert errors(frames, encoder, decoded(data))["heat rms"] <= 0.0025 * 3 * len(mesh.positions)
 

@@ -60,22 +60,7 @@ def test_no_vertex_is_farther_off_than_reported(absolute: bool) -> None:
 def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     positions, faces = bending(6)
     positions[5] += 0.004 * np.random.default_rng(0).standard_normal(positions[5].shape)
-    options = bsm.SequenceOptions(block_size=100, promise=Contract(0.002, look=look), threads=1, low_delay=1, gop=4)
-    encoder = bsm.SequenceEncoder(faces, options, len(positions))
-    given: list[int] = []
-
-    def coming() -> Iterator[np.ndarray]:
-        for number, frame in enumerate(positions):
-            given.append(number)
-            yield frame
-
-    data, sent = b"", []
-    for chunk in encoder.chunks(coming()):
-        data += chunk
-        sent.append(given[-1])
-    assert set(sent) == set(range(6))  # each frame is out before the next one comes
-    decoded, found = bsm.decode_sequence(data, threads=1)
-    original = positions[:, encoder.vertex_order]
+    _, original, decoded, found = kept(positions, faces, Contract(0.002, look=look), low_delay=1, gop=4)
     assert 0.0014 < farthest(original, decoded) <= 0.002
     assert max(looks(original, decoded, found)) <= look
 
