@@ -10,7 +10,7 @@ from typing import Any
 import msgpack
 
 from bsm._core.bitstream import constant
-from bsm.bitstream.errors import OptionError, UnsupportedError
+from bsm.bitstream.errors import OptionError
 
 MAGIC = b"\x89BSM"
 MAJOR = constant("MAJOR")
@@ -41,13 +41,6 @@ class FrameType(IntEnum):
 
 def write_preamble(minor: int = 0) -> bytes:
     return MAGIC + bytes([VERSION + minor])
-
-
-def require_major(what: str, major: int) -> None:
-    if major != MAJOR:
-        older = "encode the source again, or decode it with the release that wrote it"
-        message = f"{what} written by version {major} of the format, and this reads {MAJOR}: "
-        raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"))
 
 
 def write_varint(value: int) -> bytes:

@@ -232,11 +232,6 @@ class EncodeOptions:
         return self.contract
 
     @property
-    def looks_as_it_comes(self) -> bool:
-        """Return whether the options request neither a grid nor a look."""
-        return not self.is_grid and (self.promise is None or self.promise.look == math.inf)
-
-    @property
     def grade(self) -> Grade:
         """Default attribute quality."""
         if self.is_grid:

@@ -112,6 +112,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
     smaller = "" if job.images or 2 * images < result.size else "; --images webp:85 makes them smaller"
+    unseen = not chosen.is_grid and (chosen.promise is None or chosen.promise.look == math.inf)
     notes = [
         *source.notes,
         *generations,
@@ -120,7 +121,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         *(["left out: materials, images"] if left_out else []),
         *(["left out: images"] if job.images == "none" else []),
         *([f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []),
-        *([f"no look is promised; measured: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
+        *([f"no look is promised; measured: {encoder.seen(result)}"] if unseen else []),
     ]
     vertices, faces, size = result.header.vertices, len(encoder.mesh.faces), result.size
     errors, numbers = _errors(found, job.simplify, *asked_unit(job.options, mesh.metadata))
