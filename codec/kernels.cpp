@@ -27,7 +27,7 @@ template <typename T, size_t count> static nb::tuple tuple_of(const T (&numbers)
 }
 
 void bind_codec(nb::module_ &m) {
-    KERNEL(normals_apart) KERNEL(geometric_laplacian) KERNEL(build_tree)
+    KERNEL(vertex_faces) KERNEL(normals_apart) KERNEL(geometric_laplacian) KERNEL(build_tree)
     KERNEL(nearest_distances) CHECKED(shown_normals) CHECKED(draw_shaded) CHECKED(paint_colors) CHECKED(paint_checker)
     CHECKED(averaged) CHECKED(contrast) KERNEL(add_copies) KERNEL(collect_edges) KERNEL(patch_guidance)
     KERNEL(filter_normals) KERNEL(describe_faces) KERNEL(reach) KERNEL(face_patches)

@@ -26,6 +26,7 @@ int64_t back_into_unit(ConstDoubles2 positions, double scale, ConstDoubles cente
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
 int64_t label_components(ConstInts offsets, ConstInts neighbors, Ints waiting, Ints labels);
 bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
+void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
 double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around);
 void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals);
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);

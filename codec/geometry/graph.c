@@ -88,3 +88,25 @@ bool reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch) {
     }
     return tail == n;
 }
+
+INLINE bool comes_first(const int32_t *row, int64_t k) {
+    for (int64_t i = 0; i < k; i++)
+        if (row[i] == row[k]) return false;
+    return true;
+}
+
+/* Faces, or other rows of vertices, around each vertex, each once. Entries are below `starts.size - 1`; `members` has
+ * room for all of them. */
+void vertex_faces(ConstInts2 faces, Longs starts, Ints members) {
+    int64_t n = starts.size - 1, sides = faces.columns;
+    for (int64_t v = 0; v <= n; v++) starts.data[v] = 0;
+    for (const int32_t *row = faces.data; row < faces.data + sides * faces.rows; row += sides)
+        for (int64_t k = 0; k < sides; k++) starts.data[row[k] + 1] += comes_first(row, k);
+    for (int64_t v = 0; v < n; v++) starts.data[v + 1] += starts.data[v];
+    int64_t all = starts.data[n]; /* ends of rows, one place on, become starts while these are filled from behind */
+    for (int32_t f = (int32_t)faces.rows; f-- > 0;)
+        for (int64_t row = sides * f, k = 0; k < sides; k++)
+            if (comes_first(faces.data + row, k)) members.data[--starts.data[faces.data[row + k] + 1]] = f;
+    for (int64_t v = 0; v < n; v++) starts.data[v] = starts.data[v + 1];
+    starts.data[n] = all;
+}

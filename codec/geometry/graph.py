@@ -49,11 +49,9 @@ class Lists(NamedTuple):
 
 def vertex_faces(faces: Faces, n: int) -> Lists:
     """Faces, or longer rows of vertices, around each vertex; one that names a vertex twice is listed once."""
-    ends = np.sort(faces, axis=1).astype(np.int64)
-    once = np.diff(ends, axis=1, prepend=-1) > 0
-    pairs = np.sort((ends << 32 | np.arange(len(faces))[:, None])[once])
-    starts = np.append(0, np.cumsum(np.bincount(pairs >> 32, minlength=n)))
-    return Lists(starts, pairs.astype(np.int32))
+    starts, members = np.empty(n + 1, np.int64), np.empty(faces.size, np.int32)
+    _kernels.vertex_faces(np.ascontiguousarray(faces, np.int32), starts, members)
+    return Lists(starts, members[: starts[n]].copy())
 
 
 def vertex_neighbors(faces: Faces, n: int) -> Lists:

@@ -25,7 +25,7 @@ Way = Gridded | Plain | Refined  # ways to code a mesh at one step after another
 
 
 class Law:
-    """Logarithms of a value at steps: a line through what is known, of which far steps tell less."""
+    """Logarithms of a value at steps: a line through known trials, of which far ones tell less."""
 
     def __init__(self, steps: Matrix, first: float, guess: float, slope: float, doubt: float, luck: float) -> None:
         self._steps, self._slope, self._luck = steps, slope, luck**2
@@ -78,7 +78,7 @@ class Hopes:
         self.left = np.full(len(self.steps), 2)  # stages
 
     def next(self, least: float, price: float) -> tuple[float, int]:
-        """What the next stage is expected to save, less its price, in logarithms; and the number of its step."""
+        """Expected saving of the next stage, less its price, in logarithms; and the number of its step."""
         low, bound, closed = self.low, self.bound, self.left == 0
         safe = int(np.where(closed, math.inf, np.abs(bound.mean + bound.spread)).argmin())
         if least == math.inf:  # until a bound is kept, nothing else counts

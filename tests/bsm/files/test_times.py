@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bsm import FormatError, MeshError, TriangleMesh
+from bsm.files import sequence
 from bsm.files.mesh import read_cut, write_mesh
-from bsm.files.motion import folder
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from bsm.files.table import FORMATS
@@ -75,7 +75,7 @@ def test_times_of_files_and_of_lists_go_in_and_out(form, times, tmp_path):
 def test_a_file_that_a_list_names_for_many_times_is_read_once(tmp_path, monkeypatch):
     read = []
     monkeypatch.setattr(
-        folder, "read_cut", lambda name, *given, **words: read.append(name) or read_cut(name, *given, **words)
+        sequence, "read_cut", lambda name, *given, **words: read.append(name) or read_cut(name, *given, **words)
     )
     write_mesh(tmp_path / "a.ply", SHAPE)
     rows = [{"name": "a.ply", "time": time} for time in range(50)]
