@@ -406,7 +406,7 @@ static bool code_next_part(Gops *gops, const GopContext *decoding, int k, const 
         if (!take_doubles2(scratch, m + c, wide, &known) || !take_doubles2(scratch, m, columns, &changes)) return false;
         fill_references(track, field, part->first, known);
         for (int64_t i = 0; i < m * columns; i++) changes.data[i] = ends.data[i] - own.data[i];
-        for (int64_t i = 0; i < goal->targets.rows * columns; i++) goal->targets.data[i] -= inside.data[i];
+        for (int64_t i = 0; CHOOSES && i < goal->targets.rows * columns; i++) goal->targets.data[i] -= inside.data[i];
         if (!follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes),
                 const_doubles2(rows_from(known, m, c)), goal, levels, field->step, scratch, differences))
             return false;

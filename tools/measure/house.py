@@ -32,12 +32,12 @@ BOUND = re.compile(r"(?:KERNEL|CHECKED)\((\w+)\)")
 CONTEXT = re.compile(r"\b(Context|Arena) \*")
 
 LIMITS = {
-    "codec proper, lines": 36_607,
-    "rest of the product, lines": 31_457,
-    "tests, lines": 30_977,
-    "tools, lines": 17_592,
+    "codec proper, lines": 36_603,
+    "rest of the product, lines": 31_443,
+    "tests, lines": 30_932,
+    "tools, lines": 17_546,
     "tuned constants of the search": 55,
-    "kernels driven by both Python and C": 20,
+    "kernels driven by both Python and C": 17,
 }
 
 
