@@ -12,8 +12,8 @@ checking_copy() {
         cmake --build "build/$name-kernels" -j 2 > /dev/null
     fi
     mkdir -p "$copy"
-    rm -rf "$copy"/{bitstream,codec,src,tools,spec}
-    cp -r bitstream codec src tools spec "$copy"
+    rm -rf "$copy"/{bitstream,codec,src,tests,tools,spec}
+    cp -r bitstream codec src tests tools spec "$copy"
     cat > "$copy/sitecustomize.py" << 'END'
 import sys
 
