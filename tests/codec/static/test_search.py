@@ -1,13 +1,14 @@
 """The search for a step: it ends near its bound, asks little, and another way never makes a file larger."""
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from bsm import Attribute, Contract, EncodeOptions, Encoder, TriangleMesh, read_mesh
+from bsm import Attribute, Contract, EncodeOptions, Encoder, TargetError, TriangleMesh, read_mesh
 from bsm.codec.static.choice.blocks import Refined
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.grids import Gridded
@@ -23,7 +24,7 @@ SOME = (
     "static/fr_casting.ply", "static/gargoyle_10002.ply", "assets/robot_hand.obj",
     "static/cgal_elephant_with_holes.ply",
 )  # fmt: skip
-BY_CHANCE = 1.04  # grids are tried around a step that was found: around another one a smaller file may be
+BY_CHANCE = 1.08  # a way whose first trial promises less is not opened, though a later one may be smaller
 
 
 @pytest.mark.parametrize("slope", [0.6, 1.0, 1.8])
@@ -56,13 +57,12 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(everything(*_asked(mesh, options)))):
 
-        def size(
-            search: Search, bounds: Bounds, grid: Gridded, refined: Refined, *_: float, alone: int = alone
-        ) -> list[Way]:
+        def size(search: Search, bounds: Bounds, grid: Gridded, refined: Refined, alone: int = alone) -> list[Way]:
             return [everything(search, bounds, grid, refined)[alone]]
 
         monkeypatch.setattr(Search, "_ways", size)
-        found.append(Encoder(mesh, options).draft().size)
+        with suppress(TargetError):  # no step of this way alone keeps the promise
+            found.append(Encoder(mesh, options).draft().size)
         monkeypatch.setattr(Search, "_ways", everything)
     return found[0], found[1:]
 
