@@ -109,7 +109,7 @@ def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larg
         assert file["bytes"] == os.path.getsize(file["output"])
         assert Path(file["output"]).read_bytes() == bsm.encode(file["input"], threads=1, step=0.001)
     notes = [json.loads(line).get("note", "") for line in errors.decode().splitlines()]
-    assert sum(" -> " in note and "vertices" in note for note in notes) == 10
+    assert [sum(note.startswith(f"{name} ") for note in notes) for name in larger] == [1] * 10
     assert notes[-1].startswith("10 of 10 files")
 
 
