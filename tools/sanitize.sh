@@ -30,7 +30,7 @@ export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 PYTHONMALLOC
 test_binding tests/codec/test_threads.py tests/codec/static/test_{layers,congruence}.py tests/bitstream/{connectivity,fields} \
     tests/codec/static/test_work.py -k "not decoders_refuse and not would_be_refused and not limits_of_a_service and not is_not_work and not svd"
 [ "${ONLY:-}" != binding ] || exit 0
-"$python" -m tools.attack.sweep "$@"
+"$python" -m tools.attack sweep "$@"
 cd "$root"
 unset PYTHONPATH PYTHONMALLOC
 flags=$("$python" -c "from tools.attack.meshes import SANITIZED; print(*SANITIZED)")

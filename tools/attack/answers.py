@@ -10,7 +10,6 @@ import argparse
 import os
 import resource
 import struct
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from random import Random
@@ -120,7 +119,3 @@ def main() -> int:
     print("\n".join(found[:MOST_SHOWN]))
     print(f"{args.count} messages, {more >> 20} MiB more, {len(found)} findings")
     return 1 if found else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

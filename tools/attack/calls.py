@@ -61,7 +61,3 @@ def main() -> int:
         print(f"{name:20}{count:9}{'  refused ' + str(refused[name]) if refused[name] else ''}")
     print(f"allowed and not asked for: {' '.join(sorted(allowed - calls.keys()))}")
     return 1 if refused or not calls or calls.keys() - allowed else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -7,7 +7,6 @@ thread. The CPU time of both is compared with the bound of src/bsm/SERVICE.md: `
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from dataclasses import dataclass, replace
 from functools import partial
@@ -158,7 +157,3 @@ def main() -> int:
     if args.save:
         args.save.write_bytes(worst[0][1].ply)
     return 1 if worst[0][0] > 1.0 else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -522,7 +522,3 @@ def main() -> NoReturn:
     print(f"{len(files)} files; comparisons: {dict(counts)}; {findings} findings", flush=True)
     apart.close()
     sys.exit(1 if findings else 0)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -12,7 +12,6 @@ import argparse
 import json
 import math
 import re
-import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -271,7 +270,3 @@ def main() -> int:
             print("\n".join(found), end="\n" if found else "", flush=True)
     print(f"{args.count} {'sequences' if args.frames else 'meshes'}, {done} streams, {problems} findings")
     return 1 if problems else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

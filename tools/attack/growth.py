@@ -6,7 +6,6 @@ Of the files of `readers` that grow; they must not take longer by more than `MOS
 from __future__ import annotations
 
 import argparse
-import sys
 import tempfile
 from collections.abc import Callable
 from functools import partial
@@ -45,7 +44,3 @@ def main() -> int:
     problems = [f"{name}: {problem}" for name, problem in found.items() if problem]
     print("\n".join([*problems, f"{len(found)} files, {len(problems)} findings"]))
     return 1 if problems else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

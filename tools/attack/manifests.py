@@ -10,7 +10,6 @@ import argparse
 import copy
 import json
 import signal
-import sys
 import tempfile
 import traceback
 from collections.abc import Iterator
@@ -202,7 +201,3 @@ def main() -> int:
         print(problem, flush=True)
     print(f"{args.count} mutants of a manifest and an index, {found} findings")
     return 1 if found else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -7,7 +7,6 @@ LD_PRELOAD="$(cc -print-file-name=libasan.so) $(cc -print-file-name=libubsan.so)
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections import Counter
 from typing import Any
@@ -76,7 +75,3 @@ def main(argv: list[str] | None = None) -> int:
         seed += 1
     print(f"{sum(seen.values())} meshes from seed {args.seed} on, without a finding: {dict(seen)}")
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -138,7 +138,3 @@ def table(tallies: dict[str, Tally]) -> Iterator[str]:
 def _line(name: str, tally: Tally, columns: tuple[str, ...]) -> str:
     counts = [f"{getattr(tally, column):>10,}" for column in columns]
     return " ".join([f"{name:14}", *counts, f"{len(tally.findings):>9,}"])
-
-
-if __name__ == "__main__":
-    sys.exit(main())

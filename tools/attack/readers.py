@@ -16,7 +16,6 @@ import json
 import os
 import re
 import struct
-import sys
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
@@ -701,7 +700,3 @@ def main() -> int:
             print(problem, flush=True)
     print(f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings, {count} findings")
     return 1 if count else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -7,7 +7,6 @@ themselves, see `tools/sanitize.sh`. What goes wrong there ends the process with
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import suppress
@@ -94,7 +93,3 @@ def encode_any(faces: Ints) -> None:
     for options in (EncodeOptions(step=0.01, keep_order=True, threads=1), EncodeOptions(grid=9, threads=1)):
         with suppress(OptionError):  # decoders would refuse blocks in which everything is beside everything
             encode(TriangleMesh(positions, faces), options)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

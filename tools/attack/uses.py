@@ -14,7 +14,6 @@ import copy
 import importlib.util
 import io
 import json
-import sys
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -449,7 +448,3 @@ def main() -> int:
             print(problem, flush=True)
     print(f"{len(found)} files of {len(list(uses()))} kinds of uses, {count} findings")
     return 1 if count else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
