@@ -5,8 +5,6 @@ come first, then all sources; names that several files use for themselves get a 
 library's interface is static.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 from collections import Counter

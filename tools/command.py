@@ -1,7 +1,5 @@
 """Tools of the repository fail as `bsm` does: with a line and an exit code, without a traceback."""
 
-from __future__ import annotations
-
 import argparse
 import importlib
 import sys

@@ -1,7 +1,5 @@
 """Copies of the sources with kernels of their own, as `tools/checking_copy.sh` makes them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from bsm import _core

@@ -3,8 +3,6 @@
 pip install -e '.[docs,denoise]' && mkdocs build --strict
 """
 
-from __future__ import annotations
-
 from inspect import getdoc, isclass, isfunction
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Meshes on grids of any kind, put together without the encoder: for vectors, proof and bombs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from random import Random
 from typing import Any

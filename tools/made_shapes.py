@@ -10,8 +10,6 @@ References
 T. Ju, F. Losasso, S. Schaefer, J. Warren, "Dual contouring of Hermite data", ACM Transactions on Graphics 21, 2002.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -6,8 +6,6 @@ directions, white noise of bounded size, outliers, noise along one axis (a depth
 rounded to a grid, and noise in one part of the mesh only.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from bsm.bitstream.errors import OptionError

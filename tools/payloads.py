@@ -1,7 +1,5 @@
 """Payloads to numbers, by the kernels that the decoder reads them with: for tests and vectors."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TypeAlias
 

@@ -6,8 +6,6 @@ FOLDER has static/, noisy/, dynamic/ and assets/. Most pictures are views of the
 the packages of web/ and Chromium.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

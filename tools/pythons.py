@@ -7,8 +7,6 @@
 Knows the standard library alone: it runs before anything is installed.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform

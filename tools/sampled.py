@@ -4,8 +4,6 @@ A binary volume says of each cell whether its middle is inside, as segmentations
 marching cubes lies halfway between cells, in stairs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -12,8 +12,6 @@ A. Handa et al., "A benchmark for RGB-D visual odometry, 3D reconstruction and S
 B. Curless, M. Levoy, "A volumetric method for building complex models from range images", 1996.
 """
 
-from __future__ import annotations
-
 import importlib
 import math
 from collections.abc import Callable

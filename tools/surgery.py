@@ -1,7 +1,5 @@
 """Streams taken apart and put together again with right checksums, however wrong: for vectors and fuzzing."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 from collections.abc import Iterator

@@ -10,8 +10,6 @@ differently: networks of two machines differ a little. Needs PyTorch (`pip insta
 if there is one: 16 processors and an H100 took six minutes.
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Sequence

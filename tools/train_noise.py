@@ -10,8 +10,6 @@ Meshes of `HELD_OUT` are only judged. The program prints the rules, the clean me
 noise is found.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable, Iterator
 from functools import partial

@@ -4,8 +4,6 @@ python -m tools.web_constants --write    web/src/constants.json
 python -m tools.web_constants            fail if that is not what Python has
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A run: its first frame and its GOPs, in the way that costs least."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 

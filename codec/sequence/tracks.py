@@ -1,7 +1,5 @@
 """The base of every GOP: the dictionaries of parts, and the known state of each field before its first frame."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

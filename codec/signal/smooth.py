@@ -9,8 +9,6 @@ Frames are smooth functions of the positions, and so of the surface: values code
 can be predicted from each other, and rounding of positions only rounds frames.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ ParaView's Python must find the package: start it with PYTHONPATH set to where `
 repository put it, with a Python of the version that ParaView has.
 """
 
-from __future__ import annotations
-
 from paraview.util.vtkAlgorithm import smdomain, smhint, smproperty, smproxy
 
 from bsm.vtk import StreamSource

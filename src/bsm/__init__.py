@@ -23,8 +23,6 @@ Every error is a `BsmError`, but for an `OSError` where a file cannot be read or
 stable; `bsm.codec` and `bsm.bitstream` are internal.
 """
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 import sys

@@ -1,7 +1,5 @@
 """Fewer triangles, and the smallest stream of them that keeps the promise to the original."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

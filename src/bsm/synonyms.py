@@ -1,7 +1,5 @@
 """Words of other programs, and the command or option of bsm for each."""
 
-from __future__ import annotations
-
 import os
 import re
 import shlex

@@ -18,8 +18,6 @@ figures  odd meshes, whose figures in results `bsm compare` must find as they we
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
-from __future__ import annotations
-
 from tools.command import dispatch
 
 ALIKE = "fuzz sweep readers calls answers growth proof costly manifests uses doors meshes figures"

@@ -4,8 +4,6 @@ Sound answers are mutated: kinds, sizes and places of rows, numbers, lists, and 
 or frames that can be used, or an error of ours, in little memory.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import resource

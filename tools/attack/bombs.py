@@ -10,8 +10,6 @@ four times as long in browsers; where the machine takes longer for dictionaries,
 may take as much longer for all else. The exit code is 1 if anything takes more.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial

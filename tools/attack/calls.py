@@ -4,8 +4,6 @@ Every attack on readers is read in isolation under a recorder. What is recorded 
 held against src/bsm/files/calls.csv.
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import platform

@@ -4,8 +4,6 @@ Each file is a binary PLY file with few bytes for its mesh. It is read under the
 thread. The CPU time of both is compared with the bound of src/bsm/SERVICE.md: `SECONDS` and `SECONDS_PER_BYTE`.
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from dataclasses import dataclass, replace

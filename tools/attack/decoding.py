@@ -1,7 +1,5 @@
 """A stream to positions and faces in the several ways that must agree."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from random import Random
 

@@ -12,8 +12,6 @@ A difference is right if a note of ours names it, or explained in `doors.json`, 
 Files are those of packages of Debian and PyPI, listed in `doors.json` with licence and SHA-256, and of folders.
 """
 
-from __future__ import annotations
-
 import argparse
 import fnmatch
 import hashlib

@@ -4,8 +4,6 @@ Writes each stream and what it decodes to into FOLDER; decodes the streams in OT
 written, as well. Everything follows from SEED, so streams of two processors can be compared byte by byte.
 """
 
-from __future__ import annotations
-
 import argparse
 import traceback
 import warnings

@@ -6,8 +6,6 @@ each are held against those of `bsm compare` of the given file and the stream, a
 `--turned` encodes cones, globes, tubes and pinched tubes with each preset.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -5,8 +5,6 @@ write outside an array, and undefined behavior, into a finding. `python -m tools
 target in one process, with options of libFuzzer.
 """
 
-from __future__ import annotations
-
 import argparse
 import logging
 import os

@@ -3,8 +3,6 @@
 Of the files of `readers` that grow; they must not take longer by more than `MOST_GROWTH`.
 """
 
-from __future__ import annotations
-
 import argparse
 import tempfile
 from collections.abc import Callable

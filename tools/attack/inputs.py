@@ -1,7 +1,5 @@
 """Small meshes and sequences of every kind with options of every kind, all from one random number generator."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from random import Random

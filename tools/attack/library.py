@@ -3,8 +3,6 @@
 python -m tools.attack.library COUNT SEED [--tolerant] [--exact] [--seconds N] [--flags="-O1 -g"]
 """
 
-from __future__ import annotations
-
 import argparse
 import ctypes
 import sys

@@ -4,8 +4,6 @@ Each mutant is opened, verified, shown as `bsm info` shows it, joined to a mesh 
 out must be a result or an error of ours.
 """
 
-from __future__ import annotations
-
 import argparse
 import copy
 import json

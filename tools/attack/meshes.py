@@ -4,8 +4,6 @@ LD_PRELOAD="$(cc -print-file-name=libasan.so) $(cc -print-file-name=libubsan.so)
     python -m tools.attack meshes --seconds N [--seed S]
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections import Counter

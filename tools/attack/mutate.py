@@ -1,7 +1,5 @@
 """Mutation of whole streams, frame by frame, checksums made right again, so that damage gets past the reader."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from random import Random
 

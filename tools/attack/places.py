@@ -4,8 +4,6 @@ Of a processor, a copy of the sources has the kernels of one level of x86-64 alo
 has; numpy and the library behind it are configured for the same.
 """
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

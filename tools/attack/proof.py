@@ -16,8 +16,6 @@ Work is cut into shards, each a process of its own that follows from the seed al
 kept under `.cache/proof`.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

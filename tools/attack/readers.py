@@ -6,8 +6,6 @@ files that are sound, and large in one place for their bytes. What reading takes
 what decoding takes; whatever comes out must be a mesh or an error of ours.
 """
 
-from __future__ import annotations
-
 import argparse
 import gzip
 import importlib

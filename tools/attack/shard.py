@@ -4,8 +4,6 @@ Prints what it saw as a line of JSON. Everything follows from the arguments, so 
 with `--careful` each input is written to the folder of findings before it is tried.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json

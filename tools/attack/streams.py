@@ -1,7 +1,5 @@
 """The bombs: sound in every checksum, and as expensive as the format lets a few bytes be."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import cache

@@ -4,8 +4,6 @@ Always the same inputs in the same order, without coverage and without atheris: 
 themselves, see `tools/sanitize.sh`. What goes wrong there ends the process with a report.
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What decoding or reading takes: each in a process of its own, held against what it may take."""
 
-from __future__ import annotations
-
 import faulthandler
 import gc
 import importlib

@@ -1,7 +1,5 @@
 """What is attacked. A target takes bytes; anything it raises but `BsmError` is a finding."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Callable
 from contextlib import suppress

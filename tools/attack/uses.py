@@ -6,8 +6,6 @@ USD, nodes and controllers of COLLADA, materials and images of OBJ, files of lis
 its uses, so that reading could take the product of both. What reading takes is held against the law (M 14.8, M 14.9).
 """
 
-from __future__ import annotations
-
 import argparse
 import base64
 import copy

@@ -3,8 +3,6 @@
 The list of what there is to make large is that of the code: a field that is new is walked without a word here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial

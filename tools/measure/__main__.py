@@ -7,8 +7,6 @@ denoising   how denoising does on noise of known cause, beside Taubin's filter
 house       how large the repository is, beside its limits
 """
 
-from __future__ import annotations
-
 from tools.command import dispatch
 
 COMMANDS = {

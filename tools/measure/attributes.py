@@ -9,8 +9,6 @@ Draco: rounded so first). Every attribute of ours is decoded and compared before
 faces. Needs DracoPy.
 """
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass, replace
 from pathlib import Path

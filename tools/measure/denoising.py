@@ -7,8 +7,6 @@ MESHES is a folder of meshes, as for `tools.replicate`; rows are chosen by parts
 table shows what each goal and strength leaves of white noise, on clean meshes of yours and on made shapes.
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Callable, Iterable, Iterator

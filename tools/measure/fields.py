@@ -7,8 +7,6 @@ root mean square error: as differences from frame to frame in zstd (level 19), a
 frame with them less without.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Meshes without two vertices at one position, and exact positions on Draco's grid."""
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

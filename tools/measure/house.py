@@ -4,8 +4,6 @@ Of the files that git knows, in lines as `wc` counts them. The product has two p
 which serves people around it. Numbers with limits are only lowered; the others show where the lines are.
 """
 
-from __future__ import annotations
-
 import argparse
 import ast
 import re

@@ -9,8 +9,6 @@ With files: least times of bsmdec in C over Draco's, by turns, on one thread, an
 process may use two cores: measure under load with `chrt -r 1`, not with `taskset`.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json

@@ -7,8 +7,6 @@ which is Clang for all targets, and QEMU (qemu-user-static, from PATH or by apt-
 `fused` must refuse all streams. The exit code is 1 if a target does otherwise.
 """
 
-from __future__ import annotations
-
 import argparse
 import shutil
 import subprocess

@@ -13,8 +13,6 @@ cargo builds the crate that it packed. With them go a list of what a wheel bring
 CycloneDX), and digests.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import os

@@ -5,8 +5,6 @@ of Blender's own (3.11 for 4.2 to 5.0). Install the zip in Blender: Edit > Prefe
 Disk.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 import subprocess

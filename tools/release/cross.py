@@ -1,7 +1,5 @@
 """Zig as the compiler for other systems and processors, and the environment in which Python's tools build for these."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import shutil

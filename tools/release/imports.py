@@ -1,7 +1,5 @@
 """What the extension of a wheel for another system asks that system for: Python's stable ABI and the C library."""
 
-from __future__ import annotations
-
 import importlib
 import re
 import subprocess

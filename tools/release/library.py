@@ -1,7 +1,5 @@
 """What others compile or hold against their decoder: the C archive, the crate, the conformance suite."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import json

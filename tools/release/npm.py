@@ -1,7 +1,5 @@
 """The npm package: packed, taken by a publication that is not done, and used by Node."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 from pathlib import Path

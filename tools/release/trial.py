@@ -1,7 +1,5 @@
 """A wheel as a newcomer meets it: no compiler, no checkout; both commands of README."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

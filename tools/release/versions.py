@@ -1,7 +1,5 @@
 """One version in every place, and what the change log says of it."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The source distribution, and wheels made of it alone."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The library for Windows, a DLL and two programs cross-compiled by Zig: the bits of the one for Linux under Wine."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

@@ -5,8 +5,6 @@ tables in Markdown and LaTeX, figures in PDF and PNG, and results.json with ever
 the time. About an hour on two cores; a run that was cut goes on where it was. With files of your own, their rates.
 """
 
-from __future__ import annotations
-
 import argparse
 import importlib.util
 import os

@@ -4,8 +4,6 @@ A tool is left out by an option that exists, or by replacing what the encoder ca
 decoded, only counted: its decoding time is not known.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace

@@ -4,8 +4,6 @@ Rivals are guided filtering, bilateral normal filtering and the paper's scheme. 
 iterations that a user might ask for; an "oracle" stops a rival at its best.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path

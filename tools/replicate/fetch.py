@@ -1,7 +1,5 @@
 """Gets the meshes of meshes.json out of packages, with the ordinary clients of their registries, and checks each."""
 
-from __future__ import annotations
-
 import hashlib
 import importlib.util
 import json

@@ -1,7 +1,5 @@
 """Moving meshes made by formulas, which no choice of the codec was made on: cloth in the wind, and violent motion."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

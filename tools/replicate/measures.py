@@ -1,7 +1,5 @@
 """How far a decoded mesh, or moving mesh, is from its original, by others' measures beside our own; less is better."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

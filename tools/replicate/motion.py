@@ -4,8 +4,6 @@ No package that is fetched carries a long animation of one mesh under a free lic
 and violent motion by simulation, and fetched meshes that bend and twist. Real ones join from BSM_MESHES/dynamic.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Bytes at equal SSIMULACRA2, Butteraugli and FLIP of photographs, and how steady these are at the default."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import tempfile

@@ -1,7 +1,5 @@
 """Pictures of a mesh as others judge it: facets, in which more is seen, and gloss, from sides of their own."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from scipy.sparse import coo_array

@@ -1,7 +1,5 @@
 """What the documents quote of the paper's experiments: passages made of paper.json, which is kept beside this."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from textwrap import fill

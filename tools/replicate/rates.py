@@ -1,7 +1,5 @@
 """Bytes at equal quality: ours, Draco and meshoptimizer on one mesh, and what tables say over all of them."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

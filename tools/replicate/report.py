@@ -1,7 +1,5 @@
 """Tables in Markdown and LaTeX, and figures in PDF and PNG, of what was measured."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from operator import itemgetter
 from pathlib import Path

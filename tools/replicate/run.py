@@ -1,7 +1,5 @@
 """One run: stages, results and report."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterable, Sequence

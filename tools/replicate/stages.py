@@ -1,7 +1,5 @@
 """Runs a stage: a JSON file for each of its jobs, so that a run that was cut goes on, with where and when it ran."""
 
-from __future__ import annotations
-
 import datetime
 import json
 import os

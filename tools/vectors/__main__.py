@@ -7,8 +7,6 @@
 spec/vectors/run.py runs any other decoder, by its command line.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 

@@ -1,7 +1,5 @@
 """Streams that come to the bounds of V 5 to V 11 and of C 4.3, which no mesh of the world does."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial

@@ -1,7 +1,5 @@
 """The worked example of the specification: one vector, byte for byte, and the numbers on the way to its positions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Streams that every decoder must decode, each for one thing that it probes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Streams with attributes: of vertices, corners and faces, with and without seams, of every kind and coding."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Brief streams: small meshes on grids, each in one frame."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Streams with grids that are predicted from congruent parts: of meshes that have some, and of noise."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from random import Random

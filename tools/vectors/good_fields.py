@@ -1,7 +1,5 @@
 """Streams with positions on a grid, with a layer of refinement, and with given vertices that were made one."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

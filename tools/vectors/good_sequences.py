@@ -1,7 +1,5 @@
 """Sequences that every decoder must decode."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

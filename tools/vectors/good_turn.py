@@ -1,7 +1,5 @@
 """Streams with grids whose axes are turned to those of the mesh."""
 
-from __future__ import annotations
-
 import struct
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Larger streams, of 8 to 30 kB: several panels and chains, wide sums, long histories, where small ones say little."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

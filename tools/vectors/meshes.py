@@ -1,7 +1,5 @@
 """Small meshes for the vectors; coordinates by sines, so that no file is needed."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

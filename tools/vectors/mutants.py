@@ -7,8 +7,6 @@ that is a difference, and must treat some vector otherwise than the decoder that
 with 1 if there is one that no vector notices.
 """
 
-from __future__ import annotations
-
 import argparse
 import ast
 import hashlib

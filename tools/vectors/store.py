@@ -1,7 +1,5 @@
 """The vectors in their folder: streams, expected meshes, and a manifest that says what each is for."""
 
-from __future__ import annotations
-
 import io
 import json
 from collections.abc import Iterable, Sequence

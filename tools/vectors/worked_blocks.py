@@ -1,7 +1,5 @@
 """What M 6 to M 10 give for two blocks, bit by bit, from the reference decoder: worked numbers of the specification."""
 
-from __future__ import annotations
-
 import importlib.util
 import sys
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ Rounding to a grid and marching cubes of a binary volume leave a vertex within h
 line.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

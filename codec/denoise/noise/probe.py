@@ -4,8 +4,6 @@ The random-walk Laplacian I - P, applied again and again, leaves little of a sur
 each vertex by the norm of its row makes white noise of standard deviation s come out with standard deviation s.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

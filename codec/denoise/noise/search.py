@@ -6,8 +6,6 @@ some places and weak in others. Coordinates tell rounding and binary volumes. Ot
 by their cause, and accepted by `RULES`, which weigh a few measures. All other meshes are "none", small ones "unknown".
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple

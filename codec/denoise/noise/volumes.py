@@ -5,8 +5,6 @@ anywhere on it. So the filter looks for the surface of fewest bends within these
 squares; accelerated projected gradients, Beck and Teboulle 2009), however thick the slices are.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

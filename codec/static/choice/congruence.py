@@ -1,7 +1,5 @@
 """Rigid and mirrored transforms that take parts of a mesh to others: found, and as a grid codes them. Encoder only."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

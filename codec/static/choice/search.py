@@ -5,8 +5,6 @@ may save, by the trials before it. The search opens the trial that promises most
 If a size is given, bytes and look change their roles. The efforts differ in the price.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from contextlib import suppress

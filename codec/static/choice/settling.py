@@ -3,8 +3,6 @@
 Errors along the normal count most, and those in the plane of a surface hardly where it is flat.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Meshes and sequences in Blender, by its module `bpy`."""
 
-from __future__ import annotations
-
 import math
 import os
 import tempfile

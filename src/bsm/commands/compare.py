@@ -1,7 +1,5 @@
 """bsm compare: measure the error of a mesh or sequence against an original with the same faces."""
 
-from __future__ import annotations
-
 import argparse
 import errno
 from collections.abc import Callable, Iterable

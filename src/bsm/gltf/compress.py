@@ -1,7 +1,5 @@
 """Scenes of glTF with their geometry coded, or restored."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

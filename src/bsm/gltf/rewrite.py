@@ -1,7 +1,5 @@
 """The tree of a glTF document, rewritten for streams in the place of accessors; everything else stays as it was."""
 
-from __future__ import annotations
-
 import copy
 import io
 import re

@@ -4,8 +4,6 @@ Arvanitis, Lalos, Moustakas, "Block-Based Spectral Processing of Static and Dyna
 Iterations". Its models are those of BSM_MESHES, where they are there; a fetched mesh may stand in, and is not judged.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path

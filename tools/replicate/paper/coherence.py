@@ -1,7 +1,5 @@
 """Whether segments of a model resemble each other more than those of other models (Table 5, Figure 8)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

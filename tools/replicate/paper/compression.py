@@ -1,7 +1,5 @@
 """Compression: bits against error (Figure 11), dynamic orthogonal iterations (Figure 12), exact bases beside OI."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial

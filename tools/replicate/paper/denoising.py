@@ -1,7 +1,5 @@
 """Denoising: Tables 6 and 7, Figures 13, 14 and 16, and the dictionaries of a mesh of hundreds of thousands."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from dataclasses import replace

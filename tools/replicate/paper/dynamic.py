@@ -1,7 +1,5 @@
 """Dynamic orthogonal iterations: the rule of the codec, and Algorithm 2 as its text describes it (Figure 12)."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from functools import partial

@@ -1,7 +1,5 @@
 """Pictures of the paper's figures."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any

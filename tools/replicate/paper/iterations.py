@@ -1,7 +1,5 @@
 """What orthogonal iterations bring: starts, first blocks, powers, convergence and orthonormalization."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from functools import partial

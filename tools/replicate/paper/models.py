@@ -1,7 +1,5 @@
 """The models of the paper: files of BSM_MESHES where they are there, else fetched meshes that only stand in."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field

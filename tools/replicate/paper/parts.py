@@ -1,7 +1,5 @@
 """Parts that are encoded one by one as they arrive (section 6.3), beside the whole mesh in overlapping blocks."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator, Sequence
 

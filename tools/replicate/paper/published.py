@@ -1,7 +1,5 @@
 """The numbers that the paper prints, and tables that put ours beside them, in brackets."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from itertools import zip_longest
 

@@ -8,8 +8,6 @@ S. Bouaziz, L. Liu, "Guided mesh normal filtering", 2015. The last one's program
 those here, and tests compare the angles that come out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

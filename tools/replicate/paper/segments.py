@@ -1,7 +1,5 @@
 """How segments overlap and how many there are: Figures 4 and 5, Tables 1 to 4."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 

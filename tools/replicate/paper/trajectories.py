@@ -5,8 +5,6 @@ iterations" (2017), and G. Arvanitis, A. Lalos, K. Moustakas, "Fast spatio-tempo
 The codec makes and codes the rest of a GOP. It sends each basis, so its decoder needs nothing else.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 

@@ -5,8 +5,6 @@ of other names get their domain by their shape. The beginning of a name gives th
 with binary values as {"base64": ...}.
 """
 
-from __future__ import annotations
-
 import base64
 import binascii
 import io
