@@ -60,7 +60,6 @@ def animators_own(folder: Path, frames: int = 24, loose: int = 3) -> np.ndarray:
     lines += [f"f {a}/1 {b}/2 {c}/3" for a, b, c in (faces + 1).tolist()]
     (folder / "rig.obj").write_text("\n".join(lines))
     for kind in ("pc2", "mdd"):
-        with open(folder / f"rig.{kind}", "wb") as file, write_cache(file, kind, range(frames), 24.0) as write:
-            for frame in positions:
-                write(frame)
+        with open(folder / f"rig.{kind}", "wb") as file:
+            write_cache(file, kind, range(frames), positions, 24.0)
     return positions

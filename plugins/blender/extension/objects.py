@@ -5,7 +5,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from itertools import groupby
+from itertools import chain, groupby
 from pathlib import Path
 from typing import Any
 
@@ -295,12 +295,15 @@ def _write(
         frames = [first, *(frame for _, frame in others)]
         count, others = len(frames), enumerate(frames[1:], 1)
     Path(path).parent.mkdir(parents=True, exist_ok=True)
-    with open_output(path, overwrite=True) as file, write_cache(file, "pc2", range(count)) as write:
-        write(first)
-        for number, frame in others:
-            write(frame)
+
+    def every() -> Iterator[Positions]:
+        for number, frame in chain([(0, first)], others):
+            yield frame
             if progress:
                 progress(number + 1, count)
+
+    with open_output(path, overwrite=True) as file:
+        write_cache(file, "pc2", range(count), every())
     return count
 
 

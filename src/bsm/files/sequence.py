@@ -191,12 +191,10 @@ def _cache_writer(
             fits = _plays(beside, mesh.faces)
             refuse_to_overwrite(beside, overwrite or fits)
             spool.seek(0)
-            with (
-                open_output(name, overwrite=overwrite, follow=follow and name == path) as file,
-                write_cache(file, kind, list(map(shared.code, range(begun, taken))), shared.frame_rate) as write,
-            ):
-                for _ in range(taken - begun):
-                    write(np.frombuffer(spool.read(mesh.positions.nbytes), np.float64).reshape(-1, 3))
+            codes = [shared.code(number) for number in range(begun, taken)]
+            waiting = (np.frombuffer(spool.read(mesh.positions.nbytes)).reshape(-1, 3) for _ in codes)
+            with open_output(name, overwrite=overwrite, follow=follow and name == path) as file:
+                write_cache(file, kind, codes, waiting, shared.frame_rate)
             shared.loses(name for name in (TIMES, RATE) if name in mesh.metadata)
             if not fits:
                 shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False))

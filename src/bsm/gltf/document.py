@@ -6,7 +6,7 @@ import json
 import re
 import shutil
 import struct
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
@@ -19,7 +19,6 @@ import numpy.typing as npt
 from bsm.bitstream.errors import FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoding import decode
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import degenerate
 from bsm.files.formats.metadata import kind_of_image
 from bsm.files.images import side_of_image
@@ -137,32 +136,22 @@ class Document:
         if EXTENSION in extensions:
             how = extensions[EXTENSION]
             source = self.item("bufferViews", how["stream"])
-            stream = self._kept(_place(source), lambda: self._streamed(bytes(self._plain(source, how["stream"]))))
-            name, component = str(how["attribute"]), how.get("componentType")
-            key = (*_place(source), name, component)
-            return bytes(self._kept(key, lambda: self._counted(coding.array_of(stream, name, component).tobytes())))
+            stream = source.get("buffer"), source.get("byteOffset", 0), source.get("byteLength")
+            key: object = (*stream, name := str(how["attribute"]), component := how.get("componentType"))
+            if stream not in self._unpacked:
+                mesh = decode(bytes(self._plain(source, how["stream"])), limits=self.limits)
+                self._charge(0, len(mesh.positions))
+                self._unpacked[stream] = mesh, coding.drawn(mesh)
+            if key not in self._unpacked:
+                self._unpacked[key] = found = coding.array_of(self._unpacked[stream], name, component).tobytes()
+                self._charge(len(found))
+            return bytes(self._unpacked[key])
         how = next(extensions[name] for name in MESHOPT if name in extensions)
         data = self._plain(how, "of meshopt")
-        return bytes(self._kept(str(sorted(how.items())), lambda: self._unpack_meshopt(bytes(data), how)))
-
-    def _kept(self, key: object, make: Callable[[], Any]) -> Any:
-        """Unpack bytes once, however many bufferViews name them."""
-        if key not in self._unpacked:
-            self._unpacked[key] = make()
-        return self._unpacked[key]
-
-    def _streamed(self, data: bytes) -> tuple[TriangleMesh, coding.Drawn]:
-        mesh = decode(data, limits=self.limits)
-        self._charge(0, len(mesh.positions))
-        return mesh, coding.drawn(mesh)
-
-    def _counted(self, data: bytes) -> bytes:
-        self._charge(len(data))
-        return data
-
-    def _unpack_meshopt(self, data: bytes, how: Tree) -> bytes:
-        self._charge(3 * _count(how, "count") * _count(how, "byteStride"))
-        return coding.unpack_meshopt(data, how)
+        if (key := str(sorted(how.items()))) not in self._unpacked:
+            self._charge(3 * _count(how, "count") * _count(how, "byteStride"))
+            self._unpacked[key] = coding.unpack_meshopt(bytes(data), how)
+        return bytes(self._unpacked[key])
 
     def _charge(self, size: int, vertices: int = 0) -> None:
         """Raise `LimitError` if everything unpacked so far and this takes too much."""
@@ -308,9 +297,9 @@ class Document:
         """The files that the document refers to."""
         uris = [str(part.get("uri", "data:")) for kind in ("buffers", "images") for part in self.items(kind)]
         found = []
-        for uri in uris:
+        for uri in (uri for uri in uris if not uri.startswith("data:")):
             with suppress(FormatError):
-                found += [] if uri.startswith("data:") else [str(self.file(uri))]
+                found.append(str(self.file(uri)))
         return found
 
     def file(self, uri: str) -> Path:
@@ -421,11 +410,6 @@ def mime_of(data: bytes) -> str | None:
 
 def bounds_of(values: Array) -> Tree:
     return {"min": values.min(axis=0).astype(float).tolist(), "max": values.max(axis=0).astype(float).tolist()}
-
-
-def _place(view: Tree) -> tuple[object, ...]:
-    """A key that is equal for bufferViews of the same bytes."""
-    return view.get("buffer"), view.get("byteOffset", 0), view.get("byteLength")
 
 
 def _count(where: Tree, name: str) -> int:

@@ -88,15 +88,6 @@ Curves = Mapping[tuple[int, str], Curve]
 """Those of an animation: the node and the property that each moves."""
 
 
-def local_matrix(node: int, tree: Tree, curves: Curves, time: float) -> Doubles:
-    """The matrix of a node in its parent."""
-    moved = {name: curves[node, name].at(time) for name in _REST if (node, name) in curves}
-    if "matrix" in tree and not moved:
-        return np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
-    rest = {name: np.asarray(tree.get(name, usual), np.float64).reshape(len(usual)) for name, usual in _REST.items()}
-    return matrix_of(**{**rest, **moved})
-
-
 def parents_of(document: Document) -> dict[int, int]:
     """The nodes of the scene, parents before children, and the parent of each; -1: none."""
     nodes = document.items("nodes")
@@ -125,7 +116,12 @@ def places_of(
     """The matrix of each node of the scene."""
     places: dict[int, Doubles] = {}
     for node, parent in parents.items():
-        local = local_matrix(node, document.item("nodes", node), curves, time)
+        tree = document.item("nodes", node)
+        moved = {name: curves[node, name].at(time) for name in _REST if (node, name) in curves}
+        rest = {name: np.asarray(tree.get(name, usual), np.float64).reshape(-1) for name, usual in _REST.items()}
+        local = matrix_of(**{**rest, **moved})
+        if "matrix" in tree and not moved:
+            local = np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
         places[node] = places[parent] @ local if parent >= 0 else local
     return places
 
@@ -411,28 +407,26 @@ class Scene:
                 raise FormatError(f"a vertex of node {node} depends on joint {joints.max()} of {len(skin.joints)}")
         columns = self._columns(given, count)
         normals = np.zeros((0, count, 3))
-        origin: Ints | None = None
+        rows: Any = slice(None)
         if not self._still:
             corners = faces.reshape(-1)
             columns = tuple(replace(column, domain="corner", indices=corners) for column in columns)
-            origin = group_rows(np.column_stack([base, *targets, joints, weights, *colors])).astype(np.int64)
-            rows: Any = first_of(origin.astype(np.int32))
+            origin = group_rows(np.column_stack([base, *targets, joints, weights, *colors]))
+            rows, faces = first_of(origin), origin[faces].astype(np.int64)
         elif "NORMAL" in given:
             added = [self._of(target.get("NORMAL"), count, 3, "normals") for target in primitive.get("targets", [])]
             normals = np.array([self._of(given["NORMAL"], count, 3, "normals"), *added])
-        if origin is None:
-            rows = slice(None)
-            if self._rows(primitive) < count or self._tables[str(primitive["attributes"])] > 1:
-                rows, faces = np.unique(faces, return_inverse=True)
-                columns = tuple(replace(column, values=column.values[rows]) for column in columns)
-                faces = faces.reshape(-1, 3)
+        if self._still and self._tables[str(primitive["attributes"])] > 1:
+            rows, faces = np.unique(faces, return_inverse=True)
+            columns = tuple(replace(column, values=column.values[rows]) for column in columns)
+            faces = faces.reshape(-1, 3)
         number = int(primitive.get("material", -1))
         return Part(
             node,
             base[rows],
             np.array(targets).reshape(len(targets), count, 3)[:, rows],
             colors[:, rows],
-            faces if origin is None else origin[faces],
+            faces,
             skin,
             joints[rows],
             weights[rows],
@@ -498,12 +492,6 @@ USUAL_RATE = 30.0
 _NO_SURFACES = "points and lines were left out"
 
 
-def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
-    document = read_document(path, limits)
-    with as_format_error("glTF"), np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
-        return _frames(document, wanted, limits)
-
-
 def read_gltf_mesh(document: Document) -> shapes.MeshFile:
     """Read a scene at rest as one mesh: vertices and faces in the order of the file."""
     with as_format_error("glTF"), np.errstate(all="ignore"):  # a later check refuses infinite values
@@ -536,7 +524,10 @@ def _unread(document: Document, *, still: bool) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def _frames(document: Document, wanted: Wanted, limits: Limits) -> Frames:
+@as_format_error("glTF")
+@np.errstate(over="ignore", invalid="ignore")  # a later check refuses infinite values
+def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
+    document = read_document(path, limits)
     number, animation = _chosen(document, wanted.animation)
     scene = Scene(document, animation, limits)
     if not scene.moves:
@@ -619,7 +610,11 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
     )
     counts = [(len(part.base), len(part.faces)) for part in parts]
     whole = shapes.joined_parts(made, counts, limits, document.received)
-    metadata: dict[str, Value] = {**_extras(document), "up": "y", "unit": "meters"}
+    metadata: dict[str, Value] = {}
+    for name, value in _all_extras(document):
+        if name and isinstance(value, str | int | float):
+            metadata.setdefault(name, int(value) if isinstance(value, bool) else value)
+    metadata |= {"up": "y", "unit": "meters"}
     colors = scene.colors(time)
     columns = (*whole.columns, *([_color(colors, "color", [])] if len(colors) else []))
     shades = (conventions.shares_of(c.values[:, 3:]) for c in columns if c.semantic == "color")
@@ -631,15 +626,6 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> sh
     lost = (f"the image {unquote(uri)[:80]} was left out: {why}" for uri, why in absent.items() if why)
     notes = (*whole.notes, *lost)
     return replace(whole, notes=notes, columns=columns, metadata={**metadata, **whole.metadata})
-
-
-def _extras(document: Document) -> dict[str, Value]:
-    """Plain values among the extras."""
-    found: dict[str, Value] = {}
-    for name, value in _all_extras(document):
-        if name and isinstance(value, str | int | float):
-            found.setdefault(name, int(value) if isinstance(value, bool) else value)
-    return found
 
 
 def _all_extras(document: Document) -> Iterator[tuple[str, Any]]:

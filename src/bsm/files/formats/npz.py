@@ -145,12 +145,12 @@ class NpzArray:
                 raise CorruptError(f"the array {self._name} takes more than {self.size} bytes")
         return values
 
-    def pieces(self, rows: int) -> Iterator[Array]:
-        """Yield pieces of the array of up to `rows` entries of the first index."""
+    def entries(self) -> Iterator[Array]:
+        """Yield the array entry by entry of the first index."""
         if self._fortran:
             raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
-        for first in range(0, self.shape[0], rows):
-            yield self._taken((min(rows, self.shape[0] - first), *self.shape[1:]))
+        for _ in range(self.shape[0]):
+            yield self._taken(self.shape[1:])
 
     def _taken(self, shape: tuple[int, ...]) -> Array:
         """The next numbers; memory is allocated only for bytes that are present."""
@@ -164,8 +164,7 @@ class NpzArray:
 def _frames(archive: str | BinaryIO, *names: str) -> Iterator[tuple[Array, ...]]:
     """The frames of arrays of a sequence, read as they are asked for."""
     with opened_archive(archive) as opened:
-        for pieces in zip(*(NpzArray(opened, name).pieces(1) for name in names), strict=True):
-            yield tuple(piece[0] for piece in pieces)
+        yield from zip(*(NpzArray(opened, name).entries() for name in names), strict=True)
 
 
 def _require_shapes(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> tuple[int, int]:

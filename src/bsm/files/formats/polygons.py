@@ -133,9 +133,9 @@ def _widened(column: Column, width: int) -> Column:
 def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) -> Column:
     """Return the columns of parts as one; parts that have none get zeros, or white."""
     there = [column for column in given if column is not None]
-    shares = there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1  # bytes here, floats there
-    values = shares_of(there[0].values).astype(np.float32) if shares else there[0].values
-    model = replace(there[0], name=name, values=values)
+    if there[0].semantic == "color" and len({c.values.dtype for c in there}) > 1:  # bytes here, floats there
+        given = [c and replace(c, values=shares_of(c.values).astype(np.float32)) for c in given]
+    model = replace(next(filter(None, given)), name=name)
     blank = _FULL.get(model.values.dtype.name, 1) if model.semantic == "color" else 0
     tables, places, begin = [], [], 0
     for part, column in zip(parts, given, strict=True):
@@ -144,7 +144,7 @@ def _concatenated(parts: Sequence[Part], name: str, given: list[Column | None]) 
             size = min(count, 1) if model.domain == "corner" else count
             values = np.full((size, model.values.shape[1]), blank, model.values.dtype)
             column = replace(model, values=values, indices=np.zeros(count, np.int64))
-        tables.append(shares_of(column.values).astype(np.float32) if shares else column.values)
+        tables.append(column.values)
         places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
         begin += len(column.values)
     at_corners = np.concatenate(places) if model.domain == "corner" else None
@@ -358,18 +358,16 @@ class Part:
 
     def placed(self, matrix: Doubles) -> Part:
         """Return the part where a matrix moves it; mirrors turn its polygons around."""
-        linear, columns, corners, sizes = matrix[:3, :3], self.columns, self.corners, self.sizes
-        columns = [
-            replace(c, values=compact(turned_normals(c.values.astype(np.float64), linear)))
-            if c.semantic == "normal"
-            else c
-            for c in columns
-        ]
+        linear, order = matrix[:3, :3], np.arange(len(self.corners))
         if np.linalg.det(linear) < 0:
-            turned = turned_corners(sizes, np.ones(len(sizes), np.bool_))
-            columns = [c if c.indices is None else replace(c, indices=c.indices[turned]) for c in columns]
-            corners = corners[turned]
-        return replace(self, positions=self.positions @ linear.T + matrix[:3, 3], corners=corners, columns=columns)
+            order = turned_corners(self.sizes, np.ones(len(self.sizes), np.bool_))
+        columns = [c if c.indices is None else replace(c, indices=c.indices[order]) for c in self.columns]
+        for place, column in enumerate(columns):
+            if column.semantic == "normal":
+                values = turned_normals(column.values.astype(np.float64), linear)
+                columns[place] = replace(column, values=compact(values))
+        positions = self.positions @ linear.T + matrix[:3, 3]
+        return replace(self, positions=positions, corners=self.corners[order], columns=columns)
 
 
 def joined_parts(given: Iterable[Part], counts: Sequence[tuple[int, int]], limits: Limits, received: int) -> Polygons:

@@ -9,7 +9,7 @@ import binascii
 import re
 import warnings
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import pairwise
 from xml.etree import ElementTree
 
@@ -141,19 +141,17 @@ class _Numbers:
         sizes, size = head[3:].tolist(), int(head[1])
         self._require(count * size)
         packed = self._taken(given, head.nbytes, sum(sizes))
-        return b"".join(self._inflated(packed, sizes, size))
-
-    def _inflated(self, packed: bytes, sizes: Sequence[int], size: int) -> Iterator[bytes]:
-        at = 0
+        blocks, at = list[bytes](), 0
         for length in sizes:
             unpacker = zlib.decompressobj()
             try:
-                yield unpacker.decompress(packed[at : at + length], max(size, 1))
+                blocks.append(unpacker.decompress(packed[at : at + length], max(size, 1)))
             except zlib.error as error:
                 raise CorruptError(f"a compressed block is damaged: {error}") from error
             if not unpacker.eof:
                 raise CorruptError("a compressed block becomes more than it says")
             at += length
+        return b"".join(blocks)
 
     def _numbers(self, given: bytes, count: int) -> Array:
         return np.frombuffer(self._taken(given, 0, count * self._head.itemsize), self._head)

@@ -7,8 +7,7 @@ of points, the time of each frame in seconds as float32, then float32 coordinate
 
 import os
 import struct
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
@@ -42,7 +41,14 @@ class Cache:
 
 def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
     """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves."""
-    cache = read_head(path, kind, wanted.rate)
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size, wanted.rate)
+    what = f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points"
+    if cache.frames < 1 or cache.points < 1:
+        raise FormatError(what)
+    if size < (needed := cache.start + 12 * cache.points * cache.frames):
+        raise TruncatedError(f"{what}, which take {needed} bytes; it has {size}")
     require_count("vertices", cache.points, limits)
     require_count("frames", cache.frames, limits)
     beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
@@ -59,21 +65,6 @@ def read_cache(path: str, kind: str, wanted: Wanted, limits: Limits) -> Frames:
     notes += ["the times of frames are not numbers that grow, and are left out"] if cache.timing is None else []
     shared = kept.attributes, tuple(notes), cache.rate, {**mesh.metadata, **(cache.timing or {})}
     return Frames(mesh.faces, cache.frames, _samples(path, cache), *shared, rigged=cache.points)
-
-
-def read_head(path: str, kind: str, rate: float = 0.0) -> Cache:
-    size = os.path.getsize(path)
-    with open(path, "rb") as file:
-        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size, rate)
-    if cache.frames < 1 or cache.points < 1:
-        raise FormatError(f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points")
-    needed = cache.start + 12 * cache.points * cache.frames
-    if size < needed:
-        raise TruncatedError(
-            f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points, which take {needed} "
-            f"bytes; it has {size}"
-        )
-    return cache
 
 
 def _head_of_pc2(file: BinaryIO) -> Cache:
@@ -125,16 +116,12 @@ def _beside(path: str) -> str:
     return found
 
 
-@contextmanager
 def write_cache(
-    file: BinaryIO, kind: str, codes: Sequence[float], rate: float = 0.0
-) -> Iterator[Callable[[Positions], None]]:
-    """Write a cache of frames with these time codes, at a frame rate; yields a function that takes one frame."""
-    single, count = "<f4" if kind == "pc2" else ">f4", len(codes)
-    taken = 0
-
-    def write(frame: Positions) -> None:
-        nonlocal taken
+    file: BinaryIO, kind: str, codes: Sequence[float], frames: Iterable[Positions], rate: float = 0.0
+) -> None:
+    """Write a cache of frames with these time codes, at a frame rate."""
+    single, count, taken = "<f4" if kind == "pc2" else ">f4", len(codes), 0
+    for frame in frames:
         if taken == 0 and kind == "pc2":
             step = codes[1] - codes[0] if count > 1 else 1.0
             file.write(_PC2.pack(_SIGNATURE, 1, len(frame), codes[0], step, count))
@@ -145,8 +132,6 @@ def write_cache(
             raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
         file.write(np.ascontiguousarray(frame, single).tobytes())
         taken += 1
-
-    yield write
     if taken != count:
         raise CorruptError(f"{taken} of {count} frames came")
 

@@ -436,9 +436,8 @@ class _Part:
         found += self.instance[0].times if self.instance else []
         for prim in (self.prim, self.instance[0].prim) if self.instance else (self.prim,):
             found += _times_of_visibility(geom, prim)
-            while prim and not prim.IsPseudoRoot():
-                found += geom.Xformable(prim).GetTimeSamples() if prim.IsA(geom.Xformable) else []
-                prim = prim.GetParent()
+            for one in filter(geom.Xformable, _with_those_above(prim)):
+                found += geom.Xformable(one).GetTimeSamples()
         return found
 
     def matrix(self, time: Any, cache: Any) -> Doubles:
@@ -480,14 +479,16 @@ def _meant(name: str, kind: str, values: shapes.Array) -> tuple[str, shapes.Arra
     return name, values, "generic"
 
 
-def _times_of_visibility(geom: Any, prim: Any) -> list[float]:
-    """The times at which a prim may appear or vanish, in order."""
-    found: set[float] = set()
+def _with_those_above(prim: Any) -> Iterator[Any]:
     while prim and not prim.IsPseudoRoot():
-        attr = geom.Imageable(prim).GetVisibilityAttr()
-        found.update(attr.GetTimeSamples() if attr and attr.ValueMightBeTimeVarying() else ())
+        yield prim
         prim = prim.GetParent()
-    return sorted(found)
+
+
+def _times_of_visibility(geom: Any, prim: Any) -> list[float]:
+    """The times at which a prim may appear or vanish."""
+    attrs = (geom.Imageable(one).GetVisibilityAttr() for one in _with_those_above(prim))
+    return [time for attr in attrs if attr and attr.ValueMightBeTimeVarying() for time in attr.GetTimeSamples()]
 
 
 @contextmanager
@@ -595,15 +596,27 @@ class _Stage:
     def times(self) -> list[float]:
         return sorted({time for part in self.parts for time in part.times(self.pxr.UsdGeom)})
 
+    @as_format_error("stage")
     def at(self, time: float) -> Doubles:
         code = self.pxr.Usd.TimeCode(time)
         cache = self.pxr.UsdGeom.XformCache(code)
         return np.concatenate([part.at(code, cache) for part in self.parts])
 
-    def renew(self, time: float) -> None:
-        """Give the parts the faces and primvars that they have at a time."""
+    @as_format_error("stage")
+    def renewed(self, time: float) -> TriangleMesh:
+        """The mesh at a time, with the faces and primvars that it has then."""
         code = self.pxr.Usd.TimeCode(time)
         self.parts = [_Part(_Shape(self.pxr, part.prim, code), part.prim, part.instance) for part in self.parts]
+        return self.frame(time).mesh
+
+    def frame(self, time: float) -> shapes.MeshFile:
+        """The mesh at a time; where frames may be without faces, an empty one if none are there."""
+        try:
+            return self.mesh(time)
+        except NoFacesError:
+            if not self._runs:
+                raise
+            return shapes.MeshFile(empty_frame())
 
     @property
     def changes(self) -> bool:
@@ -669,12 +682,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
     require_count("frames", count, limits)
-    try:
-        still = stage.mesh(first)
-    except NoFacesError:
-        if not wanted.runs:
-            raise
-        still = shapes.MeshFile(empty_frame())
+    still = stage.frame(first)
     every = [first + number * codes / rate for number in range(count)]
     samples = (np.array([time for time in times if first <= time <= last]) - first) * rate / codes
     off = between("time samples", samples, rate)
@@ -682,23 +690,9 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *off, *still.notes)
     meshes = None
     if (wanted.runs and stage.changes) or any(part.shape.painted for part in stage.parts):
-
-        def changing() -> Iterator[TriangleMesh]:
-            for time in every:
-                try:
-                    with as_format_error("stage"):
-                        stage.renew(time)
-                        found = stage.mesh(time).mesh
-                except NoFacesError:
-                    if not wanted.runs:
-                        raise
-                    found = empty_frame()
-                yield painted_like(mesh, found)
-
-        meshes = changing()
+        meshes = (painted_like(mesh, stage.renewed(time)) for time in every)
     metadata = {**mesh.metadata, **({table.START: first * rate / codes} if first else {})}
-    frames = map(as_format_error("stage")(stage.at), every)
-    return Frames(mesh.faces, count, frames, mesh.attributes, notes, rate, metadata, meshes)
+    return Frames(mesh.faces, count, map(stage.at, every), mesh.attributes, notes, rate, metadata, meshes)
 
 
 @as_format_error("stage")
