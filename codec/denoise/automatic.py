@@ -1,8 +1,7 @@
 """Denoising that chooses its own settings, and does not change a mesh that it cannot improve."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -96,9 +95,7 @@ class AutomaticChoice:
         most = self.forecast.most if self.forecast else 1.0
         return max(min(most * self.expected, self.untreated), self.expected)
 
-    def seen(
-        self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology
-    ) -> AutomaticChoice:
+    def seen(self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology) -> Self:
         """Return the choice with the angles of the whole mesh, whose errors count by the share that is applied."""
         assert self.forecast is not None
         ends = (face_normals(positions, topology.faces) for positions in (full, result))
@@ -107,7 +104,7 @@ class AutomaticChoice:
         expected = float((touched * np.hypot(undone, share * self.forecast.expected)).mean())
         return replace(self, untreated=self.forecast.untreated * float(touched.mean()), expected=expected)
 
-    def after(self, outliers: int) -> AutomaticChoice:
+    def after(self, outliers: int) -> Self:
         """The choice for a mesh of which outliers have been put back."""
         if self.steps or not outliers:
             return replace(self, outliers=outliers)

@@ -8,7 +8,6 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, Unpack
 
-from bsm import options as keywords_to
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
@@ -95,14 +94,15 @@ def encode(
     True
     """
     from bsm.codec.static.options import EncodeOptions
+    from bsm.options import encode_options
     from bsm.simplification import encode_source
 
-    chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
+    chosen = _chosen(options, EncodeOptions, keywords, encode_options)
     entries = checked_metadata(metadata)
     with watched("encoding", progress) as reported:
         source = with_metadata(without_provenance(as_mesh(mesh)), chosen, entries)
         if lengths := in_own_unit(keywords, source.metadata, source):
-            chosen = keywords_to.encode_options(**{**keywords, **lengths})
+            chosen = encode_options(**{**keywords, **lengths})
         chosen = with_texels(chosen or EncodeOptions(), source)
         found = encode_source(source, chosen, reported, simplify=simplify)
     warn(found.encoder.losses)
@@ -143,14 +143,8 @@ def encode_many(
         Continue from the report: skip files whose output is complete and up to date.
     overwrite : bool
         Whether to replace existing files.
-    metadata : mapping from str to str, optional
-        Added to the metadata of each mesh.
-    simplify : bool
-        As in `encode`.
-    progress : callable, optional
-        As in `encode`, for all files together. If it raises an exception, finished files are kept.
-    **keywords
-        As in `encode`.
+    metadata, simplify, progress, **keywords
+        As in `encode`; `progress` hears of all files together. If it raises an exception, finished files are kept.
 
     Returns
     -------
@@ -173,8 +167,9 @@ def encode_many(
     from bsm.jobs.encode import EncodeJob, encode_one
     from bsm.jobs.plan import plan
     from bsm.jobs.run import Batch, run_many
+    from bsm.options import encode_options
 
-    keywords_to.encode_options(**keywords)
+    encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
     checked_whole("jobs", jobs, 0)
@@ -282,8 +277,9 @@ def encode_sequence(
     """
     from bsm.codec.sequence.encoder import SequenceEncoder, frames_of
     from bsm.codec.sequence.options import SequenceOptions
+    from bsm.options import sequence_options
 
-    chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
+    chosen = _chosen(options, SequenceOptions, keywords, sequence_options)
     frames, entries = frames_of(positions), checked_metadata(metadata)
     return _joined(SequenceEncoder(faces, chosen, len(frames), entries, mesh_attributes), frames, progress)
 
@@ -311,14 +307,8 @@ def encode_frames(
     meshes : iterable of meshes, pairs of arrays, or paths
         The frames, each a mesh as in `encode`. Colors and other numbers of vertices may change from frame to frame.
         Other attributes are taken from the first frame of each run of frames with equal faces.
-    options : SequenceOptions, optional
-        As in `encode_sequence`. Faces may change unless `runs` is false.
-    metadata : mapping of str, optional
-        Metadata of the whole sequence.
-    progress : callable, optional
-        As in `encode`, if `meshes` is a list.
-    **keywords
-        Fields of the options. Targets need frames that share their faces.
+    options, metadata, progress, **keywords
+        As in `encode_sequence`. Faces may change unless `runs` is false; targets need frames that share their faces.
 
     Returns
     -------
@@ -343,11 +333,12 @@ def encode_frames(
     from bsm.codec.sequence.encoder import SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.sequence.runs import is_empty
+    from bsm.options import sequence_options
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
     given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
-    chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
+    chosen = _chosen(options, SequenceOptions, given, sequence_options)
     entries, frames = checked_metadata(metadata), map(_as_frame if chosen is None or chosen.runs else as_mesh, meshes)
     first = next(frames, None)
     if first is None:
@@ -409,10 +400,8 @@ def decode_sequence(
 
     Parameters
     ----------
-    stream, limits, threads
+    stream, limits, threads, progress
         As in `decode`. The function reads the whole stream; a `SequenceDecoder` returns frames while bytes arrive.
-    progress : callable, optional
-        As in `encode`.
 
     Returns
     -------
@@ -598,8 +587,9 @@ def denoise(
     """
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.denoise import denoise as denoise_mesh
+    from bsm.options import denoise_options
 
-    chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
+    chosen = _chosen(options, DenoiseOptions, keywords, denoise_options)
     with watched("denoising", progress) as heard:
         given = as_mesh(mesh)
         clean = denoise_mesh(given, chosen, goal=goal, strength=strength, force=force, progress=heard.stage)

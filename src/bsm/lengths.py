@@ -1,16 +1,12 @@
 """Lengths with units: `0.05mm`, `0.1%`, `0.001`."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bsm.bitstream.errors import ArgumentError, OptionError
-
-if TYPE_CHECKING:
-    from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh
 
 NUMBER = r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)"
 LENGTH = re.compile(NUMBER + r" *(%|[a-zA-Zµ]*)")

@@ -1,22 +1,16 @@
 """Options by keyword: `bsm.encode(mesh, theta=5)` and `bsm encode mesh.ply --theta 5` come through here alike."""
 
-from __future__ import annotations
-
 import math
-import types
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.choices import checked, named, suggestion
+from bsm.codec.sequence.options import PROMISES, SequenceOptions
+from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, Paper, changed
+from bsm.codec.static.targets import WIDEST, Contract, Target
 from bsm.lengths import parse_bytes, parse_length
-
-if TYPE_CHECKING:
-    from bsm.codec.denoise import DenoiseOptions
-    from bsm.codec.sequence.options import SequenceOptions
-    from bsm.codec.static.options import EncodeOptions
-    from bsm.codec.static.targets import Target
 
 TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "size"}
 """Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""
@@ -30,31 +24,25 @@ SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossl
 
 
 def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
-    from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, changed
-    from bsm.codec.static.targets import Target
-
     base: EncodeOptions = EncodeOptions() if preset is None else named("preset", PRESETS, preset)
     asked = [name for name, value in keywords.items() if value is not None]
-    bounds = [name for name in asked if name in (*BOUNDS, *TARGETS, "contract", "target")]
+    promised = [name for name in asked if name in (*BOUNDS, "contract")]
     grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
-    if base.is_grid and (excluded := [*bounds, *grids, *coding]):
+    targets = [name for name in asked if name in (*TARGETS, "target")]
+    if base.is_grid and (excluded := [*promised, *targets, *grids, *coding]):
         raise OptionError(f"preset {preset} fixes all positions and cannot be combined with {' and '.join(excluded)}")
-    if base.sets_coding and (excluded := [*(name for name in bounds if name in (*BOUNDS, "contract")), *grids]):
+    if base.sets_coding and (excluded := [*promised, *grids]):
         raise OptionError(f"preset {preset} fixes the coding and cannot be combined with {' and '.join(excluded)}")
-    fixed = [*grids, *coding]
-    excluded = [name for name in bounds if name in (*BOUNDS, "contract")]
     if grids and preset is not None and base.contract is not None:
-        excluded.insert(0, f"the preset {preset}")
-    if fixed and excluded:
-        raise OptionError(f"{fixed[0]} fixes the output and cannot be combined with {' and '.join(excluded)}")
-    given = _fields("a mesh", EncodeOptions, _with_bounds(base, preset is not None, keywords), TARGETS, Target)
+        promised.insert(0, f"the preset {preset}")
+    if promised and (fixed := [*grids, *coding]):
+        raise OptionError(f"{fixed[0]} fixes the output and cannot be combined with {' and '.join(promised)}")
+    given = _fields("a mesh", _OF_MESHES, _with_bounds(base, preset is not None, keywords), TARGETS)
     return changed(base, **given)
 
 
 def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset."""
-    from bsm.codec.static.targets import WIDEST, Contract
-
     given = dict(keywords)
     farthest, look = given.pop("max_error", None), given.pop("look", None)
     if farthest is None and look is None:
@@ -75,15 +63,12 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 
 
 def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
-    from bsm.codec.sequence.options import PROMISES, SequenceOptions
-    from bsm.codec.static.targets import Contract, Target
-
     name = "balanced" if preset is None else preset
     if name in ("none", "lossless", "grid14", "paper"):
         raise OptionError(f"a sequence cannot have preset {name}: GOPs round frames together; try near-lossless")
     effort = keywords.pop("effort", "normal")
-    bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
-    given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, Target)
+    bounds = {bound: value for bound in BOUNDS if (value := keywords.pop(bound, None)) is not None}
+    given = _fields("a sequence", _OF_SEQUENCES, keywords, SEQUENCE_TARGETS)
     together = checked("low_delay", low_delay, int)
     base = SequenceOptions(step=named("preset", SEQUENCE_STEPS, name), low_delay=together)
     quick = named("effort", {"quick": True, "normal": False, "best": False}, effort)
@@ -102,53 +87,34 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
     return replace(base, **given)
 
 
-def denoise_options(**keywords: Any) -> DenoiseOptions | None:
+def denoise_options(**keywords: Any) -> Any:
     """The options for denoising that keywords ask for; None without any: everything is chosen by the data."""
-    from bsm.codec.denoise import DenoiseOptions
+    from bsm.codec.denoise import DenoiseOptions  # needs scipy
 
-    return DenoiseOptions(**_fields("denoising", DenoiseOptions, keywords)) if keywords else None
+    return DenoiseOptions(**_fields("denoising", _names(DenoiseOptions), keywords, {})) if keywords else None
 
 
-def _fields(
-    what: str,
-    options: type[Any],
-    keywords: Mapping[str, Any],
-    targets: Mapping[str, str] = types.MappingProxyType({}),
-    target: Callable[[str, float], Target] | None = None,
-) -> dict[str, Any]:
-    """The fields of `options` that keywords give, the target among them."""
-    from bsm.codec.static.options import EncodeOptions, Paper
+def _names(*kinds: Any) -> set[str]:
+    return {item.name for kind in kinds for item in fields(kind)}
 
-    known = [item.name for kind in (options, *([Paper] if options is EncodeOptions else [])) for item in fields(kind)]
-    given: dict[str, Any] = {}
-    wanted = []
-    for name, value in keywords.items():
-        if name in known:
-            given[name] = value
-        elif name in targets and target is not None:
-            if value is not None:
-                wanted.append(name)
-                number = parse_bytes(name, value) if name == "size" else checked(name, value, float)
-                given["target"] = target(targets[name], number)
-        else:
-            more = (*(BOUNDS if targets is TARGETS else ()), *(("preset",) if targets else ()))
-            _refuse(name, what, (*known, *targets, *more))
-    if keywords.get("target") is not None:
-        wanted.append("target")
+
+_OF_MESHES = {*_names(EncodeOptions, Paper), *TARGETS, *BOUNDS, "preset"}
+_OF_SEQUENCES = {*_names(SequenceOptions), *SEQUENCE_TARGETS, "preset"}
+
+
+def _fields(what: str, known: set[str], keywords: Mapping[str, Any], targets: Mapping[str, str]) -> dict[str, Any]:
+    """The fields of options that keywords give, the target among them; `ArgumentError` if one is not known."""
+    given = {name: value for name, value in keywords.items() if name not in targets}
+    for name in (name for name in given if name not in known):
+        for others, names in (("single meshes", {*_OF_MESHES, "simplify"}), ("sequences", _OF_SEQUENCES)):
+            if name in names and what != "denoising":
+                raise ArgumentError(f"{name} is for {others}, not for {what}")
+        advice = suggestion(name, sorted(known)) or f"; there are {', '.join(sorted(known))}"
+        raise ArgumentError(f"unknown option {name} for {what}{advice}")
+    wanted = [name for name, value in keywords.items() if name in (*targets, "target") and value is not None]
     if len(wanted) > 1:
         raise OptionError(f"give one target only, not {' and '.join(wanted)}")
+    for name in wanted if "target" not in wanted else ():
+        number = parse_bytes(name, keywords[name]) if name == "size" else checked(name, keywords[name], float)
+        given["target"] = Target(targets[name], number)
     return given
-
-
-def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
-    from bsm.codec.sequence.options import SequenceOptions
-    from bsm.codec.static.options import EncodeOptions, Paper
-
-    of_meshes = {*(field.name for field in (*fields(EncodeOptions), *fields(Paper))), *TARGETS, *BOUNDS, "simplify"}
-    of_sequences = {*(field.name for field in fields(SequenceOptions)), *SEQUENCE_TARGETS}
-    for others, names in (("single meshes", of_meshes), ("sequences", of_sequences)):
-        if name in names and what in ("a mesh", "a sequence"):
-            raise ArgumentError(f"{name} is for {others}, not for {what}")
-    known = sorted(known)
-    advice = suggestion(name, known) or f"; there are {', '.join(known)}"
-    raise ArgumentError(f"unknown option {name} for {what}{advice}")

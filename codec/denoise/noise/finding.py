@@ -1,8 +1,7 @@
 """Findings about the noise of a mesh, and the evidence for them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -69,11 +68,11 @@ class Finding:
     def noisy(self) -> bool:
         return self.kind not in ("none", "unknown")
 
-    def on(self, members: Order) -> Finding:
+    def on(self, members: Order) -> Self:
         growth = None if self.growth is None else self.growth[members]
         return replace(self, levels=self.levels[members], growth=growth)
 
-    def reaching(self, topology: Topology, slides: bool) -> Finding:
+    def reaching(self, topology: Topology, slides: bool) -> Self:
         """The finding with a bound to where noise that is not bound otherwise may have moved vertices from."""
         free = self.bound is None and self.kind in ("white", "correlated", "local")
         # Fine levels hold little of noise that neighbors share: about the square of their share in the finest.
@@ -124,11 +123,11 @@ class Evidence:
         few = max(1.0 / np.sqrt(len(fine)) - 1.0 / np.sqrt(MANY_WINDOWS), 0.0)
         return np.array([level, whiteness, off, *uneven, irregular, few])
 
-    def weakened(self, growth: Floats) -> Evidence:
+    def weakened(self, growth: Floats) -> Self:
         """Evidence of noise without its growth, shape (n,)."""
         here = self.probe.windows.means(growth)
-        levels = (values / here for values in (self.levels, self.broad, self.finest))
-        return Evidence(self.probe, self.normals, self.edge, self.along / growth, self.across, *levels)
+        levels = {"levels": self.levels / here, "broad": self.broad / here, "finest": self.finest / here}
+        return replace(self, along=self.along / growth, **levels)
 
 
 def look(probe: Probe, values: Floats, directions: Floats, edge: float) -> Evidence:

@@ -223,7 +223,9 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     elif args.given is not None and args.many:
         output = output_inside(args.given, args.input, suffix)
     first, last = _range(args.frames)
-    if last - first == 1 and _is_mesh_file(output, args.format):
+    kind = args.format or format_of_name(output)
+    one_mesh = kind in WRITTEN_FORMATS and kind not in ONE_FILE and not is_numbered(output)
+    if last - first == 1 and one_mesh and not Path(output).is_dir():
         return _decode_frame(args, console, chunks, first, output)
     kind = sequence_kind(output, args.format)
     refuse_to_overwrite(output, args.may_replace(output))
@@ -271,12 +273,6 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     console.note(f"{args.input} -> {output}: {counts}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
     return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
-
-
-def _is_mesh_file(output: str, file_format: str | None) -> bool:
-    """Whether an output is one file of a format of meshes."""
-    kind = file_format or format_of_name(output)
-    return kind in WRITTEN_FORMATS and kind not in ONE_FILE and not is_numbered(output) and not Path(output).is_dir()
 
 
 def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], number: int, output: str) -> Facts:

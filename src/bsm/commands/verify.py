@@ -38,20 +38,21 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def verify_one(args: VerifyJob, console: Console) -> Facts:
-    if is_tiles(args.input):
-        return _verify_tiles(args, console)
-    if Path(args.input).is_dir():
-        raise OptionError(f"{args.input} is a folder, and not one of tiles; bsm verify -r checks the streams in it")
-    if is_scene(args.input):
-        return _verify_scene(args, console)
-    refuse_mesh(args.input)
-    chunks = list(read_chunks(args.input))
     with console.progress("decoding"):
-        info = _checked(chunks, args)
-    checked = not args.quick and info.checksum is not None
-    checksum, size = ", positions match the encoder's" if checked else "", info.sizes["total"]
-    console.note(f"{args.input}: whole, {counted(blocks=info.header.blocks)}, {size} bytes{checksum}")
-    return {"input": args.input, "ok": True, "decoded": not args.quick, "checked": checked, "bytes": size}
+        if is_tiles(args.input):
+            what, size, more = _verify_tiles(args, console)
+        elif Path(args.input).is_dir():
+            raise OptionError(f"{args.input} is a folder, and not one of tiles; bsm verify -r checks the streams in it")
+        elif is_scene(args.input):
+            what, size, more = _verify_scene(args)
+        else:
+            refuse_mesh(args.input)
+            info = _checked(list(read_chunks(args.input)), args)
+            what, size = counted(blocks=info.header.blocks), info.sizes["total"]
+            more = {"checked": not args.quick and info.checksum is not None}
+    matches = ", positions match the encoder's" if more.get("checked") else ""
+    console.note(f"{args.input}: whole, {what}, {size} bytes{matches}")
+    return {"input": args.input, "ok": True, "decoded": not args.quick, **more, "bytes": size}
 
 
 def _checked(chunks: list[bytes], args: VerifyJob) -> StreamInfo:
@@ -62,26 +63,22 @@ def _checked(chunks: list[bytes], args: VerifyJob) -> StreamInfo:
     return info
 
 
-def _verify_scene(args: VerifyJob, console: Console) -> Facts:
+def _verify_scene(args: VerifyJob) -> tuple[str, int, Facts]:
     """Check every stream of a glTF scene."""
     document = by_name("bsm.gltf.document", "read_document")(args.input, limits_of(args.limits))
-    with console.progress("decoding"):
-        sizes = [_checked([document.view(number)], args).sizes["total"] for number in document.streams]
+    sizes = [_checked([document.view(number)], args).sizes["total"] for number in document.streams]
     if not sizes:
         raise FormatError(f"{args.input}: this scene has no streams; bsm glb makes one that has")
-    console.note(f"{args.input}: whole, {counted(streams=len(sizes))}, {sum(sizes)} bytes")
-    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": sum(sizes)}
+    return counted(streams=len(sizes)), sum(sizes), {}
 
 
-def _verify_tiles(args: VerifyJob, console: Console) -> Facts:
+def _verify_tiles(args: VerifyJob, console: Console) -> tuple[str, int, Facts]:
     """Check every tile of every shard; report all faults, and raise the first."""
     tiles = open_tiles(args.input, limits_of(args.limits))
-    with console.progress("decoding"):
-        faults = list(tiles.faults(not args.quick))
+    faults = list(tiles.faults(not args.quick))
     for fault in faults[1:]:
         console.note(worded(fault))
     if faults:
         raise faults[0]
     count, size = (sum(shard[name] for shard in tiles.manifest["shards"]) for name in ("tiles", "size"))
-    console.note(f"{args.input}: whole, {counted(tiles=count)}, {size} bytes")
-    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": size}
+    return counted(tiles=count), size, {}

@@ -170,18 +170,15 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
 
 
 def _outcomes(run: Batch, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
-    processes = min(run.jobs or available_threads(), len(sizes)) or 1
-    if run.dask is None and processes == 1:
-        return _one_by_one(console, work, tasks, sizes)
-    # Where there is one process there is no need to load this.
-    from bsm.jobs.workers import in_processes, on_cluster
-
-    return in_processes(work, tasks, processes) if run.dask is None else on_cluster(work, tasks, run.dask)
-
-
-def _one_by_one(console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
-    """Do one job after the other here, each as a part of all."""
+    """Do jobs on a cluster, in processes, or one after the other here, each as a part of all."""
     finished, count = 0, len(sizes)
+    processes = min(run.jobs or available_threads(), count)
+    if run.dask is not None or processes > 1:
+        # Where there is one process there is no need to load this.
+        from bsm.jobs.workers import in_processes, on_cluster
+
+        yield from in_processes(work, tasks, processes) if run.dask is None else on_cluster(work, tasks, run.dask)
+        return
     for number, task in iter(partial(next, tasks), None):
         finished += sizes[number]
         with console.progress(f"{number + 1} of {count}" if count > 1 else "", finished / sum(sizes)):

@@ -70,7 +70,10 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
             raise KeyError("format")
         if given["version"] != 1:
             raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
-        _require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 had no such entry
+        if (major := given.get("stream", 0)) != MAJOR:  # version 0 had no such entry
+            older = "encode the source again, or decode it with the release that wrote it"
+            message = f"{name}: these tiles are written by version {major} of the format, and this reads {MAJOR}: "
+            raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"))
         if given.get("complete") is False:
             resume = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
             message = f"these tiles are unfinished; with its other options, {resume} goes on"
@@ -159,10 +162,3 @@ def _listed(given: Any, size: int | None = None) -> Sequence[Any]:
     if not isinstance(given, list) or len(given) != (size or len(given) or 1):
         raise ValueError(f"a list of {size or 'one or more'} is expected")
     return given
-
-
-def _require_major(what: str, major: int) -> None:
-    if major != MAJOR:
-        older = "encode the source again, or decode it with the release that wrote it"
-        message = f"{what} written by version {major} of the format, and this reads {MAJOR}: "
-        raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"))

@@ -93,12 +93,11 @@ def _carrier(mesh: TriangleMesh) -> tuple[bytes, Order]:
     from bsm.codec.static.options import PRESETS as ALL
     from bsm.codec.static.options import EncodeOptions
 
-    try:
+    with suppress(MeshError, TargetError):
         encoder = Encoder(mesh, ALL["lossless"])
         return b"".join(encoder.chunks()), encoder.vertex_order
-    except (MeshError, TargetError):
-        encoder = Encoder(mesh, EncodeOptions(grid=_FINEST, attributes={"*": "exact"}))
-        return b"".join(encoder.chunks()), encoder.vertex_order
+    encoder = Encoder(mesh, EncodeOptions(grid=_FINEST, attributes={"*": "exact"}))
+    return b"".join(encoder.chunks()), encoder.vertex_order
 
 
 def compared(

@@ -63,9 +63,14 @@ class Arrival:
             self.end()
 
     def take(self, chunk: bytes) -> None:
+        """Look at the packets that are complete now; pages do not enter a stream after damage."""
         with self._change:
             self._data += chunk
-            self._skim(chunk)
+            try:
+                for packet in self._skimmer.receive(chunk) if self._skimmer else ():
+                    self._note(packet, slice(packet.offset, packet.offset + packet.length))
+            except BsmError:
+                self._entry = self._skimmer = None
             self._change.notify_all()
 
     def end(self) -> None:
@@ -97,14 +102,6 @@ class Arrival:
                     return
             at += len(piece)
             yield piece
-
-    def _skim(self, chunk: bytes) -> None:
-        """Look at the packets that are complete now; pages do not enter a stream after damage."""
-        try:
-            for packet in self._skimmer.receive(chunk) if self._skimmer else ():
-                self._note(packet, slice(packet.offset, packet.offset + packet.length))
-        except BsmError:
-            self._entry = self._skimmer = None
 
     def _note(self, packet: SkimmedPacket, place: slice) -> None:
         self._over = packet.type == FrameType.END
