@@ -10,7 +10,8 @@ typedef struct {
     int32_t *faces;
     uint8_t *states;
     double *quadrics;
-    const int32_t *starts, *around;
+    const int64_t *starts;
+    const int32_t *around;
     const int32_t *wedges;        /* The values that corners have beside their place. */
     int32_t *ends, *marks, *joins; /* Where each vertex went in this pass, and each wedge. */
     int32_t mark;
@@ -18,7 +19,7 @@ typedef struct {
 
 /* The quadric of an area: xx, xy, xz, yy, yz, zz, then the linear terms, then the constant. */
 INLINE void add_plane(double *q, const double *n, double weight, const double *at) {
-    double away = n[0] * at[0] + n[1] * at[1] + n[2] * at[2];
+    double away = dot3(n, at);
     int term = 0;
     for (int i = 0; i < 3; i++)
         for (int j = i; j < 3; j++) q[term++] += weight * n[i] * n[j];
@@ -31,7 +32,7 @@ INLINE void add_point(double *q, double weight, const double *at) {
     q[3] += weight;
     q[5] += weight;
     for (int i = 0; i < 3; i++) q[6 + i] -= weight * at[i];
-    q[9] += weight * (at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+    q[9] += weight * dot3(at, at);
 }
 
 /* Half of the gradient at a point. */
@@ -104,14 +105,10 @@ static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p
             continue;
         }
         ++*others;
-        double old[3], new[3], along = 0.0, old_square = 0.0, new_square = 0.0;
+        double old[3], new[3];
         cross3(before[0], before[1], before[2], old);
         cross3(after[0], after[1], after[2], new);
-        for (int i = 0; i < 3; i++) {
-            along += old[i] * new[i];
-            old_square += old[i] * old[i];
-            new_square += new[i] * new[i];
-        }
+        double along = dot3(old, new), old_square = dot3(old, old), new_square = dot3(new, new);
         if (old_square > 0.0 && (along <= 0.0 || along * along < TURN * TURN * old_square * new_square)) return true;
     }
     return false;
@@ -153,15 +150,6 @@ static bool wedges_join(Surface *surface, int32_t goes, int32_t stays) {
     return true;
 }
 
-/* Which triangles are around each vertex. */
-static void arrange(const int32_t *faces, int64_t count, Ints starts, int32_t *around) {
-    int64_t size = starts.size - 1;
-    for (int64_t v = 0; v <= size; v++) starts.data[v] = 0;
-    for (int64_t k = 0; k < 3 * count; k++) starts.data[faces[k]]++;
-    for (int64_t v = 1; v <= size; v++) starts.data[v] += starts.data[v - 1];
-    for (int64_t k = 3 * count; k-- > 0;) around[--starts.data[faces[k]]] = (int32_t)(k / 3);
-}
-
 /* Whether the k-th side of a triangle is one of the edges that may become points, each of which is one side so. */
 INLINE bool is_edge(const Surface *surface, int64_t k, int32_t *a, int32_t *b) {
     *a = surface->faces[k];
@@ -182,7 +170,7 @@ INLINE int64_t bucket_of(float cost) {
  * stay where they are, and STEADY for all if none may move. Returns how many triangles there are, which stand first;
  * `owners` are what vertices have become. Scratch: quadrics, `ends` and `marks` for each vertex, one more of
  * `starts`, three of `around` for each triangle, `joins` for each wedge, a cost for each edge. */
-int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Doubles2 quadrics, Ints starts,
+int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Doubles2 quadrics, Longs starts,
                  Ints around, Ints ends, Ints marks, Ints joins, Ints owners, Singles costs, Ints buckets,
                  int64_t target) {
     int64_t size = positions.rows, count = faces.rows;
@@ -205,17 +193,16 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Do
         const int32_t *face = faces.data + 3 * f;
         const double *at[3];
         for (int i = 0; i < 3; i++) at[i] = positions.data + 3 * (int64_t)face[i];
-        double n[3], squared = 0.0;
+        double n[3];
         cross3(at[0], at[1], at[2], n);
-        for (int i = 0; i < 3; i++) squared += n[i] * n[i];
-        double area = __builtin_sqrt(squared);
+        double area = __builtin_sqrt(dot3(n, n));
         for (int i = 0; area > 0.0 && i < 3; i++) {
             add_plane(quadrics.data + TERMS * (int64_t)face[i], n, 1.0 / area, at[0]);
             add_point(quadrics.data + TERMS * (int64_t)face[i], SHAPE * area, at[i]);
             const int other = (i + 1) % 3;
             if (!(states.data[face[i]] & states.data[face[other]] & SEAM)) continue;
             double along[3] = {at[other][0] - at[i][0], at[other][1] - at[i][1], at[other][2] - at[i][2]};
-            double squared = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
+            double squared = dot3(along, along);
             for (int end = i; end >= 0; end = end == i ? other : -1) {
                 add_point(quadrics.data + TERMS * (int64_t)face[end], squared, at[end]);
                 add_plane(quadrics.data + TERMS * (int64_t)face[end], along, -1.0, at[end]);
@@ -225,7 +212,7 @@ int64_t simplify(Doubles2 positions, Ints2 faces, Ints2 wedges, Bytes states, Do
     for (int pass = 0; pass < PASSES && count > target; pass++) {
         int32_t a, b, stays;
         double p[3];
-        arrange(faces.data, count, starts, around.data);
+        vertex_faces((ConstInts2){faces.data, count, 3}, starts, around);
         for (int64_t v = 0; v < size; v++) {
             ends.data[v] = (int32_t)v;
             states.data[v] &= ~TOUCHED;

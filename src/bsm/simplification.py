@@ -244,8 +244,8 @@ def collapsed(
         vertices = faces.ravel()[np.unique(wedges, return_index=True)[1]]  # of the wedges
         stay[np.bincount(vertices, minlength=count) > 1] |= _SEAM
     moved, left, own = np.array(positions, np.float64), np.array(faces, np.int32), np.array(own, np.int32)
-    starts, ends, marks, owners = (np.empty(count + more, np.int32) for more in (1, 0, 0, 0))
-    scratch = np.empty((count, _TERMS)), starts, np.empty(sides, np.int32), ends, marks
+    ends, marks, owners = np.empty((3, count), np.int32)
+    scratch = np.empty((count, _TERMS)), np.empty(count + 1, np.int64), np.empty(sides, np.int32), ends, marks
     joins = np.empty(int(own.max(initial=-1)) + 1, np.int32)
     buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
     size = _kernels.simplify(moved, left, own, stay, *scratch, joins, owners, *buckets, target)
