@@ -6,8 +6,10 @@ from itertools import islice
 
 import numpy as np
 
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.temporal import shapes_of
 from bsm.codec.static.attributes.encoding import Values
 from bsm.codec.static.preamble_encoding import Prepared
 
@@ -25,6 +27,11 @@ class Group:
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    @cached_property
+    def shapes(self) -> Matrix:
+        """Of the positions, see `shapes_of`."""
+        return shapes_of(self.positions)
 
 
 def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:

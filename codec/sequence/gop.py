@@ -22,56 +22,21 @@ from bsm.codec.sequence.temporal import time_cosines
 from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.units import single
 
-WEIGHT = 0.1  # squared steps that a bit is worth, as where levels are chosen
-OVERHEAD = 14  # bytes of a GOP besides its levels, about
-PLACES, SENT, CLEARLY = 8, 0.35, 0.95
-"""Places where a cut is looked for at first; bytes of one more component over those of all on average, about; and the
-share of the numbers with which a cut is worth an attempt."""
 LIKE = 0.5
 """If kept frames are nearer than this, in squares and relative to the latest one, the next frames start from them."""
 
 
 @dataclass(frozen=True, eq=False)
 class LearntGop:
-    """Frames by a basis learnt from them: a field, its cost, components, shape (n, r), and basis, (d, T, r)."""
+    """Frames by a basis learnt from them: a field, components, shape (n, r), and basis, (d, T, r)."""
 
     field: GopField
-    cost: float
     components: Matrix
     basis: Matrix
 
     def frames(self, places: Order) -> Iterator[Matrix]:
         """Return some of the frames as decoded, each of shape (n, d)."""
         return temporal.frames_of(self.components, 0, self.basis[:, places])
-
-    def lengths(self, places: Order) -> list[int]:
-        """Return the lengths of GOPs in which frames at `places` need fewest numbers: motion changes between them."""
-        energies, turns = np.linalg.eigh(self.components.T @ self.components)
-        shapes = np.tensordot(turns * np.sqrt(energies.clip(0.0)), self.basis[:, places], axes=(0, 2))
-        columns = self.field.width * len(places)
-        sent = SENT * columns * len(self.field.levels) / max(1, len(self.field.basis))
-        return _cut(shapes, sent, temporal.WORTH * self.field.step**2)
-
-
-def _cut(shapes: Matrix, sent: float, worth: float) -> list[int]:
-    """Return lengths of GOPs for motion of a shape (r, d, T), by the numbers of each component and its basis."""
-    frames = shapes.shape[2]
-
-    def numbers(part: Matrix) -> float:
-        rows = part.reshape(len(part), -1)
-        columns = rows.shape[1]
-        return float(np.count_nonzero(np.linalg.eigvalsh(rows @ rows.T) > worth * columns) * (columns + sent))
-
-    def cost(place: int) -> tuple[float, int]:
-        return numbers(shapes[..., :place]) + numbers(shapes[..., place:]), abs(2 * place - frames)
-
-    stride = frames // PLACES
-    best = min(range(stride, frames - stride + 1, stride), key=cost) if stride > 1 else 0
-    if not best or cost(best)[0] >= CLEARLY * numbers(shapes):
-        return [frames]
-    while stride := stride // 2:
-        best = min((best - stride, best, best + stride), key=cost)
-    return [*_cut(shapes[..., :best], sent, worth), *_cut(shapes[..., best:], sent, worth)]
 
 
 class GopEncoder:
@@ -137,26 +102,22 @@ class GopEncoder:
         self._kept = [*self.latest[::-1], *self._kept][: self._setting.reach(self._number)]
         return GopField(width, self.step, columns, np.empty(0, np.int32), b"", payload, back)
 
-    def encode_learnt(self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress) -> LearntGop:
-        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them."""
+    def encode_learnt(
+        self, frames: Matrix, shapes: Matrix, weights: Matrix, method: GopMethod, progress: Progress
+    ) -> LearntGop:
+        """Encode frames, shape (T, n, d), by a basis learnt from their shapes; errors count by `weights`."""
         weights = np.tile(weights, self._width)
-        motion = temporal.trajectories(frames)
-        motion *= weights
-        body, columns = self._basis(motion, weights)
+        body, columns = self._basis(shapes.reshape(len(shapes), -1) * weights, weights)
         progress(1, 2)
         basis = columns * weights[:, None]
-        wanted = motion @ (basis @ np.linalg.pinv(basis.T @ basis, hermitian=True))
-        energy = np.vdot(motion, motion)
-        del motion  # as large as the frames
+        fit = basis @ np.linalg.pinv(basis.T @ basis, hermitian=True)
+        wanted = temporal.trajectories(frames) @ (fit * weights[:, None])
         levels, coefficients = self._track.code(method, len(frames), self.step, 0, wanted)
         field = coefficients.reshape(wanted.shape)  # which may have no columns
         progress(2, 2)
         self._depth = self._follow(method)
-        coded = replace(body, levels=levels)
-        left = energy - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
-        error = float(left + _energy(wanted - field, basis)) / self.step**2
-        cost = error + WEIGHT * 8.0 * (coded.size + OVERHEAD)
-        return LearntGop(coded, cost, field, columns.reshape(self._width, len(frames), body.components))
+        bases = columns.reshape(self._width, len(frames), body.components)
+        return LearntGop(replace(body, levels=levels), field, bases)
 
     def _nearest(self, frames: Matrix) -> int:
         """How far before them the kept frames are that they are so like that it is better to start from these."""
@@ -170,7 +131,7 @@ class GopEncoder:
         return backs[best] if off[best] < LIKE * latest else 0
 
     def _basis(self, motion: Matrix, weights: Matrix) -> tuple[GopField, Matrix]:
-        """A field without the levels of parts, and its temporal basis, of weighted trajectories, shapes (n, dT)."""
+        """A field without the levels of parts, and its temporal basis, of weighted motion, shape (k, dT)."""
         width = self._width
         learnt, exponents = temporal.learn_basis(motion, self.step, MAX_EXPONENT)
         spectrum = temporal.spectrum_of(learnt / weights[:, None], exponents, width)
@@ -180,7 +141,3 @@ class GopEncoder:
 
 def _apart(first: Matrix, second: Matrix) -> float:
     return float(np.square(first - second).sum())
-
-
-def _energy(field: Matrix, basis: Matrix) -> float:
-    return float(np.vdot(field, field @ (basis.T @ basis)))

@@ -15,6 +15,7 @@ from bsm.codec.sequence.frames import Group, distinct_frames, same_frames
 from bsm.codec.sequence.gop import GopEncoder, LearntGop
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.step_search import StepSearch
+from bsm.codec.sequence.temporal import lengths_of
 from bsm.codec.sequence.tracks import Setting, make_setting
 from bsm.codec.signal.transform import LARGEST_LEVEL, smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
@@ -120,10 +121,6 @@ class EncodedGops:
     def size(self) -> int:
         return sum(len(block.packet.data) for block in self.first_frame.blocks) + sum(body.size for body in self.bodies)
 
-    @property
-    def cost(self) -> float:
-        return sum(gop.cost for gop in self.learnt)
-
     def decoded_frames(self) -> Iterator[Matrix]:
         """Yield each decoded frame, shape (n, 3), in BSM units; they are not kept, because they are large."""
         if self.encoder.latest is not None:
@@ -221,36 +218,28 @@ def _encoded(
         field = encoder.encode_next(frames, progress, key=key)
         return replace(before, bodies=(GopBody(method, len(frames), (field,)),))
     same = same_frames(frames, list(group.moving.values()), encoder.step)
-    gops = _in_parts(before, frames, weights, same, lengths or (len(frames),), progress)
-    if not lengths and len(gops.bodies) == 1:
-        lengths = gops.learnt[0].lengths(gops.bodies[0].places)
-        cut = gops if len(lengths) == 1 else _in_parts(before, frames, weights, same, lengths, silent)
-        gops = min(gops, cut, key=lambda found: found.cost)
-    return gops
+    lengths = lengths or lengths_of(group.shapes, frames.shape[1], encoder.step)
+    for begin, length in zip(np.cumsum([0, *lengths]), lengths):
+        before = _with_basis(before, group, slice(begin, begin + length), weights, same, progress)
+    return before
 
 
-def _in_parts(
-    before: EncodedGops, frames: Positions, weights: Matrix, same: Order, lengths: Sequence[int], progress: Progress
+def _with_basis(
+    before: EncodedGops, group: Group, part: slice, weights: Matrix, same: Order, progress: Progress
 ) -> EncodedGops:
-    """Append frames to GOPs, as GOPs with a basis of these lengths, or half of them where decoders lack the memory."""
-    gops, begin = before, 0
-    for length in lengths:
-        part, half = slice(begin, begin + length), length // 2
-        found = _whole(gops, frames[part], weights[part], same[part], progress)
-        if half and not before.first_frame.has_room(found.bodies[-1]):
-            halves = half, length - half
-            found = _in_parts(gops, frames[part], weights[part], same[part], halves, silent)
-        gops, begin = found, begin + length
-    return gops
-
-
-def _whole(before: EncodedGops, frames: Positions, weights: Matrix, same: Order, progress: Progress) -> EncodedGops:
-    """Append frames as one GOP with a basis, repeated frames once."""
-    kept, places = distinct_frames(same)
+    """Append some of the frames as a GOP with a basis, or as two where decoders lack the memory; repeated ones once."""
+    kept, places = distinct_frames(same[part])
+    frames, shapes = group.positions[part], group.shapes[..., part]
     encoder = before.encoder.copy()
     method = encoder.method_with_basis(TOGETHER)
     repeats = len(kept) < len(frames)
-    weights = np.sqrt(np.bincount(places, weights**2))
-    learnt = encoder.encode_learnt(frames[kept] if repeats else frames, weights, method, progress)
-    body = GopBody(method, len(frames), (learnt.field,), places if repeats else None)
+    if repeats:
+        frames, shapes = frames[kept], shapes[..., kept]
+    learnt = encoder.encode_learnt(frames, shapes, np.sqrt(np.bincount(places, weights[part] ** 2)), method, progress)
+    body = GopBody(method, len(places), (learnt.field,), places if repeats else None)
+    if len(places) > 1 and not before.first_frame.has_room(body):
+        middle = part.start + len(places) // 2
+        for half in slice(part.start, middle), slice(middle, part.stop):
+            before = _with_basis(before, group, half, weights, same, silent)
+        return before
     return EncodedGops(before.first_frame, encoder, (*before.bodies, body), (*before.learnt, learnt))

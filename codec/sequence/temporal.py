@@ -23,9 +23,45 @@ cost 0.3 % more, 0.8 costs 1 %."""
 PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
+PLACES, SENT, CLEARLY = 8, 0.05, 0.95
+"""Places where a cut is looked for at first; bytes of one more component, in a vertex, over those of a number of the
+basis; and the share of the numbers with which a cut is worth it."""
 LEAST = 1e-9  # of a column's length on the diagonal, at least: below 0 it would be another reflection
 BATCH = _kernels.BATCH  # frames that are reconstructed at a time
 FINEST_EXPONENT = OCTAVE * 23 - 1  # with a finer step the levels of a column of length one could not be coded
+
+
+def shapes_of(frames: Matrix) -> Matrix:
+    """Frames, shape (T, n, d), by at most dT rows whose products over time are the same, shape (k, d, T)."""
+    motion = trajectories(frames)
+    if len(motion) > motion.shape[1]:
+        _, energies, turns = np.linalg.svd(motion.T @ motion, hermitian=True)
+        motion = np.sqrt(energies)[:, None] * turns
+    return motion.reshape(len(motion), frames.shape[2], len(frames))
+
+
+def lengths_of(shapes: Matrix, vertices: int, step: float) -> list[int]:
+    """Lengths of GOPs in which frames, shape (k, d, T), need fewest numbers: motion changes between them."""
+    frames = shapes.shape[2]
+
+    def numbers(part: Matrix) -> float:
+        rows = part.reshape(len(part), -1)
+        columns = rows.shape[1]
+        products = rows.T @ rows if len(rows) > columns else rows @ rows.T
+        worth = WORTH * columns * step**2
+        return float(np.count_nonzero(np.linalg.eigvalsh(products) > worth) * (columns + SENT * vertices))
+
+    def cost(place: int) -> tuple[float, int]:
+        return numbers(shapes[..., :place]) + numbers(shapes[..., place:]), abs(2 * place - frames)
+
+    stride = frames // PLACES
+    best = min(range(stride, frames - stride + 1, stride), key=cost) if stride > 1 else 0
+    if not best or cost(best)[0] >= CLEARLY * numbers(shapes):
+        return [frames]
+    while stride := stride // 2:
+        best = min((best - stride, best, best + stride), key=cost)
+    parts = shapes[..., :best], shapes[..., best:]
+    return [length for part in parts for length in lengths_of(part, vertices, step)]
 
 
 def learn_basis(motion: Matrix, step: float, limit: int) -> tuple[Matrix, npt.NDArray[np.int32]]:

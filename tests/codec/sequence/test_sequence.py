@@ -10,7 +10,7 @@ import bsm
 from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.sequence.gop import LearntGop
+from bsm.codec.sequence import run_encoding
 from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
@@ -283,7 +283,7 @@ def test_gops_begin_where_motion_changes(changes, monkeypatch):
     data, wanted = encoded(positions, faces, gop=None, step=0.005)
     np.testing.assert_allclose(bsm.decode_sequence(data)[0], wanted, atol=0.05)
     assert [gop.index for gop, _, _ in packets_of(data, Gop)] == [0, *changes]
-    monkeypatch.setattr(LearntGop, "lengths", lambda *_: [96])
+    monkeypatch.setattr(run_encoding, "lengths_of", lambda *_: [96])
     whole = len(encoded(positions, faces, gop=None, step=0.005)[0])
     assert len(data) < 0.95 * whole if changes else len(data) == whole
     for longest in (48, 24):  # motion that lasts takes more in shorter groups

@@ -12,7 +12,7 @@ import numpy as np
 
 import bsm
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
-from bsm.codec.sequence import gop, temporal
+from bsm.codec.sequence import run_encoding, temporal
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import compare_sequences
@@ -71,7 +71,7 @@ def measured(moving: Moving, length: int, power: int) -> tuple[float, ...]:
     frames, faces = moving.frames(MOST)
     encoder = SequenceEncoder(faces, SequenceOptions(threads=1, gop=length, step=STEP), len(frames))
     followed, begin = Followed(power), time.thread_time()
-    uncut = gop.LearntGop, "lengths", lambda self, places: [len(places)]
+    uncut = run_encoding, "lengths_of", lambda shapes, *_: [shapes.shape[2]]
     with Tool({}, [(np.linalg, "eigh", followed), uncut]).left_out():
         data = b"".join(encoder.chunks(frames))
     seconds = time.thread_time() - begin
