@@ -1,13 +1,14 @@
 #!/usr/bin/env node
-/** Reads a BSM stream and writes OBJ: npx bsm-decoder mesh.bsm > mesh.obj; or a sequence, as a folder of OBJ, as PC2, MDD or NPZ: npx bsm-decoder horse.bsm horse.npz */
+/** Reads a BSM stream and writes OBJ or GLB: npx bsm-decoder mesh.bsm > mesh.obj; or a sequence, as a folder of OBJ, as PC2, MDD, NPZ or GLB: npx bsm-decoder horse.bsm horse.glb */
 import { closeSync, existsSync, mkdirSync, openSync, readFileSync, writeSync } from "node:fs";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import zlib from "node:zlib";
 import { Decoder, END_OF_STREAM, loadKernels, NEED_DATA } from "bsm-decoder";
+import { glbOf } from "./glb.js";
 
 const [path, target = "", ...more] = process.argv.slice(2);
 if (!path || more.length > 0) {
-    console.error("usage: bsm-decoder MESH.bsm > MESH.obj\n       bsm-decoder IN.bsm OUT.obj|.pc2|.mdd|.npz, or OUT, a folder of OBJ files for a sequence");
+    console.error("usage: bsm-decoder MESH.bsm > MESH.obj\n       bsm-decoder IN.bsm OUT.obj|.glb|.pc2|.mdd|.npz, or OUT, a folder of OBJ files for a sequence");
     process.exit(2);
 }
 
@@ -89,28 +90,36 @@ function npzOf(arrays) {
 }
 
 try {
-    const kind = /\.(obj|pc2|mdd|npz)$/i.exec(target)?.[1].toLowerCase();
-    const [frames, attributes] = [[], new Set()];
-    let [faces, positions, header, rate, runs] = [undefined, undefined, undefined, 24, 0];
+    const kind = /\.(obj|glb|pc2|mdd|npz)$/i.exec(target)?.[1].toLowerCase();
+    const [frames, colors, attributes, metadata] = [[], [], [], new Map()];
+    let [faces, positions, header, runs] = [undefined, undefined, undefined, 0];
     for (const event of eventsOf(await loadKernels(), new Uint8Array(readFileSync(path)))) {
         if (event.type === "header") ({ header } = event);
-        if (event.type === "metadata" && event.entries.get("frame_rate") > 0) rate = event.entries.get("frame_rate");
+        if (event.type === "metadata") for (const [name, value] of event.entries) metadata.set(name, value);
         if (event.type === "connectivity") [faces, runs] = [event.faces, runs + 1];
-        if (event.type === "attribute") attributes.add(event.name);
+        if (event.type === "attribute" && runs < 2) attributes.push(event);
         if (event.type === "end") positions = event.positions;
         if (event.type !== "frame") continue;
-        if (!target || kind === "obj") throw new Error(`this is a sequence${header.frames ? ` of ${header.frames} frames` : ""}: name a folder, or a .npz, .pc2 or .mdd file, behind it`);
-        if (kind) frames.push(event.positions);
-        else {
+        if (!target || kind === "obj") throw new Error(`this is a sequence${header.frames ? ` of ${header.frames} frames` : ""}: name a folder, or a .glb, .npz, .pc2 or .mdd file, behind it`);
+        if (kind) {
+            frames.push(event.positions);
+            colors.push(event.attributes.find(({ semantic }) => semantic === "color"));
+        } else {
             mkdirSync(target, { recursive: true });
             write(join(target, `${String(event.index).padStart(4, "0")}.obj`), objOf(event.positions, faces));
         }
     }
-    if (header.gopFrames === 0) {
-        if (target && kind !== "obj") throw new Error(`this is one mesh: name a .obj file, not ${target}`);
-        write(target, objOf(positions, faces));
-    } else if (kind) {
-        if (runs > 1) throw new Error("the faces of this sequence change: name a folder for its frames");
+    const isMoving = header.gopFrames > 0;
+    const rate = metadata.get("frame_rate") > 0 ? metadata.get("frame_rate") : 24;
+    if (isMoving && kind && runs > 1) throw new Error("the faces of this sequence change: name a folder for its frames");
+    if (!isMoving && target && kind !== "obj" && kind !== "glb") throw new Error(`this is one mesh: name a .obj or .glb file, not ${target}`);
+    let left = new Set(attributes.map(({ name }) => name));
+    if (kind === "glb") {
+        const made = glbOf({ faces, attributes, metadata, frames: isMoving ? frames : [positions], colors, rate, isMoving }, basename(target).slice(0, -4));
+        write(target, made.glb);
+        left = new Set(made.left);
+    } else if (!isMoving) write(target, objOf(positions, faces));
+    else if (kind) {
         const count = frames[0].length / 3;
         const words = Buffer.from(JSON.stringify({ frame_rate: rate }));
         if (kind === "npz") write(target, npzOf({ positions: npyOf("<f8", [frames.length, count, 3], frames), faces: npyOf("<i4", [faces.length / 3, 3], [faces]), metadata: npyOf("|u1", [words.length], [words]) }));
@@ -120,7 +129,7 @@ try {
             write(target, cacheOf(kind, frames, rate));
         }
     }
-    if (attributes.size > 0) console.error(`bsm-decoder: ${path}: left out: ${[...attributes].join(", ")}; bsm decode writes them`);
+    if (left.size > 0) console.error(`bsm-decoder: ${path}: left out: ${[...left].join(", ")}; bsm decode writes them`);
 } catch (error) {
     if (error.code === "EPIPE") process.exit(0); // nobody reads on
     console.error(`bsm-decoder: ${path}: ${error.message}`);

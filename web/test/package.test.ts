@@ -7,6 +7,9 @@ import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { pathToFileURL } from "node:url";
 import { build } from "esbuild";
+import { NodeIO } from "@gltf-transform/core";
+// @ts-expect-error the package has no types
+import { validateBytes } from "gltf-validator";
 import { readNpz } from "./npz";
 import { kernels, eventsOf, meshOfEvents, VECTORS, WEB } from "./shared";
 
@@ -105,7 +108,7 @@ describe("the package", () => {
     test("has the version of the Python package, and nothing that is not needed", () => {
         const [, version] = /__version__ = "(.*)"/.exec(readFileSync(join(WEB, "../src/bsm/__init__.py"), "utf8")) ?? [];
         assert.equal(own.version, version);
-        assert.ok(files.every((path) => /^(built\/[\w-]+\.(js|wasm)|built\/LICENSES\.txt|types\/\w+\.d\.ts|package\.json|(mesh|obj)\.js|README\.md|LICENSE)$/.test(path)), files.join(" "));
+        assert.ok(files.every((path) => /^(built\/[\w-]+\.(js|wasm)|built\/LICENSES\.txt|types\/\w+\.d\.ts|package\.json|(glb|mesh|obj)\.js|README\.md|LICENSE)$/.test(path)), files.join(" "));
     });
 
     for (const resolution of [["esnext", "bundler"], ["nodenext", "nodenext"]]) {
@@ -145,6 +148,28 @@ describe("the package", () => {
         const mdd = readFileSync(join(folder, "frames.mdd"));
         const frames = mdd.readInt32BE(0);
         assert.deepEqual([frames, frames * mdd.readInt32BE(4), mdd.readFloatBE(8 + 4 * frames)], [objs.length, count, Math.fround(positions[0])]);
+    });
+
+    test("is a command that writes GLB: frames are morph targets, and images are there", async () => {
+        for (const name of ["good-sequence-moving", "good-attribute-textured"]) {
+            const [source, target] = [join(VECTORS, `${name}.bsm`), join(folder, `${name}.glb`)];
+            run(process.execPath, join(folder, "node_modules", own.name, "obj.js"), source, target);
+            const glb = new Uint8Array(readFileSync(target));
+            assert.equal((await validateBytes(glb)).issues.numErrors, 0);
+            const document = await new NodeIO().readBinary(glb);
+            const { positions, faces } = meshOfEvents(eventsOf(kernels, new Uint8Array(readFileSync(source)), 1 << 20));
+            const root = document.getRoot();
+            const [primitive] = root.listMeshes()[0].listPrimitives();
+            const shown = [undefined, ...primitive.listTargets()];
+            assert.deepEqual([root.listAnimations().length, root.listTextures().length], shown.length > 1 ? [1, 0] : [0, 1]);
+            for (const [frame, target] of shown.entries()) {
+                const [base, added] = [primitive, target].map((each) => each?.getAttribute("POSITION"));
+                const seen = [...primitive.getIndices()!.getArray()!].map((vertex) => base!.getElement(vertex, []).map((x: number, d) => x + (added?.getElement(vertex, [])[d] ?? 0)));
+                const meant = [...faces].map((vertex) => [...positions.subarray((frame * positions.length) / shown.length + 3 * vertex)].slice(0, 3));
+                const triangles = (corners: number[][]): string[] => corners.flatMap((_, i) => (i % 3 ? [] : corners.slice(i, i + 3).flat().map((x) => x.toFixed(4)).join(" "))).sort();
+                assert.deepEqual(triangles(seen), triangles(meant));
+            }
+        }
     });
 
     test("names setDecoderPath in a bundle of CommonJS, which does not know its address, and decodes with it", async () => {
