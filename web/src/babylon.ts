@@ -29,6 +29,7 @@ class Played implements BabylonSequence {
     shown = 0;
     readonly frames: { picture: FramePicture; shape: Shape }[] = [];
     readonly playback: Playback;
+    private before = 0;
     private readonly worn = new Map<AbstractMesh, Shape>();
 
     constructor(rate: number, private readonly decoding: StreamDecoding) {
@@ -38,7 +39,7 @@ class Played implements BabylonSequence {
     /** Show the frames on a mesh, which has the first one, as long as there is the mesh. */
     playOn(mesh: AbstractMesh): void {
         const scene = mesh.getScene();
-        const watch = scene.onBeforeRenderObservable.add(() => this.step(performance.now()));
+        const watch = scene.onBeforeRenderObservable.add(() => this.step(performance.now() / 1000));
         mesh.alwaysSelectAsActiveMesh = true; // the bounds are those of the first frame
         mesh.metadata = { ...mesh.metadata, sequence: this };
         this.worn.set(mesh, this.frames[0].shape);
@@ -56,7 +57,8 @@ class Played implements BabylonSequence {
     }
 
     private step(now: number): void {
-        this.playback.step(now, this.frames.length, this.complete);
+        this.playback.step(now - this.before, this.frames.length, this.complete);
+        this.before = now;
         this.show(this.playback.frame);
     }
 

@@ -1,25 +1,22 @@
 /** Meshes to streams: `encode` runs the encoder in a worker, `encodeHere` where it is called. */
 import type { BufferGeometry, Object3D } from "three";
 import { EncodeError, encodeWith, type Answer, type EncodeOptions, type MeshInput } from "./encoding";
-import { compiled } from "./fetched";
+import { compiled, once } from "./fetched";
+import { started } from "./threads";
 
 export { EncodeError, encodeWith, type AttributeInput, type EncodeOptions, type MeshInput, type Quality } from "./encoding";
 
 /** A `BufferGeometry` or an `Object3D` of three.js. */
 export type Drawn = { readonly isBufferGeometry: true } | { readonly isObject3D: true };
 
-const loaded = new Map<string, Promise<WebAssembly.Module>>();
+const load = once((url: string) => compiled(new URL(url)));
 
 /** The compiled encoder of meshes, or of sequences. */
 export function loadEncoder(wasm?: EncodeOptions["wasm"], moves = false): Promise<WebAssembly.Module> {
     if (wasm instanceof WebAssembly.Module) return Promise.resolve(wasm);
     const given = wasm ?? (moves ? new URL("./encode-moving.wasm", import.meta.url) : new URL("./encode.wasm", import.meta.url));
     if (typeof given !== "string" && !(given instanceof URL)) return WebAssembly.compile(given);
-    const url = new URL(given, globalThis.document?.baseURI ?? globalThis.location?.href);
-    const module = loaded.get(url.href) ?? compiled(url);
-    loaded.set(url.href, module);
-    module.catch(() => loaded.delete(url.href));
-    return module;
+    return load(new URL(given, globalThis.document?.baseURI ?? globalThis.location?.href).href);
 }
 
 /** A mesh as it is given, or as three.js draws it, which is there then. */
@@ -33,15 +30,6 @@ export async function encodeHere(input: MeshInput | Drawn, options: EncodeOption
     return encodeWith(await loadEncoder(options.wasm, Boolean(mesh.frames)), mesh, options);
 }
 
-/** A worker; undefined where there can be none. */
-function started(): Worker | undefined {
-    try {
-        return new Worker(new URL("./encode-worker.js", import.meta.url), { type: "module" });
-    } catch {
-        return undefined;
-    }
-}
-
 /**
  * Encode in a worker: the page goes on meanwhile. Where there are no workers, in this thread. Aborting ends the worker at once.
  *
@@ -52,7 +40,7 @@ export async function encode(input: MeshInput | Drawn, options: EncodeOptions = 
     signal?.throwIfAborted();
     const mesh = await wholeOf(input, options);
     const module = await loadEncoder(wasm, Boolean(mesh.frames));
-    const worker = started();
+    const worker = started(() => new Worker(new URL("./encode-worker.js", import.meta.url), { type: "module" }));
     if (!worker) return encodeWith(module, mesh, options);
     try {
         const bytes = await new Promise<Uint8Array<ArrayBuffer> | undefined>((resolve, reject) => {

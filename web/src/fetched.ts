@@ -23,3 +23,14 @@ export async function compiled(url: URL): Promise<WebAssembly.Module> {
         throw new Error(`${url}: ${isPage(new Uint8Array(bytes)) ? PAGE : error.message}`);
     });
 }
+
+/** A promise for each key, asked for once; a failed one is asked for again. */
+export function once<Key, Value>(load: (key: Key) => Promise<Value>): (key: Key) => Promise<Value> {
+    const loading = new Map<Key, Promise<Value>>();
+    return (key) => {
+        const found = loading.get(key) ?? load(key);
+        loading.set(key, found);
+        found.catch(() => loading.delete(key));
+        return found;
+    };
+}

@@ -11,7 +11,6 @@ export class Playback {
     playing: boolean;
     loop = true;
     private at = EARLY;
-    private before = 0;
     /** Whether it waits for frames. */
     waiting = true;
 
@@ -33,13 +32,11 @@ export class Playback {
         this.at = frame + EARLY;
     }
 
-    /** Go on to the time `now`, in milliseconds; `there` frames have come, and if `all`, no more will. */
-    step(now: number, there: number, all: boolean): void {
-        const passed = (Math.max(0, now - this.before) / 1000) * this.rate;
-        this.before = now;
+    /** Go on by some seconds; `there` frames have come, and if `all`, no more will. */
+    step(seconds: number, there: number, all: boolean): void {
         if (there === 0) return;
         if (this.waiting) this.waiting = !all && there - this.at < RESERVE * this.rate;
-        else if (this.playing) this.at += passed;
+        else if (this.playing) this.at += Math.max(0, seconds) * this.rate || 0; // a speed that is no number stops nothing for good
         if (this.at < there) return;
         if (all && this.playing && this.loop) {
             this.at = EARLY;

@@ -275,9 +275,18 @@ class PooledStream implements StreamDecoding {
     }
 
     hear(report: Report): void {
-        const { listener } = this;
         if (this.closed) return;
         this.begun = true;
+        try {
+            this.pass(report);
+        } catch (error) {
+            this.close();
+            this.listener.onError(error as Error); // it is the listener's
+        }
+    }
+
+    private pass(report: Report): void {
+        const { listener } = this;
         if ("picture" in report) listener.onPicture?.(report.picture);
         else if ("event" in report) listener.onEvent?.(report.event);
         else if ("taken" in report) listener.onTaken?.(report.taken);

@@ -20,8 +20,6 @@ export interface SequenceEvents {
     dispose: object;
 }
 
-const SECOND = 1000;
-
 /** A sequence that plays: `update` is to be called for every picture, as that of an AnimationMixer. */
 export class BSMSequence extends EventDispatcher<SequenceEvents> {
     /** Whether all frames are there. */
@@ -29,7 +27,6 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
     /** How many times faster than it was encoded to be; below 0 it holds still. */
     speed = 1;
     private readonly playback: Playback;
-    private now = 0;
     private wasWaiting = false;
 
     constructor(readonly geometry: BSMGeometry, playing = true) {
@@ -92,8 +89,7 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
     update(seconds: number): void {
         const { playback, geometry } = this;
         const [before, wasPlaying] = [playback.frame, playback.playing];
-        this.now += seconds * this.speed * SECOND || 0; // a speed that is no number stops nothing for good
-        playback.step(this.now, geometry.frames.length, this.complete);
+        playback.step(seconds * this.speed, geometry.frames.length, this.complete);
         if (playback.waiting && !this.wasWaiting) this.dispatchEvent({ type: "waiting" });
         this.wasWaiting = playback.waiting;
         if (playback.frame < before && playback.playing) this.dispatchEvent({ type: "loop" });

@@ -1,6 +1,7 @@
 /** Where threads and kernels come from: the files beside this one, or those of a folder that is named. */
 import type { StreamWorker, Say, Start } from "./worker";
-import { compiled } from "./fetched";
+import { compiled, once } from "./fetched";
+import { started } from "./threads";
 import type { Build } from "./peek";
 
 export interface Source {
@@ -32,26 +33,6 @@ function beside(address: () => URL): URL {
     } catch {
         throw new Error("this bundle does not know where the decoder's files are: copy those of bsm-decoder/built, and name their folder with setDecoderPath");
     }
-}
-
-function started(start: () => Worker): Worker | undefined {
-    if (typeof Worker === "undefined") return undefined;
-    try {
-        return start();
-    } catch {
-        return undefined; // the page's policy forbids it
-    }
-}
-
-/** A promise for each build, asked for once; a failed one is asked for again. */
-export function once(load: (build: Build) => Promise<WebAssembly.Module>): (build: Build) => Promise<WebAssembly.Module> {
-    const loading = new Map<Build, Promise<WebAssembly.Module>>();
-    return (build) => {
-        const found = loading.get(build) ?? load(build);
-        loading.set(build, found);
-        found.catch(() => loading.delete(build));
-        return found;
-    };
 }
 
 const local: Source["local"] = (build) => (build === "quick" ? import("./quick") : import("./index"));

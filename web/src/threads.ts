@@ -7,3 +7,12 @@ export const WORTHWHILE = 8192;
 export function processors(): number {
     return globalThis.navigator?.hardwareConcurrency ?? 1;
 }
+
+/** A thread; undefined where there are none, or the page's policy forbids it. */
+export function started(start: () => Worker): Worker | undefined {
+    try {
+        return start();
+    } catch {
+        return undefined;
+    }
+}

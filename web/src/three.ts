@@ -2,7 +2,7 @@
 import { BufferGeometry, Group, Loader, Mesh, type LoadingManager, type MeshStandardMaterial } from "three";
 import { BsmError, errorLike } from "./errors";
 import { BSMGeometry, type Progress } from "./geometry";
-import type { Limits } from "./index";
+import type { Limits, Picture } from "./index";
 import { imagesOf, materialsOf, turnOf } from "./materials";
 import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
@@ -132,22 +132,8 @@ export class BSMLoader extends Loader<BSMGeometry> {
 
     private open(keep: (geometry: BSMGeometry) => void, fail: (error: unknown) => void, progress?: Progress): StreamDecoding {
         const geometry = new BSMGeometry(progress);
-        const stream = this.pool.open(
-            {
-                onPicture: (picture) => {
-                    try {
-                        geometry.accept(picture);
-                    } catch (error) {
-                        stream.close();
-                        fail(error);
-                    }
-                },
-                onEnd: () => keep(geometry),
-                onError: fail,
-            },
-            { drawing: progress?.onBlock || progress?.onConnectivity ? "growing" : "whole", limits: this.limits },
-        );
-        return stream;
+        const listener = { onPicture: (picture: Picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail };
+        return this.pool.open(listener, { drawing: progress?.onBlock || progress?.onConnectivity ? "growing" : "whole", limits: this.limits });
     }
 
     private async fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {

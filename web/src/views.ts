@@ -47,13 +47,8 @@ export class CodedViews<T> {
             let shape: Shape | undefined;
             const onError = (error: unknown): void => (fail(error), end(error));
             const onPicture = (picture: Picture): void => {
-                try {
-                    if (picture.type === "whole") this.charge(sizeOf(picture.shape));
-                    if (picture.type === "frame") this.charge(sizeOf({ ...picture, index: new Uint8Array() }));
-                } catch (error) {
-                    return onError(error);
-                }
-                if (picture.type === "whole") ({ shape } = picture);
+                if (picture.type === "whole") this.charge(sizeOf((shape = picture.shape)));
+                if (picture.type === "frame") this.charge(sizeOf({ ...picture, index: new Uint8Array() }));
                 take(picture, decoding);
                 if (picture.type === "frame" && shape) resolve(shape);
             };

@@ -1,6 +1,9 @@
 /** Threads as parts of the script, and kernels where the page says: beside it, for who asks, or in it. */
 import { bsm, openDesk } from "../index";
-import { once, type Source } from "../source";
+import { once } from "../fetched";
+import type { Build } from "../peek";
+import type { Source } from "../source";
+import { started } from "../threads";
 
 /** Bytes, or their address, or in base64. */
 export interface Inlined {
@@ -28,18 +31,14 @@ export async function bytesOf({ url, data, bytes }: Inlined): Promise<Uint8Array
     return new Uint8Array(await (await fetched(url!)).arrayBuffer());
 }
 
-const load = once(async (build) => WebAssembly.compile(await bytesOf((build === "small" && KERNELS.small) || KERNELS.kernels)));
+const load = once(async (build: Build) => WebAssembly.compile(await bytesOf((build === "small" && KERNELS.small) || KERNELS.kernels)));
 
 export const inlined: Source = {
     worker() {
         const url = URL.createObjectURL(new Blob([`(${bsm})().serve()`], { type: "text/javascript" }));
-        try {
-            return new Worker(url, { name: "BSM" });
-        } catch {
-            return undefined; // the page's policy forbids it
-        } finally {
-            URL.revokeObjectURL(url);
-        }
+        const worker = started(() => new Worker(url, { name: "BSM" }));
+        URL.revokeObjectURL(url);
+        return worker;
     },
     kernels: (build) => load(build === "small" && KERNELS.small ? build : "whole"),
     local: () => Promise.resolve({ openDesk }),
