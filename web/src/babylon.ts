@@ -2,7 +2,7 @@
 import type { AbstractMesh } from "@babylonjs/core/Meshes/abstractMesh.js";
 import type { GLTFLoader, IBufferView, IGLTFLoaderExtension, IMesh, IMeshPrimitive, INode } from "@babylonjs/loaders/glTF/2.0/index.js";
 import { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
-import type { FramePicture, Picture, Shape } from "./index";
+import type { Picture, PictureOf, Shape } from "./index";
 import { Playback } from "./playback";
 import { Pool, type StreamDecoding } from "./pool";
 import { CodedViews, EXTENSION, placeOf, type Coded } from "./views";
@@ -17,7 +17,7 @@ export interface BabylonSequence {
     complete: boolean;
     /** The frame that is shown. */
     shown: number;
-    readonly frames: { picture: FramePicture; shape: Shape }[];
+    readonly frames: { picture: PictureOf<"frame">; shape: Shape }[];
     /** What it says of time: `playing`, `loop`, `frame`. */
     readonly playback: Playback;
     /** Show a frame, or the last of those that are there. */
@@ -27,7 +27,7 @@ export interface BabylonSequence {
 class Played implements BabylonSequence {
     complete = false;
     shown = 0;
-    readonly frames: { picture: FramePicture; shape: Shape }[] = [];
+    readonly frames: { picture: PictureOf<"frame">; shape: Shape }[] = [];
     readonly playback: Playback;
     private before = 0;
     private readonly worn = new Map<AbstractMesh, Shape>();

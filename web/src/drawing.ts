@@ -1,6 +1,6 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
 import type { Attribute } from "./attributes";
-import type { Changes, ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./events";
+import type { Event, Loose, EventOf } from "./events";
 import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { inverse } from "./numbers";
@@ -22,53 +22,24 @@ export interface Shape {
     high: number[];
 }
 
-/** A mesh that grows has begun: how many vertices and corners it has. */
-export interface BegunPicture {
-    type: "begun";
-    vertices: number;
-    corners: number;
-    loose: ConnectivityEvent["loose"];
-}
+/** What can be drawn now; normals of frames are multiplied by 32767, and their attributes are those that change. */
+export type Picture =
+    | EventOf<"header" | "metadata" | "loss" | "end">
+    /** A mesh that grows has begun. */
+    | { type: "begun"; vertices: number; corners: number; loose: Loose }
+    /**
+     * Vertices that have moved or whose normals have, shape (k,), with what they are now, and the corners of faces that can
+     * be drawn from now on. `origin`: the block that each came with, -1 if it is not there.
+     */
+    | { type: "grown"; vertices: Int32Array; positions: Float32Array; normals: Float32Array; origin: Int32Array; index: Uint32Array; blocks: number }
+    /** The whole mesh, or the first frame of a sequence; of a later run, that which the frames behind it have. */
+    | { type: "whole"; shape: Shape; run: number }
+    | { type: "frame"; index: number; positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] }
+    /** It is there, and drawn once the mesh is whole. */
+    | { type: "attribute"; name: string; semantic: Attribute["semantic"]; domain: Attribute["domain"] };
 
-/**
- * Vertices that have moved or whose normals have, shape (k,), with what they are now, and the corners of faces that can be
- * drawn from now on. `origin`: the block that each came with, -1 if it is not there.
- */
-export interface GrownPicture {
-    type: "grown";
-    vertices: Int32Array;
-    positions: Float32Array;
-    normals: Float32Array;
-    origin: Int32Array;
-    index: Uint32Array;
-    blocks: number;
-}
-
-/** The whole mesh, or the first frame of a sequence; of a later run, that which the frames behind it have. */
-export interface WholePicture {
-    type: "whole";
-    shape: Shape;
-    run: number;
-}
-
-/** A frame of a sequence: positions of the drawn vertices, their normals times 32767, and what changes from frame to frame. */
-export interface FramePicture {
-    type: "frame";
-    index: number;
-    positions: Float32Array;
-    normals: Int16Array;
-    attributes: DrawnAttribute[];
-}
-
-export type Picture = HeaderEvent | MetadataEvent | BegunPicture | GrownPicture | WholePicture | FramePicture | LossEvent | AttributePicture | EndEvent;
-
-/** An attribute is there, which is drawn once the mesh is whole. */
-export interface AttributePicture {
-    type: "attribute";
-    name: string;
-    semantic: Attribute["semantic"];
-    domain: Attribute["domain"];
-}
+/** A picture of a type. */
+export type PictureOf<Type> = Extract<Picture, { type: Type }>;
 
 type Show = (picture: Picture, moved?: Transferable[]) => void;
 
@@ -150,7 +121,7 @@ export class Drawing {
         );
     }
 
-    private begin({ faces, vertices: size, loose }: ConnectivityEvent): void {
+    private begin({ faces, vertices: size, loose }: EventOf<"connectivity">): void {
         this.faces = faces;
         this.origin = new Int32Array(size).fill(-1);
         this.points = new Float32Array(3 * size);
@@ -169,7 +140,7 @@ export class Drawing {
         this.touched.push(vertex);
     }
 
-    private grow(event: Changes & ({ type: "block" } | RefinementEvent)): void {
+    private grow(event: EventOf<"block" | "refinement">): void {
         const { vertices, positions } = event;
         const { points, origin, growing } = this;
         for (let row = 0; row < vertices.length; row++) {
@@ -217,7 +188,7 @@ export class Drawing {
         this.origin.fill(0);
     }
 
-    private addFrame({ index, positions: points, attributes: moved }: FrameEvent): void {
+    private addFrame({ index, positions: points, attributes: moved }: EventOf<"frame">): void {
         this.kept += 18 * (points.length / 3) + moved.reduce((sum, { values }) => sum + 4 * values.length, 0);
         checkLimit(this.limits, "keptBytes", this.kept);
         if (!this.shape) {

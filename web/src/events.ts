@@ -16,60 +16,26 @@ export interface Changes {
 /** Positions of vertices that no face uses. */
 export type Loose = Pick<Changes, "vertices" | "positions">;
 
-/** The header has arrived. */
-export interface HeaderEvent {
-    type: "header";
-    header: Header;
-}
+/** What a decoder tells. */
+export type Event =
+    | { type: "header"; header: Header }
+    /** Nothing that is decoded depends on them. */
+    | { type: "metadata"; entries: Metadata }
+    /** Three vertices of each face, in the order that the mesh had if the stream stores that; `vertices` counts them. */
+    | { type: "connectivity"; faces: Int32Array; vertices: number; loose: Loose }
+    /** A block, or a chunk of a grid, has been decoded. */
+    | ({ type: "block"; index: number } & Changes)
+    /** Levels of refinement have moved vertices. */
+    | ({ type: "refinement" } & Changes)
+    | ({ type: "attribute" } & Attribute)
+    | FrameEvent
+    /** Something could not be decoded, and a tolerant decoder goes on: a block, frames, or bytes of neither. */
+    | { type: "loss"; block?: number; frames?: { first: number; count: number }; error: Described }
+    /** The checksum is right, or a tolerant decoder has lost something: vertices without a position, and those that are less good than they were encoded. */
+    | { type: "end"; missing: Int32Array; degraded: Int32Array; positions?: Float64Array };
 
-/** Metadata have arrived; nothing that is decoded depends on them. */
-export interface MetadataEvent {
-    type: "metadata";
-    entries: Metadata;
-}
-
-/**
- * The faces have arrived, three vertices each, in the order that the mesh had if the stream stores that; how many
- * vertices there are, and where those are that no face uses.
- */
-export interface ConnectivityEvent {
-    type: "connectivity";
-    faces: Int32Array;
-    vertices: number;
-    loose: Loose;
-}
-
-/** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
-export interface BlockEvent extends Changes {
-    type: "block";
-    index: number;
-}
-
-/** Levels of refinement have moved vertices. */
-export interface RefinementEvent extends Changes {
-    type: "refinement";
-}
-
-/** Something could not be decoded, and a tolerant decoder goes on: a block, frames, or bytes of neither. */
-export interface LossEvent {
-    type: "loss";
-    block?: number;
-    frames?: { first: number; count: number };
-    error: Described;
-}
-
-/** The stream has come to its end: its checksum is right, or a tolerant decoder has lost something. */
-export interface EndEvent {
-    type: "end";
-    /** Vertices without any position. */
-    missing: Int32Array;
-    /** Vertices that are less good than they were encoded. */
-    degraded: Int32Array;
-    /** Where all vertices of a static mesh are, shape (n, 3), if that was wished for as a whole. */
-    positions?: Float64Array;
-}
-
-export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent;
+/** An event of a type. */
+export type EventOf<Type> = Extract<Event, { type: Type }>;
 
 /** What a decoder is asked for beside the mesh. */
 export interface Wishes {
@@ -79,11 +45,6 @@ export interface Wishes {
     whole?: boolean;
     /** Asked once the header is there: how many helpers share the work on chains of blocks. */
     helpers?: (header: Header) => number;
-}
-
-/** An attribute is there, whole. */
-export interface AttributeEvent extends Attribute {
-    type: "attribute";
 }
 
 /** A whole mesh, or the first frame of a sequence: positions, shape (n, 3), faces, shape (m, 3), and attributes. */

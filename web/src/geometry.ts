@@ -1,6 +1,6 @@
 /** A geometry of three.js that is made of pictures, while they come. */
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
-import type { AttributePicture, BegunPicture, DrawnAttribute, FramePicture, GrownPicture, Header, LossEvent, Metadata, Picture, Piece, Shape } from "./index";
+import type { DrawnAttribute, Header, Metadata, Picture, PictureOf, Piece, Shape } from "./index";
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
@@ -39,7 +39,7 @@ export class BSMGeometry extends BufferGeometry {
     /** Blocks, or chunks of a grid, that are there. */
     blocks = 0;
     /** Attributes that are there, and are drawn once the mesh is whole. */
-    readonly carried: AttributePicture[] = [];
+    readonly carried: PictureOf<"attribute">[] = [];
     /** Positions of the stream's vertices, shape (n, 3); only of a geometry that grows. */
     points = new Float32Array(0);
     /** The stream's vertex that each drawn one is, where seams have parted them. */
@@ -109,7 +109,7 @@ export class BSMGeometry extends BufferGeometry {
         }
     }
 
-    private begin({ vertices, corners, loose }: BegunPicture): void {
+    private begin({ vertices, corners, loose }: PictureOf<"begun">): void {
         this.refuseIfWhole();
         this.points = new Float32Array(3 * vertices);
         this.normals = new Float32Array(3 * vertices);
@@ -122,7 +122,7 @@ export class BSMGeometry extends BufferGeometry {
         this.progress.onConnectivity?.(this);
     }
 
-    private grow({ vertices, positions, normals, origin, index, blocks }: GrownPicture): void {
+    private grow({ vertices, positions, normals, origin, index, blocks }: PictureOf<"grown">): void {
         this.refuseIfWhole();
         const { points: p, normals: n } = this;
         for (let row = 0; row < vertices.length; row++) {
@@ -167,13 +167,13 @@ export class BSMGeometry extends BufferGeometry {
         this.boundingSphere = new Sphere(new Vector3(...center), radius);
     }
 
-    private keep({ index, positions, normals, attributes }: FramePicture): void {
+    private keep({ index, positions, normals, attributes }: PictureOf<"frame">): void {
         this.frames.push({ positions, normals, attributes, shape: this.coming! });
         if (index === 0) this.showFrame(0);
         this.progress.onFrame?.(index, this);
     }
 
-    private lose({ frames }: LossEvent): void {
+    private lose({ frames }: PictureOf<"loss">): void {
         const before = this.frames.at(-1);
         for (let k = 0; before && k < (frames?.count ?? 0); k++) this.frames.push(before);
     }

@@ -1,6 +1,6 @@
 /** Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else. */
 import { crc32 } from "./checksums";
-import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./events";
+import type { Mesh, EventOf } from "./events";
 import { BsmError, CorruptError, errorLike } from "./errors";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
@@ -10,7 +10,7 @@ import type { Packet } from "./packets";
 import { Reader } from "./reader";
 import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 
-export type GridEvent = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
+export type GridEvent = EventOf<"header" | "metadata" | "connectivity" | "block" | "end">;
 
 /** The functions of library/wasm/light.c, which decode what the reader gives them. */
 class Light extends Memory {

@@ -1,35 +1,16 @@
 import { LIMITS } from "./constants.json";
 import { LimitError } from "./errors";
 
-/** Upper bounds that a decoder checks before it allocates or works (specification, M 14.1). */
-export interface Limits {
-    vertices: number;
-    faces: number;
-    blocks: number;
-    blockSize: number;
-    coefficients: number;
-    frames: number;
-    gopFrames: number;
-    frameBytes: number;
-    metadataBytes: number;
-    attributes: number;
-    /** Numbers of all attributes: values times their components. */
-    attributeValues: number;
-    /** Bytes of the dictionaries of a sequence, and of one of its GOPs. */
-    sequenceBytes: number;
-    /** Bytes of the frames that a geometry keeps to show them again. */
-    keptBytes: number;
-    /** Nanoseconds of a processor core, by the estimates of the specification (M 14.3), and how many more for each vertex and byte. */
-    work: number;
-    workPerVertex: number;
-    workPerByte: number;
-    /** Bytes for the dictionary of a block while it is made (M 14.2), and for all attributes; how many more for each vertex and byte. */
-    blockMemory: number;
-    blockMemoryPerVertex: number;
-    memoryPerByte: number;
-    /** Bytes that the decoder's own memory may grow to. */
-    memory: number;
-}
+type Counts = "vertices" | "faces" | "blocks" | "blockSize" | "coefficients" | "frames" | "gopFrames" | "attributes" | "attributeValues";
+type Bytes = "frameBytes" | "metadataBytes" | "sequenceBytes" | "keptBytes" | "blockMemory" | "blockMemoryPerVertex" | "memoryPerByte" | "memory";
+type Work = "work" | "workPerVertex" | "workPerByte";
+
+/**
+ * Upper bounds that a decoder checks before it allocates or works (specification, M 14.1). Bytes are those of a section,
+ * of all metadata, of the dictionaries of a sequence and of one of its GOPs, of frames that a geometry keeps, of a block's
+ * dictionary while it is made (M 14.2), and of the whole decoder. Work is in nanoseconds of a processor core (M 14.3).
+ */
+export type Limits = Record<Counts | Bytes | Work, number>;
 
 export const DEFAULT_LIMITS: Readonly<Limits> = { ...LIMITS, keptBytes: 2 ** 30, memory: 2 ** 31 };
 

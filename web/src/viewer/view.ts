@@ -1,6 +1,6 @@
 /** A stream as it arrives, beside its original and Draco; sequences play, tiles come as they are looked at. */
 import type { BufferAttribute } from "three";
-import { errorLike, type Header, type LossEvent } from "../index";
+import { errorLike, type Header, type EventOf } from "../index";
 import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
 import type { Pool, StreamDecoding } from "../pool";
@@ -39,7 +39,7 @@ export class View {
     private content: Content = { name: "", main: 0, layers: [], facts: {} };
     private geometry = new BSMGeometry();
     private decoding?: StreamDecoding;
-    private losses: LossEvent[] = [];
+    private losses: EventOf<"loss">[] = [];
     /** Frames before the one at which a stream was entered. */
     private missed = 0;
     private over = true;
@@ -275,7 +275,7 @@ export class View {
         if (!this.closed) this.meshes.show(this.geometry, ...extentOf(header));
     }
 
-    private lose(loss: LossEvent): void {
+    private lose(loss: EventOf<"loss">): void {
         if (this.content.live && loss.frames?.first === 0) {
             this.missed = loss.frames.count;
             return;
