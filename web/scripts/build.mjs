@@ -9,7 +9,7 @@ import { compileKernels, compiler, fingerprint, KERNEL_BUILDS, WEB } from "./ker
 const VIEWER = join(WEB, "../src/bsm/viewer");
 const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
-const BUNDLED = ["three", "fzstd"];
+const BUNDLED = ["three"];
 
 const SENTENCE = /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric)Error\(|[.]nonsense\(|\brefuse\()(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=[,)])/g;
 /** Leaves out what errors say: a pool asks the decoder of everything what is wrong with a stream. */

@@ -3,12 +3,11 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import test from "node:test";
-import { chromium } from "playwright-core";
 import { Pool } from "../src/pool";
 import { BSMLoader, type BSMGeometry } from "../src/three";
 import { Lines, drawing, staged } from "./replay";
 import { serveSite } from "./server";
-import { CHROMIUM, FLAGS, mended, PATIENCE, VECTORS } from "./shared";
+import { CHROMIUM, chromiumFor, mended, PATIENCE, VECTORS } from "./shared";
 
 /** How many damaged streams; `BSM_DAMAGES=10000` makes all that are promised. */
 const DAMAGES = Number(process.env.BSM_DAMAGES ?? 240);
@@ -68,38 +67,34 @@ for (const threads of [12, 0]) {
     });
 }
 
-test(`${DAMAGES} damaged streams in a page, between good ones`, { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 3_600_000 }, async () => {
+test(`${DAMAGES} damaged streams in a page, between good ones`, { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 3_600_000 }, async (context) => {
     const site = await serveSite();
-    const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
-    try {
-        const page = await browser.newPage();
-        page.setDefaultTimeout(30 * PATIENCE);
-        site.extra.set("/damaged", Buffer.concat(Array.from({ length: DAMAGES }, (_, k) => damaged(k)).flatMap((data) => [Buffer.from(Uint32Array.of(data.length).buffer), data])));
-        site.extra.set("/script.js", `
-            import { BSMLoader } from "bsm/three";
-            const loader = new BSMLoader();
-            const bytes = new Uint8Array(await (await fetch("/damaged")).arrayBuffer());
-            const names = ${JSON.stringify(NAMES)};
-            const good = await Promise.all(names.map(async (name) => new Uint8Array(await (await fetch("/stream/good-" + name + ".bsm")).arrayBuffer())));
-            const numbers = (geometry) => [geometry.index.array.join(), geometry.attributes.position.array.join(), ...geometry.frames.map(({ positions }) => positions.join())].join(" ");
-            const right = await Promise.all(good.map(async (stream) => numbers(await loader.parseAsync(stream.slice()))));
-            const wrong = [];
-            let refused = 0;
-            for (let at = 0, k = 0; at < bytes.length; k++) {
-                const size = new DataView(bytes.buffer).getUint8(at) + 256 * bytes[at + 1];
-                await loader.parseAsync(bytes.slice(at + 4, at + 4 + size)).catch((error) => { refused++; if (!/^(Corrupt|Truncated|Format|Unsupported|Limit|Numeric)Error/.test(error.name)) wrong.push(k + " " + error); });
-                at += 4 + size;
-                const which = (k * 7) % names.length;
-                const found = await loader.parseAsync(good[which].slice()).then(numbers, String);
-                if (found !== right[which]) wrong.push(names[which] + " after " + k + ": " + found.slice(0, 200));
-            }
-            window.found = { wrong, refused };`);
-        await page.goto(site.address);
-        const { wrong, refused } = (await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found)).jsonValue()) as { wrong: string[]; refused: number };
-        assert.deepEqual(wrong, []);
-        assert.ok(refused > 0.6 * DAMAGES, `${refused} refused`);
-    } finally {
-        await browser.close();
-        site.close();
-    }
+    const browser = await chromiumFor(context);
+    context.after(() => site.close());
+    const page = await browser.newPage();
+    page.setDefaultTimeout(30 * PATIENCE);
+    site.extra.set("/damaged", Buffer.concat(Array.from({ length: DAMAGES }, (_, k) => damaged(k)).flatMap((data) => [Buffer.from(Uint32Array.of(data.length).buffer), data])));
+    site.extra.set("/script.js", `
+        import { BSMLoader } from "bsm/three";
+        const loader = new BSMLoader();
+        const bytes = new Uint8Array(await (await fetch("/damaged")).arrayBuffer());
+        const names = ${JSON.stringify(NAMES)};
+        const good = await Promise.all(names.map(async (name) => new Uint8Array(await (await fetch("/stream/good-" + name + ".bsm")).arrayBuffer())));
+        const numbers = (geometry) => [geometry.index.array.join(), geometry.attributes.position.array.join(), ...geometry.frames.map(({ positions }) => positions.join())].join(" ");
+        const right = await Promise.all(good.map(async (stream) => numbers(await loader.parseAsync(stream.slice()))));
+        const wrong = [];
+        let refused = 0;
+        for (let at = 0, k = 0; at < bytes.length; k++) {
+            const size = new DataView(bytes.buffer).getUint8(at) + 256 * bytes[at + 1];
+            await loader.parseAsync(bytes.slice(at + 4, at + 4 + size)).catch((error) => { refused++; if (!/^(Corrupt|Truncated|Format|Unsupported|Limit|Numeric)Error/.test(error.name)) wrong.push(k + " " + error); });
+            at += 4 + size;
+            const which = (k * 7) % names.length;
+            const found = await loader.parseAsync(good[which].slice()).then(numbers, String);
+            if (found !== right[which]) wrong.push(names[which] + " after " + k + ": " + found.slice(0, 200));
+        }
+        window.found = { wrong, refused };`);
+    await page.goto(site.address);
+    const { wrong, refused } = (await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found)).jsonValue()) as { wrong: string[]; refused: number };
+    assert.deepEqual(wrong, []);
+    assert.ok(refused > 0.6 * DAMAGES, `${refused} refused`);
 });

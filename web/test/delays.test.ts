@@ -4,9 +4,9 @@ import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
-import { chromium, type Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { drawing } from "./replay";
-import { CHROMIUM, FLAGS, PATIENCE, savedPage, VECTORS } from "./shared";
+import { CHROMIUM, chromiumFor, PATIENCE, savedPage, VECTORS } from "./shared";
 
 /** How many orders; `BSM_DELAYS=100` draws more. */
 const ORDERS = Number(process.env.BSM_DELAYS ?? 5);
@@ -50,9 +50,10 @@ async function pictureOf(page: Page, size: number): Promise<Buffer> {
     return page.screenshot();
 }
 
-test(`${ORDERS} orders of messages and streams end in the right picture`, { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 3_600_000 }, async () => {
+test(`${ORDERS} orders of messages and streams end in the right picture`, { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 3_600_000 }, async (context) => {
     const folder = mkdtempSync(join(tmpdir(), "bsm-delays-"));
-    const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
+    const browser = await chromiumFor(context);
+    context.after(() => rmSync(folder, { recursive: true, force: true }));
     const streams: Record<string, Uint8Array> = Object.fromEntries(GOOD.map((name) => [name, Uint8Array.from(readFileSync(join(VECTORS, `good-${name}.bsm`)))]));
     streams.damaged = Uint8Array.from(streams.keys, (byte, i) => byte ^ Number(i === 400));
     const address = savedPage(folder, streams);
@@ -64,27 +65,22 @@ test(`${ORDERS} orders of messages and streams end in the right picture`, { skip
         await page.addStyleTag({ content: BARE });
         return page;
     };
-    try {
-        const expected = new Map<string, Buffer>();
-        const plain = await open();
-        for (const name of GOOD) {
-            await plain.locator("[name=stream]").selectOption(name, { force: true });
-            expected.set(name, await pictureOf(plain, streams[name].length));
+    const expected = new Map<string, Buffer>();
+    const plain = await open();
+    for (const name of GOOD) {
+        await plain.locator("[name=stream]").selectOption(name, { force: true });
+        expected.set(name, await pictureOf(plain, streams[name].length));
+    }
+    for (let seed = 1; seed <= ORDERS; seed++) {
+        const draw = drawing(seed);
+        const page = await open(seed);
+        const names = [...Array.from({ length: 1 + draw(4) }, () => Object.keys(streams)[draw(GOOD.length + 1)]), GOOD[draw(GOOD.length)]];
+        for (const name of names) {
+            await page.waitForTimeout(draw(250));
+            await page.locator("[name=stream]").selectOption(name, { force: true });
         }
-        for (let seed = 1; seed <= ORDERS; seed++) {
-            const draw = drawing(seed);
-            const page = await open(seed);
-            const names = [...Array.from({ length: 1 + draw(4) }, () => Object.keys(streams)[draw(GOOD.length + 1)]), GOOD[draw(GOOD.length)]];
-            for (const name of names) {
-                await page.waitForTimeout(draw(250));
-                await page.locator("[name=stream]").selectOption(name, { force: true });
-            }
-            const last = names.at(-1)!;
-            assert.ok((await pictureOf(page, streams[last].length)).equals(expected.get(last)!), `order ${seed}: ${names.join(", ")}`);
-            await page.close();
-        }
-    } finally {
-        await browser.close();
-        rmSync(folder, { recursive: true, force: true });
+        const last = names.at(-1)!;
+        assert.ok((await pictureOf(page, streams[last].length)).equals(expected.get(last)!), `order ${seed}: ${names.join(", ")}`);
+        await page.close();
     }
 });

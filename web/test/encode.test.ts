@@ -5,13 +5,12 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test, { describe } from "node:test";
-import { chromium } from "playwright-core";
 import { BufferAttribute, BufferGeometry, Mesh, TorusKnotGeometry } from "three";
 import { BSMExporter, encodeHere, encodeWith, type AttributeInput } from "../src/encode";
 import { meshOf } from "../src/content";
 import { decode } from "../src/index";
 import { POLICY, serveSite } from "./server";
-import { CHROMIUM, eventsOf, kernels, FLAGS, PATIENCE, WEB } from "./shared";
+import { CHROMIUM, chromiumFor, eventsOf, kernels, PATIENCE, WEB } from "./shared";
 
 const wasm = readFileSync(join(WEB, "built/encode.wasm"));
 const module = await WebAssembly.compile(wasm);
@@ -57,8 +56,8 @@ const PAGE = `
 
 describe("encoding in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, () => {
     test("a worker writes the same bytes, reports, and can be stopped", async (context) => {
-        const [browser, site] = [await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS }), await serveSite()];
-        context.after(async () => (await browser.close(), site.close()));
+        const [browser, site] = [await chromiumFor(context), await serveSite()];
+        context.after(() => site.close());
         const mesh = meshOf(new TorusKnotGeometry(1, 0.3, 1000, 50));
         site.extra.set("/knot.json", JSON.stringify({ positions: [...mesh.positions], faces: [...mesh.faces] }));
         site.extra.set("/script.js", PAGE);

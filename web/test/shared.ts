@@ -1,9 +1,10 @@
 /** What tests share: kernels, vectors, and how a stream is decoded in pieces. */
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import type { TestContext } from "node:test";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
-import type { Page } from "playwright-core";
+import { chromium, type Browser, type Page } from "playwright-core";
 import { crc16, crc32 } from "../src/checksums";
 import { parseVarint } from "../src/varint";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
@@ -24,6 +25,13 @@ export const FLAGS = [
 
 /** Milliseconds that a test waits for a page: a slow machine that does other things as well draws by software. */
 export const PATIENCE = 120_000;
+
+/** A Chromium without a window, until a test ends. */
+export async function chromiumFor(context: TestContext, ...flags: string[]): Promise<Browser> {
+    const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: [...FLAGS, ...flags] });
+    context.after(() => browser.close());
+    return browser;
+}
 
 /** A build of less than all, as the decoder that tests of the sources take. */
 export async function lesserDecode(build: "small" | "quick" | "moving"): Promise<(data: Uint8Array) => Mesh> {

@@ -3,77 +3,69 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { describe, test } from "node:test";
-import { chromium } from "playwright-core";
 import puppeteer from "puppeteer-core";
-import { base64, CHROMIUM, drop, FIREFOX, FLAGS, PATIENCE, silhouette, tableOf } from "./shared";
+import { base64, CHROMIUM, chromiumFor, drop, FIREFOX, PATIENCE, silhouette, tableOf } from "./shared";
 
 const given = process.env.BSM_STATIC;
 
 describe("a page of files", { skip: !given && "bsm view has written none" }, () => {
     const { address, name, files, folder, pairs } = JSON.parse(given ?? "{}") as { address: string; name: string; files: string[]; folder: string; pairs: [paths: string[], row: string, percent: number][] };
 
-    test("shows its mesh in Chromium, and encodes", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, async () => {
-        const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
-        try {
-            const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
-            const complaints: string[] = [];
-            page.on("pageerror", (error) => complaints.push(error.message));
-            page.on("dialog", (dialog) => complaints.push(dialog.message()));
-            page.setDefaultTimeout(PATIENCE);
-            await page.goto(address);
-            await page.waitForSelector("body[data-state=complete]");
-            assert.equal(await page.locator("h1").textContent(), name);
-            await page.addStyleTag({ content: ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #808890 !important }" });
-            assert.ok(silhouette(await page.locator("canvas").screenshot()).share > 0.05);
-            assert.ok(await page.locator("[name=keep]").isHidden(), "there is a file of this stream");
-            const bytes = (path: string): [string, Buffer] => [basename(path), readFileSync(path)];
-            for (const path of files) {
-                await drop(page, Object.fromEntries([bytes(path)]));
-                await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2", basename(path));
-                assert.equal(await page.locator("[role=alert]").textContent(), "");
-                await page.waitForFunction(() => /Largest vertex error0\.0\d+/.test(document.querySelector("[data-part=facts]")!.textContent!));
-                assert.match(await page.locator("[data-part=claim]").innerText(), /^Close: differences up to 0\.0\d+.% of the diagonal, [\d.]+ times smaller$|^Close: differences up to [\d.]+.meters, [\d.]+ times smaller$/);
-                const saved = page.waitForEvent("download");
-                await page.locator("[name=keep]").evaluate((button: HTMLElement) => button.click());
-                await (await saved).saveAs(join(folder, `${basename(path)}.bsm`));
-            }
-            for (const [paths, row, percent] of pairs) {
-                await drop(page, Object.fromEntries(paths.map(bytes)));
-                await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2", basename(paths[1]));
-                const found = parseFloat((await tableOf(page))[row]);
-                assert.ok(Math.abs(found / percent - 1) < 0.01, `${paths}: ${row} ${found}, not ${percent}`);
-                assert.equal(await page.locator("[role=alert]").textContent(), "");
-                assert.ok(await page.locator("[name=keep]").isHidden());
-                await page.locator("canvas").press("e");
-                await page.getByText(row.includes("surface") ? "Distance from the original's surface" : "Distance from the original", { exact: true }).waitFor();
-            }
-            writeFileSync(join(folder, "corners.ply"), "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n");
-            await drop(page, Object.fromEntries([bytes(join(folder, "corners.ply"))]));
-            await page.waitForFunction(() => /corners\.ply cannot be shown.*four corners/.test(document.querySelector("[role=alert]")!.textContent!));
-            assert.deepEqual(complaints, []);
-        } finally {
-            await browser.close();
+    test("shows its mesh in Chromium, and encodes", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, async (context) => {
+        const browser = await chromiumFor(context);
+        const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
+        const complaints: string[] = [];
+        page.on("pageerror", (error) => complaints.push(error.message));
+        page.on("dialog", (dialog) => complaints.push(dialog.message()));
+        page.setDefaultTimeout(PATIENCE);
+        await page.goto(address);
+        await page.waitForSelector("body[data-state=complete]");
+        assert.equal(await page.locator("h1").textContent(), name);
+        await page.addStyleTag({ content: ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #808890 !important }" });
+        assert.ok(silhouette(await page.locator("canvas").screenshot()).share > 0.05);
+        assert.ok(await page.locator("[name=keep]").isHidden(), "there is a file of this stream");
+        const bytes = (path: string): [string, Buffer] => [basename(path), readFileSync(path)];
+        for (const path of files) {
+            await drop(page, Object.fromEntries([bytes(path)]));
+            await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2", basename(path));
+            assert.equal(await page.locator("[role=alert]").textContent(), "");
+            await page.waitForFunction(() => /Largest vertex error0\.0\d+/.test(document.querySelector("[data-part=facts]")!.textContent!));
+            assert.match(await page.locator("[data-part=claim]").innerText(), /^Close: differences up to 0\.0\d+.% of the diagonal, [\d.]+ times smaller$|^Close: differences up to [\d.]+.meters, [\d.]+ times smaller$/);
+            const saved = page.waitForEvent("download");
+            await page.locator("[name=keep]").evaluate((button: HTMLElement) => button.click());
+            await (await saved).saveAs(join(folder, `${basename(path)}.bsm`));
         }
+        for (const [paths, row, percent] of pairs) {
+            await drop(page, Object.fromEntries(paths.map(bytes)));
+            await page.waitForFunction((name) => document.querySelector("h1")!.textContent === name && document.body.dataset.layers === "2", basename(paths[1]));
+            const found = parseFloat((await tableOf(page))[row]);
+            assert.ok(Math.abs(found / percent - 1) < 0.01, `${paths}: ${row} ${found}, not ${percent}`);
+            assert.equal(await page.locator("[role=alert]").textContent(), "");
+            assert.ok(await page.locator("[name=keep]").isHidden());
+            await page.locator("canvas").press("e");
+            await page.getByText(row.includes("surface") ? "Distance from the original's surface" : "Distance from the original", { exact: true }).waitFor();
+        }
+        writeFileSync(join(folder, "corners.ply"), "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n");
+        await drop(page, Object.fromEntries([bytes(join(folder, "corners.ply"))]));
+        await page.waitForFunction(() => /corners\.ply cannot be shown.*four corners/.test(document.querySelector("[role=alert]")!.textContent!));
+        assert.deepEqual(complaints, []);
     });
 
-    test("encodes in Firefox to the same bytes", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}` }, async () => {
+    test("encodes in Firefox to the same bytes", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}` }, async (context) => {
         const browser = await puppeteer.launch({ browser: "firefox", executablePath: FIREFOX, headless: true });
-        try {
-            const page = await browser.newPage();
-            await page.goto(address);
-            for (const path of files) {
-                const stream = await page.evaluate((name, data) => new Promise<number[]>((resolve, reject) => {
-                    const worker = new Worker("encoder.js", { type: "module" });
-                    worker.onerror = ({ message }) => reject(new Error(message));
-                    worker.onmessage = ({ data }) => ("stream" in data ? resolve([...data.stream]) : "error" in data && reject(new Error(data.error)));
-                    worker.postMessage({ file: new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name), preset: "14 bits" });
-                }), basename(path), base64(readFileSync(path)));
-                const theirs = join(folder, `${basename(path)}.bsm`);
-                if (existsSync(theirs)) assert.ok(readFileSync(theirs).equals(Buffer.from(stream)), path);
-                else writeFileSync(theirs, Buffer.from(stream));
-            }
-        } finally {
-            await browser.close();
+        context.after(() => browser.close());
+        const page = await browser.newPage();
+        await page.goto(address);
+        for (const path of files) {
+            const stream = await page.evaluate((name, data) => new Promise<number[]>((resolve, reject) => {
+                const worker = new Worker("encoder.js", { type: "module" });
+                worker.onerror = ({ message }) => reject(new Error(message));
+                worker.onmessage = ({ data }) => ("stream" in data ? resolve([...data.stream]) : "error" in data && reject(new Error(data.error)));
+                worker.postMessage({ file: new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name), preset: "14 bits" });
+            }), basename(path), base64(readFileSync(path)));
+            const theirs = join(folder, `${basename(path)}.bsm`);
+            if (existsSync(theirs)) assert.ok(readFileSync(theirs).equals(Buffer.from(stream)), path);
+            else writeFileSync(theirs, Buffer.from(stream));
         }
     });
 });
