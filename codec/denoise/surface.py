@@ -8,7 +8,7 @@ from scipy import sparse
 from bsm._core import codec as _kernels
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Floats, Indices, Mask, Order, Positions
-from bsm.codec.geometry.graph import Lists, vertex_faces, vertex_neighbors
+from bsm.codec.geometry.graph import Lists, edges_of, vertex_faces, vertex_neighbors
 from bsm.codec.geometry.metrics import face_geometry, face_normals
 
 CROWD = 64  # faces around a vertex from which on they are not near each other because of it
@@ -55,7 +55,10 @@ class Topology:
     @cached_property
     def pairs(self) -> Indices:
         """Two faces that share an edge, shape (p, 2); where more than two meet, each with the next in order."""
-        key, owner = self._edges
+        ends, edge, _ = self._edges
+        order = np.argsort(edge, kind="stable")
+        order = order[ends[order, 0] != ends[order, 1]]
+        key, owner = edge[order], (order // 3).astype(np.int32)
         same = (key[1:] == key[:-1]) & (owner[1:] != owner[:-1])
         return np.stack([owner[:-1][same], owner[1:][same]], axis=1)
 
@@ -72,22 +75,14 @@ class Topology:
 
     @cached_property
     def boundary(self) -> Mask:
-        key, counts = np.unique(self._edges[0], return_counts=True)
-        alone = key[counts == 1]
+        ends, _, uses = self._edges
         boundary = np.zeros(self.n, dtype=np.bool_)
-        boundary[alone >> 32] = boundary[alone & 0xFFFFFFFF] = True
+        boundary[ends[(uses == 1) & (ends[:, 0] != ends[:, 1])]] = True
         return boundary
 
     @cached_property
-    def _edges(self) -> tuple[Order, Indices]:
-        """The edges of all faces as ``smaller << 32 | larger``, ascending, and the face of each; loops left out."""
-        owner = np.repeat(np.arange(len(self.faces), dtype=np.int32), 3)
-        ends = self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
-        key = ends.min(axis=1) << 32 | ends.max(axis=1)
-        proper = ends[:, 0] != ends[:, 1]
-        key, owner = key[proper], owner[proper]
-        order = np.argsort(key, kind="stable")
-        return key[order], owner[order]
+    def _edges(self) -> tuple[Order, Order, Order]:
+        return edges_of(self.faces)
 
 
 def surroundings(positions: Positions, topology: Topology, radius: float) -> Lists:

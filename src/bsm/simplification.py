@@ -15,6 +15,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners
+from bsm.codec.geometry.graph import edges_of
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import distances_to_surface, surface_distance
 from bsm.codec.geometry.welding import degenerate
@@ -235,11 +236,10 @@ def collapsed(
     """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1, and the
     `wedges` left: numbers of the values of corners. With these, vertices stay or vanish, and seams stay seams."""
     count, sides, own = len(positions), 3 * len(faces), faces if wedges is None else wedges
-    ends_of = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    edges, uses = np.unique(ends_of @ np.array([count, 1]), return_counts=True)
+    sides_of, _, uses = edges_of(faces)
     stay = np.where(locked, _FIXED, 0 if wedges is None else _STEADY).astype(np.uint8)
     # At open borders, and where more than two triangles meet at an edge.
-    stay[np.stack(np.divmod(edges[uses != 2], count))] = _FIXED
+    stay[sides_of[uses != 2]] = _FIXED
     if wedges is not None:
         vertices = faces.ravel()[np.unique(wedges, return_index=True)[1]]  # of the wedges
         stay[np.bincount(vertices, minlength=count) > 1] |= _SEAM
