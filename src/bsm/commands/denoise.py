@@ -29,6 +29,7 @@ from bsm.jobs.plan import plan
 from bsm.jobs.run import Batch, run_jobs
 from bsm.jobs.task import Facts, Task
 from bsm.lengths import length, unit_of
+from bsm.options import denoise_options
 
 if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
@@ -85,9 +86,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def denoise_one(args: DenoiseJob, console: Console) -> Facts:
-    from bsm.codec.denoise import DenoiseOptions
-
-    options = DenoiseOptions(**args.options) if args.options else None
+    options = denoise_options(**args.options)
     if sequence := open_sequence(args.input, args.format):
         result = _denoise_sequence(args, console, sequence, options)
     else:

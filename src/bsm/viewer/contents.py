@@ -25,6 +25,13 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, extent_of
 from bsm.codec.geometry.metrics import compare, distances_to_surface, farthest_from_surface, surface_distance
+from bsm.codec.look.measure import look
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import PROMISES
+from bsm.codec.sequence.step_search import KNOTS, shading_error
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import PRESETS as ALL
+from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Contract
 from bsm.comparison import in_order_of, pair, paired_frames
 from bsm.console import Progress
@@ -89,10 +96,6 @@ def carried(source: TriangleMesh | Frames) -> bytes:
 
 def _carrier(mesh: TriangleMesh) -> tuple[bytes, Order]:
     """Return a stream to the bit, or on the finest grid where single precision is coarser; and its order."""
-    from bsm.codec.static.encoder import Encoder
-    from bsm.codec.static.options import PRESETS as ALL
-    from bsm.codec.static.options import EncodeOptions
-
     with suppress(MeshError, TargetError):
         encoder = Encoder(mesh, ALL["lossless"])
         return b"".join(encoder.chunks()), encoder.vertex_order
@@ -115,8 +118,6 @@ def compared(
     if bool(header and header.gop_frames) != isinstance(original, Frames):
         raise MeshError(f"{name} and its original must both be sequences, or both meshes")
     if isinstance(original, Frames):
-        from bsm.codec.sequence.options import PROMISES
-
         frames = np.array(list(original.frames))
         decoder = SequenceStream(Input(stream).chunks(), limits=limits)
         found, off = _over_time(name, decoder, frames, original.faces)
@@ -124,9 +125,6 @@ def compared(
         first = Shown("Original", "" if size else "as plain arrays", size or 12 * frames.size // 3, before)
         second = Shown("BSM", preset or "", len(stream), stream, off)
         return Content(name, (first, second), 1, {"preset": preset} | found | _promised(PROMISES, preset))
-    from bsm.codec.look.measure import look
-    from bsm.codec.static.options import PRESETS as ALL
-
     decoded = decode_whole(Input(stream).chunks(), limits)
     used, kept = decoded.without_isolated_vertices()
     source = original.bare.without_isolated_vertices()[0]
@@ -168,9 +166,6 @@ def _over_time(
     name: str, decoder: SequenceStream, before: Positions, faces: Faces
 ) -> tuple[dict[str, Any], npt.NDArray[np.float32] | None]:
     """Return the largest relative error of each frame, the look of the worst of some, and errors of vertices."""
-    from bsm.codec.look.measure import look
-    from bsm.codec.sequence.step_search import KNOTS, shading_error
-
     decoded = np.array([frame for _, frame in decoder.frames()])
     if len(decoded) != len(before):
         raise MeshError(f"{name} has {len(decoded)} frames, and its original has {len(before)}")
@@ -203,7 +198,6 @@ def _over_time(
 
 def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Shown], dict[str, int] | None]:
     """Return Draco's finest file of at most `size` bytes, and the size of its smallest file of at most this look."""
-    from bsm.codec.look.measure import look
     from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
 
     @cache
@@ -228,8 +222,6 @@ def made(
     name: str, size: int | None, given: MeshFile | Frames, preset: str, report: Callable[[str, float], None]
 ) -> Content:
     """Encode a file and compare it; call `report` with each stage and the fraction done."""
-    from bsm.codec.sequence.encoder import SequenceEncoder
-
     report("encoding", 0.0)
     begin = time.perf_counter()
     source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
