@@ -132,19 +132,11 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
     other = encoder.binding not in ("", "look") and found.apart is None
     binds = f"the {encoder.binding} binds, " if other else ""
-    names = _finish(
-        job,
-        console,
-        notes,
-        f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, "
-        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; {look}{binds}{errors}; "
-        f"{seconds:.2f} s",
-    )
-    counts = {"vertices": vertices, "faces": faces}
-    sizes = {"input_bytes": taken, "output_bytes": written, "bytes": size, "bpv_total": bpv}
-    apart = {"input_parts": parts, "output_parts": beside} if parts else {}
-    ends = {"look": encoder.look, "binding": encoder.binding, "seconds": seconds, "notes": notes}
-    return {**names, **counts, **sizes, **apart, **numbers, **ends}
+    summary = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {bpv:.2f} bits per vertex"
+    summary += f"{' without images' if images else ''}; {look}{binds}{errors}"
+    facts = {"vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": written, "bytes": size}
+    facts |= {"bpv_total": bpv} | ({"input_parts": parts, "output_parts": beside} if parts else {}) | numbers
+    return _finish(job, console, notes, summary, seconds, {**facts, "look": encoder.look, "binding": encoder.binding})
 
 
 def _in_texels(note: str, mesh: TriangleMesh, side: int) -> str:
@@ -227,24 +219,19 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
     bpvf = 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
-    names = _finish(
-        job,
-        console,
-        notes,
-        f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
-        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
-        f"KG error {encoder.kg:.3g} %; {seconds:.2f} s",
-    )
-    counts = {"frames": done, "vertices": vertices, "faces": faces}
-    sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
-    return {**names, **counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
+    summary = f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
+    summary += f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}KG error {encoder.kg:.3g} %"
+    facts = {"frames": done, "vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": size}
+    facts |= {"bytes": size, "bpvf_total": bpvf, "kg": finite(encoder.kg)}
+    return _finish(job, console, notes, summary, seconds, facts)
 
 
-def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str) -> Facts:
+def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str, seconds: float, facts: Facts) -> Facts:
     for note in notes:
         console.note(f"{job.input}: {note}")
-    console.note(f"{job.input} -> {job.output}: {summary}")
-    return {"input": job.input, "output": None if job.dry_run else job.output}
+    console.note(f"{job.input} -> {job.output}: {summary}; {seconds:.2f} s")
+    output = None if job.dry_run else job.output
+    return {"input": job.input, "output": output, **facts, "seconds": seconds, "notes": notes}
 
 
 def with_provenance(
