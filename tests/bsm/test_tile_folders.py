@@ -162,7 +162,7 @@ def test_tilesets_are_not_written_through_links(source, tmp_path):
     assert refused.returncode == 2 and "glb is a symbolic link" in refused.stderr
     (output / "glb").unlink()
     assert tile(source, output, "-f", "--tileset").returncode == 0
-    assert not (output / "tileset.json").is_symlink()
+    assert {*os.listdir(output)} == {"tileset.json", "glb"} and not (output / "tileset.json").is_symlink()
     assert [path.name for path in kept.iterdir()] == ["precious"] and (kept / "precious").read_text() == "precious"
 
 

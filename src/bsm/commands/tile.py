@@ -19,7 +19,7 @@ from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, sta
 from bsm.jobs.run import Batch, run_many
 from bsm.jobs.task import Job, Outcome, came_to
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
-from bsm.tiles.joining import CONTENT_HELP, CONTENTS, write_tileset
+from bsm.tiles.joining import CONTENT_HELP, CONTENTS, TILESET, write_tileset
 from bsm.tiles.making import TileJob, tile_one
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.reading import read_big
@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
     add_flags(parser, "tile")
     add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
-    more = "also write tileset.json (3D Tiles) and a GLB for each tile. "
+    more = "write tileset.json (3D Tiles) and a GLB for each tile instead of shards. "
     add("--tileset", "", more + CONTENT_HELP, nargs="?", choices=CONTENTS, const=CONTENTS[0])
     images = "how the textures of tiles are written: webp, webp:85, jpeg:90@2048 (default webp)"
     add("--images", "RULE", images, type=ImageRule.parse, default=ImageRule("webp"))
@@ -65,7 +65,8 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
         message = "these tiles are unfinished: --resume continues, -f starts again"
         raise FileExistsError(errno.EEXIST, message, args.output)
     over = args.force or args.resume
-    refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished) or (left and over))
+    for name in (MANIFEST, TILESET):
+        refuse_to_overwrite(inside(args.output, name), args.force or bool(unfinished) or (left and over))
     refuse_others(work)
     if unfinished is not False:
         write_unfinished(args.output, args.input)
@@ -100,7 +101,9 @@ def _run(args: argparse.Namespace, console: Console, work: Path, left: bool) -> 
     manifest, given = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
     remove_made(work)
     if args.tileset:
-        given += write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
+        given = write_tileset(open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over)
+        for name in (MANIFEST, *(shard["file"] for shard in manifest["shards"])):  # what the tileset holds again
+            remove(inside(args.output, name))
     came = came_to(size_of(args.input), given)
     console.note(
         f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
@@ -140,7 +143,7 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
             console.note(f"{args.input}: left out: {names}; tiles have positions, faces, colors, normals, textures")
         with console.progress("cutting", until=0.3):
             threads = args.jobs or available_threads()
-            plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin, threads), args.triangles)
+            plan = cut(raw, *chosen_lattice(raw, args.grid_cell, args.grid_origin, threads), args.triangles)
     except BsmError:  # no run could go on with what is refused
         remove_made(work)
         raise

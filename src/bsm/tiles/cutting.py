@@ -4,7 +4,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,9 +16,11 @@ from bsm.bitstream.container.header import MOST_GRID
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.pictures import EDGE_PIXELS, LEAST_PIXELS
 from bsm.codec.threads import ordered_map
-from bsm.files.output import by_its_own_name, write_output
+from bsm.files.output import write_output
 from bsm.tiles.reading import CARRIED, Kinds, Raw, mapped, table_file
+from bsm.tiles.sliding import slid
 
 Ints: TypeAlias = npt.NDArray[np.int64]
 Places: TypeAlias = npt.NDArray[np.int32]
@@ -26,7 +28,8 @@ DEPTH = 10  # levels below the first that has to be cut
 COARSEST = 1 << 13  # triangles of the coarsest level at most, about: ten kilobytes until a first picture
 _COUNTED = 7  # levels all of whose nodes are counted
 _SAMPLE = 40_000
-_ODD = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)
+_SLID = 0.5  # largest look distance of vertices that have slid
+_NEARER = 1.25  # samples are so much larger than in a picture of the whole, since they are few
 _FARTHEST = 1 << 30  # from the origin, in cells
 _SPREAD = (0x1F00000000FFFF, 0x1F0000FF0000FF, 0x100F00F00F00F00F, 0x10C30C30C30C30C3, 0x1249249249249249)
 """How 21 bits come to stand three apart."""
@@ -61,23 +64,54 @@ class Lattice:
         return np.asarray(places * self.cell + np.array(self.origin))
 
 
-def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | None, threads: int) -> Lattice:
-    """Return the requested lattice, or one by the look of a sample; its cells represent every position exactly."""
+def chosen_lattice(
+    raw: Raw, cell: float | None, origin: tuple[float, ...] | None, threads: int
+) -> tuple[Lattice, bool]:
+    """Return the requested lattice, or one by the look of samples, and whether vertices slide along the surface.
+
+    The cells represent every position exactly."""
     require_sizes(np.array([raw.low, raw.high]), done="cut")
-    lattice = Lattice(_cell_by_look(raw, threads) if cell is None else cell, origin or (0.0, 0.0, 0.0))
+    chosen, slides = _by_look(raw, threads) if cell is None else (cell, False)
+    lattice = Lattice(chosen, origin or (0.0, 0.0, 0.0))
     reach = max(abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
     farthest = reach / lattice.cell
-    exact = 8 * math.frexp(lattice.cell)[0] % 1 == 0 and not any(at % lattice.cell for at in lattice.origin)
+    exact = 16 * math.frexp(lattice.cell)[0] % 1 == 0 and not any(at % lattice.cell for at in lattice.origin)
     if not farthest < (_FARTHEST if exact else MOST_GRID // 2):
         least = math.ceil(math.log2(2 * max(reach, *map(abs, (*raw.low, *raw.high))) / _FARTHEST))
         better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
         message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
         raise OptionError(f"{message}places exactly; a power of two does, such as --grid-cell {better!r}")
-    return lattice
+    return lattice, slides
 
 
-def _cell_by_look(raw: Raw, threads: int) -> float:
-    """The largest of few bits that keeps the default's promise around three vertices, in any order of the faces."""
+def _by_look(raw: Raw, threads: int) -> tuple[float, bool]:
+    """The largest cell of few bits that keeps the default's promise, and whether vertices may slide."""
+    bare, extent = not raw.kinds.keys() & {*CARRIED, "texcoord"}, np.ptp([raw.low, raw.high], axis=0).max()
+
+    def seen(faces: Ints) -> tuple[float, bool]:
+        used, corners = np.unique(faces, return_inverse=True)
+        points, slides = raw.table("positions")[used].astype(np.float64), False
+        sample = TriangleMesh(points, corners.reshape(-1, 3).astype(np.int32))
+        edge = np.linalg.norm(np.diff(points[sample.faces], axis=1), axis=2).mean()
+        most = min(0.01 * sample.diagonal, edge / 2.0) or 1.0
+        cell = 2.0 ** math.floor(math.log2(most))
+        with suppress(MeshError):  # there is nothing to see
+            pixels = _NEARER * max(LEAST_PIXELS / extent, EDGE_PIXELS / edge) * np.ptp(points, axis=0).max()
+            metric = LookMetric(sample, threads=1, most_pixels=math.ceil(pixels))
+            if bare and (slides := metric.distance(moved := slid(points, sample.faces)) <= _SLID):
+                points = moved
+            while (far := metric.distance(np.rint(points / cell) * cell)) > 1.0:
+                cell *= 0.5 ** max(1, math.floor(math.log2(far)))
+            larger = (share * cell / 8 for share in range(15, 8, -1) if share * cell <= 8 * most)
+            cell = next((c for c in larger if metric.distance(np.rint(points / c) * c) <= 1.0), cell)
+        return cell, slides
+
+    cells, slides = zip(*ordered_map(seen, _samples(raw), threads))
+    return min(cells), all(slides)
+
+
+def _samples(raw: Raw) -> list[Ints]:
+    """The faces around three vertices, in any order of the faces."""
     firsts = raw.table("faces")[:: max(1, raw.rows["faces"] // _SAMPLE), 0]
     some = raw.table("positions")[firsts].astype(np.float64)
     share = min(1.0, _SAMPLE / max(1, raw.rows["faces"]))
@@ -89,22 +123,7 @@ def _cell_by_look(raw: Raw, threads: int) -> float:
         firsts = raw.table("positions")[piece[:, 0]]
         for middle, far, found in zip(middles, reach, near):
             found.append(piece[(np.abs(firsts - middle) <= far).all(axis=1), :3])
-
-    def cell_of(faces: list[npt.NDArray[Any]]) -> float:
-        used, corners = np.unique(np.concatenate(faces), return_inverse=True)
-        sample = TriangleMesh(raw.table("positions")[used].astype(np.float64), corners.reshape(-1, 3).astype(np.int32))
-        edge = np.linalg.norm(np.diff(sample.positions[sample.faces], axis=1), axis=2).mean()
-        most = min(0.01 * sample.diagonal, edge / 2.0) or 1.0
-        cell = 2.0 ** math.floor(math.log2(most))
-        with suppress(MeshError):  # there is nothing to see
-            metric = LookMetric(sample, threads=1)
-            while (far := metric.distance(np.rint(sample.positions / cell) * cell)) > 1.0:
-                cell *= 0.5 ** max(1, math.floor(math.log2(far)))
-            larger = (share * cell for share in (1.75, 1.5, 1.25) if share * cell <= most)
-            cell = next((c for c in larger if metric.distance(np.rint(sample.positions / c) * c) <= 1.0), cell)
-        return cell
-
-    return min(ordered_map(cell_of, near, threads))
+    return list(map(np.concatenate, near))
 
 
 # --------------------------------------------------------------------------------------------------------------- octree
@@ -140,6 +159,7 @@ class Plan(Root):
     faces: int
     kinds: Kinds
     leaves: dict[str, tuple[int, int]]
+    slides: bool  # whether vertices slide along the surface
     about: Mapping[str, str] = field(default_factory=dict)
     textures: int = 0  # pictures of materials, beside the plan
 
@@ -179,28 +199,21 @@ def load_plan(path: Path) -> Plan:
     return Plan(**{**given, "low": tuple(given["low"])})
 
 
-def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
-    """Write places, faces by the leaf of their first corner, and which places are used from outside of it."""
+def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
+    """Write faces by the leaf of their first corner, and which places are used from outside of it."""
     folder, (low, high) = raw.folder, lattice.places(np.array([raw.low, raw.high])).astype(np.int64)
     vertices, triangles = raw.rows["positions"], raw.rows["faces"]
     # Above the first level that is cut there is one node a level, down to a mesh that is there at once.
     above = max(0, math.ceil(math.log(min(most, triangles) / COARSEST, 4)))
     bits = max(1, int((high - low).max()).bit_length()) + above
     depth = min(DEPTH + above, bits)
-    kinds = {what: kind for what, kind in raw.kinds.items() if what not in ("positions", "faces")}
-    kinds |= {"own": ("<u4", 1), "places": ("<i4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
-    kinds["cut"] = ("<u4", 7 if raw.textures else 3)
-    plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {}, raw.about, raw.textures)
-    names = ("places", "codes", "own")
-    with ExitStack() as opened:
-        file, coded, own = (opened.enter_context(table_file(folder / name)) for name in names)
+    kinds = {what: kind for what, kind in raw.kinds.items() if what != "faces"}
+    kinds |= {"codes": ("<i8", 1), "outside": ("<i8", 5), "cut": ("<u4", 7 if raw.textures else 3)}
+    sizes = vertices, triangles
+    plan = Plan(tuple(map(int, low)), bits, lattice, depth, *sizes, kinds, {}, slides, raw.about, raw.textures)
+    with table_file(folder / "codes") as coded:
         for piece in raw.pieces("positions"):
-            places = lattice.places(piece)
-            with by_its_own_name(folder / "places"):
-                file.write(places.data)
-            coded.write(plan.codes(places).data)
-            own.write(_hashes(piece).data)
-    (folder / "positions").unlink()
+            coded.write(plan.codes(lattice.places(piece)).data)
     # All nodes down to a level that a table has room for, and below it those alone that have to be cut there.
     coarse = 3 * max(0, depth - max(above, _COUNTED))
     number = np.zeros(1 << (3 * depth - coarse), np.int64)
@@ -229,13 +242,6 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     return plan
 
 
-def _hashes(positions: npt.NDArray[Any]) -> npt.NDArray[np.uint32]:
-    """A number for each position, which tells two at one place apart."""
-    words = (positions.astype(np.float64) + 0.0).view(np.uint64)
-    words = (words ^ words >> np.uint64(32)) * np.array(_ODD, np.uint64)  # two signs alone would cancel each other
-    return np.asarray((words[:, 0] ^ words[:, 1] ^ words[:, 2]) >> np.uint64(32), np.uint32)
-
-
 def _first_codes(raw: Raw, kinds: Kinds) -> Iterator[Ints]:
     """The node of each face, of its first corner."""
     return (mapped(raw.folder, "codes", kinds)[faces[:, 0], 0] for faces in raw.pieces("faces"))
@@ -258,7 +264,7 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
                 file.write(faces[order[begin : begin + size]].data)
             following[numbers] += count
             row, corner = np.nonzero((codes < ends[leaf, :1]) | (codes >= ends[leaf, 1:]))
-            places = mapped(raw.folder, "places", plan.kinds)[faces[row, corner]]
+            places = plan.lattice.places(raw.table("positions")[faces[row, corner]])
             found = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
             outside.append(np.unique(found, axis=0))
     with table_file(raw.folder / "outside") as file:

@@ -12,7 +12,7 @@ from bsm.bitstream.errors import TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import farthest_from_surface
-from bsm.codec.geometry.welding import degenerate
+from bsm.codec.geometry.welding import degenerate, row_numbers
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
@@ -25,6 +25,7 @@ from bsm.simplification import collapsed, compact
 from bsm.tiles.atlas import Skin, cut_out, joined_skins, side_of_texel, skin_of, textured, wedges_of
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
 from bsm.tiles.reading import mapped
+from bsm.tiles.sliding import slid
 
 Faces: TypeAlias = npt.NDArray[np.int32]
 _KEPT = 4  # one of this many triangles stays from level to level
@@ -75,18 +76,22 @@ def _pictures(plan: Plan, folder: Path) -> list[Path]:
 def _leaf(plan: Plan, name: str, folder: Path) -> tuple[TriangleMesh, Skin, int]:
     """A tile in cells of the lattice, and how many positions share a place; corners there may differ."""
     begin, count = plan.leaves[name]
-    faces, spots = mapped(folder, "cut", plan.kinds)[begin : begin + count], mapped(folder, "places", plan.kinds)
-    used = np.unique(faces[:, :3])
-    places, numbers, _ = welded(spots[used])
-    inside = ~plan.outside(name, places)
-    own = mapped(folder, "own", plan.kinds)[used, 0].astype(np.int64) | numbers.astype(np.int64) << 32
-    joined = len(np.unique(own[inside[numbers]])) - int(inside.sum())
-    # Faces that have a place twice cannot be seen, and take more bits than others.
-    seen = (spots[faces[:, :3]] != spots[faces[:, [1, 2, 0]]]).any(axis=2).all(axis=1)
-    faces = faces[seen] if seen.any() else faces[:1]
+    faces = mapped(folder, "cut", plan.kinds)[begin : begin + count]
     used, corners = np.unique(faces[:, :3], return_inverse=True)
+    points = mapped(folder, "positions", plan.kinds)[used].astype(np.float64)
     corners = corners.reshape(-1, 3)
-    places, numbers, some = welded(spots[used])
+    spots = plan.lattice.places(points)
+    if plan.slides:
+        spots = plan.lattice.places(slid(points, corners, _held(plan, name, folder, spots)))
+    places, numbers, _ = welded(spots)
+    inside = ~plan.outside(name, places)
+    joined = len(np.unique(row_numbers(points)[inside[numbers]])) - int(inside.sum())
+    # Faces that have a place twice cannot be seen, and take more bits than others.
+    seen = (spots[corners] != spots[corners[:, [1, 2, 0]]]).any(axis=2).all(axis=1)
+    faces, corners = (rows[seen] if seen.any() else rows[:1] for rows in (faces, corners))
+    left, corners = np.unique(corners, return_inverse=True)
+    used, corners = used[left], corners.reshape(-1, 3)
+    places, numbers, some = welded(spots[left])
 
     def carried(what: Any) -> Attribute:
         values = mapped(folder, what, plan.kinds)[used]
@@ -128,6 +133,17 @@ def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
     return along_curve(shifted)
 
 
+def _held(plan: Plan, name: str, folder: Path, places: Places) -> npt.NDArray[np.bool_]:
+    """Which places other tiles use, too: those outside of a node, and those inside that faces of others reach."""
+    outside = mapped(folder, "outside", plan.kinds)
+    begin, end = plan.ends(name)
+    rows = np.array(outside[slice(*np.searchsorted(outside[:, 0], (begin, end)))])
+    rows = rows[(rows[:, 4] < begin) | (rows[:, 4] >= end)]
+    low = places.min(axis=0).astype(np.int64)
+    inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
+    return plan.outside(name, places) | np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
+
+
 def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMesh, Skin, float]:
     """A node by those below it; what others use of it stays where it is."""
     children, skins, before, first = [], list[Skin](), 0.0, 0
@@ -153,14 +169,7 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     if (empty := degenerate(faces)).all():
         return TriangleMesh(places.astype(np.float64), faces[:1], carried(np.arange(len(places)))), skin[:1], before
     faces, skin = faces[~empty], skin[~empty]
-    locked = plan.outside(name, places)
-    outside = mapped(folder, "outside", plan.kinds)
-    begin, end = plan.ends(name)
-    rows = np.array(outside[slice(*np.searchsorted(outside[:, 0], (begin, end)))])
-    rows = rows[(rows[:, 4] < begin) | (rows[:, 4] >= end)]
-    low = places.min(axis=0).astype(np.int64)
-    inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
-    locked |= np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
+    locked = _held(plan, name, folder, places)
     target = max(len(faces) // _KEPT, min(COARSEST, most) // 4)
     wedges = wedges_of(skin, faces) if plan.textures else None
     new, smaller, left = simplified(places, faces, locked, target, wedges)

@@ -18,7 +18,7 @@ except ImportError:  # not a POSIX system
 LOCK, NOTE = ".tile.lock", "asked"
 _BEGIN = "({'triangles'"  # of the note of a run
 _MADE = re.compile(
-    rf"({LOCK}|{NOTE}|plan\.json|tiles\.json|positions|faces|color|normal|places|cut|codes|outside|own|texcoord|texture\.\d+|r[0-7]*\.(mesh|bsm|atlas))"
+    rf"({LOCK}|{NOTE}|plan\.json|tiles\.json|positions|faces|color|normal|cut|codes|outside|texcoord|texture\.\d+|r[0-7]*\.(mesh|bsm|atlas))"
     r"|\.(plan|tiles|r[0-7]*)\.(json|mesh|bsm|atlas)\.\w{8}\.part"
 )
 

@@ -270,10 +270,10 @@ def Cube "c" {}
 def test_tiles_keep_the_unit_and_the_axis(tmp_path):
     mesh = TriangleMesh(10 * TRIANGLE, [[0, 1, 2]], (), {"unit": "mm", "up": "y"})
     (tmp_path / "a.ply").write_bytes(written_mesh(mesh, "ply").data)
-    assert main(["tile", str(tmp_path / "a.ply"), "-o", str(tmp_path / "t"), "--tileset", "--grid-cell", "0.25"]) == 0
-    tree = json.loads((tmp_path / "t" / "tileset.json").read_text())["root"]
-    matrix = np.array(tree["transform"]).reshape(4, 4).T
-    center = matrix @ [*tree["boundingVolume"]["box"][:3], 1]
+    assert main(["tile", str(tmp_path / "a.ply"), "-o", str(tmp_path / "t"), "--grid-cell", "0.25"]) == 0
+    assert main(["untile", str(tmp_path / "t"), "-o", str(tmp_path / "tileset.json")]) == 0
+    tree = json.loads((tmp_path / "tileset.json").read_text())["root"]
+    center = np.array(tree["transform"]).reshape(4, 4).T @ [*tree["boundingVolume"]["box"][:3], 1]
     assert center[:3] == pytest.approx([0.005, -0.015, 0.01], abs=1e-6)
     assert main(["untile", str(tmp_path / "t"), "-o", str(tmp_path / "b.ply")]) == 0
     assert {**read_mesh(tmp_path / "b.ply").mesh.metadata} == {"unit": "mm", "up": "y"}
