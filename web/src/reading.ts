@@ -23,25 +23,14 @@ const FAR = 64; // diagonals from the origin, where single precision begins to c
 
 const text = (bytes: ArrayBuffer): string => new TextDecoder().decode(bytes);
 
-/** The middle of vertices that are so far from the origin that single precision may round them visibly. */
-function farMiddle(rows: Iterable<ArrayLike<number>>): number[] | undefined {
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-    for (const row of rows) for (let d = 0; d < 3; d++) [low[d], high[d]] = [Math.min(low[d], row[d]), Math.max(high[d], row[d])];
-    const [far, diagonal] = [Math.max(...[...low, ...high].map(Math.abs)), Math.hypot(...low.map((x, d) => high[d] - x))];
-    return far > FAR * diagonal && far < Infinity ? low.map((x, d) => Math.round((x + high[d]) / 2)) : undefined;
-}
-
-function* rowsOf(values: ArrayLike<number>): Generator<number[]> {
-    for (let i = 0; i + 2 < values.length; i += 3) yield [values[i], values[i + 1], values[i + 2]];
-}
-
-/** The text of a file whose vertices have lines of their own, with these around the origin, which loaders round to single precision; and where they were. */
+/** The text of a file whose vertices have lines of their own, with these around the origin if single precision, to which loaders round, is too coarse; and where they were. */
 function nearOrigin(content: string): { content: string; middle?: number[] } {
-    const rows = function* (): Generator<number[]> {
-        for (const [, , ...row] of content.matchAll(VERTEX)) yield row.map(Number);
-    };
-    const middle = farMiddle(rows());
-    return middle ? { middle, content: content.replace(VERTEX, (_, name: string, ...row: string[]) => [name, ...middle.map((x, d) => Number(row[d]) - x)].join(" ")) } : { content };
+    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    for (const [, , ...row] of content.matchAll(VERTEX)) row.map(Number).forEach((x, d) => ([low[d], high[d]] = [Math.min(low[d], x), Math.max(high[d], x)]));
+    const far = Math.max(...[...low, ...high].map(Math.abs));
+    if (!(far > FAR * Math.hypot(...low.map((x, d) => high[d] - x)) && far < Infinity)) return { content };
+    const middle = low.map((x, d) => Math.round((x + high[d]) / 2));
+    return { middle, content: content.replace(VERTEX, (_, name: string, ...row: string[]) => [name, ...middle.map((x, d) => Number(row[d]) - x)].join(" ")) };
 }
 
 /** The meshes of a file, and where their origin is; `lost` gets the names of what is left out. */
@@ -81,6 +70,7 @@ function readPly(bytes: ArrayBuffer, lost: Set<string>): BufferGeometry {
     const fine = /^property (uchar|uint8) red$/m.test(header); // the loader would round these as linear numbers
     if (fine) loader.setCustomPropertyNameMapping({ bytes: ["red", "green", "blue"] });
     const geometry = loader.parse(bytes);
+    if (/^property (double|float64) x$/m.test(header) && geometry.attributes.position?.array instanceof Float32Array) lost.add("digits beyond single precision"); // by three.js of before
     if ((geometry.index?.count ?? 0) / 3 < faces) throw new Error("It has faces of more than four corners, which are not read here.");
     return geometry.index ? geometry : new BufferGeometry(); // points
 }
@@ -137,8 +127,7 @@ export async function readMesh(name: string, bytes: ArrayBuffer): Promise<Readin
     if (middle) mesh.positions = Float64Array.from(mesh.positions, (x, i) => x + middle[i % 3]);
     if (suffix === "glb") Object.assign(mesh.metadata!, { up: "y", unit: "meters" });
     if (lost.size > 0) said.push(`Left out: ${[...lost].join(", ")}. bsm encode keeps more.`);
-    const isRounded = mesh.positions instanceof Float32Array && farMiddle(rowsOf(mesh.positions)) !== undefined;
-    return { mesh, less: said.length > 0, notes: isRounded ? [...said, "Coordinates were read in single precision; bsm encode keeps more."] : said };
+    return { mesh, less: said.length > 0, notes: said };
 }
 
 /** Encode a mesh to the bit or, where single precision is coarser, on the finest grid. */
