@@ -50,11 +50,6 @@ export class Decoder {
         this.shared.set(shared.index, shared);
     }
 
-    /** Bytes of the stream that the events so far are made of. */
-    get position(): number {
-        return this.engine.state[0];
-    }
-
     /** What has been charged, in nanoseconds of a processor core (specification, M 14.3). */
     get work(): number {
         return this.engine.state[1];

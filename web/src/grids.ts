@@ -86,11 +86,6 @@ export class Decoder {
         this.reader.receiveEof();
     }
 
-    /** Bytes of the stream that the events so far are made of. */
-    get position(): number {
-        return this.reader.position;
-    }
-
     /** The next event, or `NEED_DATA`; `END_OF_STREAM` after the end and `receiveEof`. */
     nextEvent(): GridEvent | Signal {
         for (;;) {

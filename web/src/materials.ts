@@ -1,5 +1,6 @@
 /** Materials and images that metadata speak of, in the words of glTF, for three.js. */
-import { Color, DoubleSide, FrontSide, MeshStandardMaterial, NoColorSpace, RepeatWrapping, SRGBColorSpace, Texture } from "three";
+import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshStandardMaterial, NoColorSpace, RepeatWrapping, SRGBColorSpace, Texture } from "three";
+import type { BSMGeometry } from "./geometry";
 import type { Metadata } from "./index";
 
 /** Angles that turn the axis which a mesh calls up to y. */
@@ -25,7 +26,7 @@ const TEXTURES: Record<string, Slot[]> = {
 const COLORED = ["map", "emissiveMap"];
 
 /** The images of metadata, by their numbers. */
-export async function imagesOf(metadata: Metadata): Promise<Map<number, Texture>> {
+async function imagesOf(metadata: Metadata): Promise<Map<number, Texture>> {
     const found = [...metadata].flatMap(([key, value]) => {
         const match = /^image\.(\d+)\.data$/.exec(key);
         return match && value instanceof Uint8Array ? [[Number(match[1]), value] as const] : [];
@@ -48,14 +49,15 @@ async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
     }
 }
 
-/** The materials of metadata by their numbers; what has none has `count` plain ones. */
-export function materialsOf(metadata: Metadata, images: Map<number, Texture>, count: number): MeshStandardMaterial[] {
-    const words = Array.from({ length: count }, (): Words => new Map());
+/** The materials of a geometry by their numbers; plain ones where it has none. */
+export async function materialsOf({ metadata, pieces, color }: BSMGeometry): Promise<MeshStandardMaterial[]> {
+    const images = await imagesOf(metadata);
+    const words = Array.from({ length: 1 + Math.max(0, ...pieces.map(({ material }) => material)) }, (): Words => new Map());
     for (const [key, value] of metadata) {
         const match = /^material\.(\d+)\.(.+)$/s.exec(key);
-        if (match && Number(match[1]) < count && (typeof value === "string" || typeof value === "number")) words[Number(match[1])].set(match[2], value);
+        if (match && Number(match[1]) < words.length && (typeof value === "string" || typeof value === "number")) words[Number(match[1])].set(match[2], value);
     }
-    return words.map((material) => materialOf(material, images));
+    return words.map((material) => Object.assign(materialOf(material, images), { vertexColors: color !== undefined }));
 }
 
 function numbersIn(value: string | number | undefined): number[] {
@@ -65,11 +67,13 @@ function numbersIn(value: string | number | undefined): number[] {
 function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMaterial {
     const isMtl = !["baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor"].some((name) => words.has(name));
     const material = new MeshStandardMaterial({ name: String(words.get("name") ?? ""), metalness: isMtl ? 0 : 1, roughness: 1 });
-    const [r = 1, g = 1, b = 1, a = 1] = numbersIn(words.get("baseColorFactor") ?? words.get("Kd"));
-    if (words.has("baseColorFactor")) material.color.setRGB(r, g, b);
-    else material.color = new Color().setRGB(r, g, b, SRGBColorSpace);
-    const emissive = numbersIn(words.get("emissiveFactor") ?? words.get("Ke"));
-    if (emissive.length === 3) material.emissive.setRGB(emissive[0], emissive[1], emissive[2]);
+    const color = numbersIn(words.get("baseColorFactor") ?? words.get("Kd"));
+    const isBlack = words.has("map_Kd") && !color.some(Boolean); // some programs write that beside an image
+    const [r = 1, g = 1, b = 1, a = 1] = isBlack ? [] : color;
+    const spaceOf = (factor: string): string => (words.has(factor) ? LinearSRGBColorSpace : SRGBColorSpace); // MTL has colors of screens
+    material.color.setRGB(r, g, b, spaceOf("baseColorFactor"));
+    const [red = 0, green = 0, blue = 0] = numbersIn(words.get("emissiveFactor") ?? words.get("Ke"));
+    material.emissive.setRGB(red, green, blue, spaceOf("emissiveFactor"));
     for (const [name, set] of [["metallicFactor", "metalness"], ["Pm", "metalness"], ["roughnessFactor", "roughness"], ["Pr", "roughness"]] as const) {
         if (words.has(name)) material[set] = Number(words.get(name));
     }
@@ -77,7 +81,7 @@ function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMat
         const texture = images.get(Number(words.get(name) ?? NaN));
         if (texture) for (const slot of slots) material[slot] = inSpace(texture, COLORED.includes(slot));
     }
-    if (material.emissiveMap && emissive.length === 0) material.emissive.set(0xffffff);
+    if (words.has("map_Ke") && red + green + blue === 0) material.emissive.set(0xffffff);
     const opacity = a * Number(words.get("d") ?? 1);
     const mode = words.get("alphaMode");
     material.opacity = opacity;

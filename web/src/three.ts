@@ -1,9 +1,9 @@
 /** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
-import { BufferGeometry, Group, Loader, Mesh, type LoadingManager, type MeshStandardMaterial } from "three";
+import { BufferGeometry, Group, Loader, Mesh, type MeshStandardMaterial } from "three";
 import { BsmError, errorLike } from "./errors";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits, Picture } from "./index";
-import { imagesOf, materialsOf, turnOf } from "./materials";
+import { materialsOf, turnOf } from "./materials";
 import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
 
@@ -189,12 +189,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
 /** Loads streams as groups of meshes, where a loader is to give one thing. */
 export class BSMSceneLoader extends Loader<Group> {
     /** What loads the geometry; ask it for threads and paths. */
-    readonly geometries: BSMLoader;
-
-    constructor(manager?: LoadingManager) {
-        super(manager);
-        this.geometries = new BSMLoader(manager);
-    }
+    readonly geometries = new BSMLoader(this.manager);
 
     override load(url: string, onLoad: (group: Group) => void, onProgress?: (event: ProgressEvent) => void, onError: (error: unknown) => void = console.error): void {
         this.geometries.setPath(this.path).setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
@@ -218,13 +213,10 @@ function naming(url: string, error: unknown): Error {
 /** A whole geometry as a group of meshes: materials, textures, names of parts, and y up, as its metadata say. */
 export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     const { metadata, pieces } = geometry;
-    const images = await imagesOf(metadata);
-    const materials = materialsOf(metadata, images, 1 + Math.max(0, ...pieces.map(({ material }) => material)));
+    const materials = await materialsOf(geometry);
     const group = new Group();
     group.name = String(metadata.get("name") ?? "");
     group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
-    const colored = geometry.hasAttribute("color");
-    for (const material of materials) material.vertexColors = colored;
     const parts = new Set(pieces.map(({ part }) => part));
     if (parts.size < 2) group.add(new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(geometry, materials.length > 1 ? materials : materials[0]));
     else for (const piece of pieces) group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, piece.part)));

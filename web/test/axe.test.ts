@@ -61,7 +61,7 @@ describe("axe-core", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
         });
     }
 
-    test("a page with players", async () => {
+    test("a page with players", async (context) => {
         const site = await serveSite();
         site.extra.set("/script.js", `import "/bsm/player.js"; document.documentElement.lang = "en"; document.title = "Players"; document.body.innerHTML = "<main><h1>Players</h1></main>";
             for (const src of ["good-labels", "good-sequence-learnt", "nothing"]) {
@@ -69,13 +69,10 @@ describe("axe-core", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
                 for (const type of ["load", "error"]) player.addEventListener(type, () => (document.body.dataset.there = String(1 + Number(document.body.dataset.there ?? 0))));
                 document.querySelector("main").append(player);
             }`);
-        try {
-            const page = await browser.newPage();
-            await page.goto(site.address);
-            await page.waitForSelector("body[data-there='3']", { timeout: PATIENCE });
-            assert.deepEqual(await violations(page), []);
-        } finally {
-            site.close();
-        }
+        context.after(() => site.close());
+        const page = await browser.newPage();
+        await page.goto(site.address);
+        await page.waitForSelector("body[data-there='3']", { timeout: PATIENCE });
+        assert.deepEqual(await violations(page), []);
     });
 });

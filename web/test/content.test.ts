@@ -8,7 +8,9 @@ import {
     InterleavedBufferAttribute, LOD, Mesh, MeshBasicMaterial, Points, SkinnedMesh, SphereGeometry, Texture,
 } from "three";
 import { encodeHere, EncodeError, type EncodeOptions, type Drawn, type MeshInput } from "../src/encode";
+import type { BSMGeometry } from "../src/geometry";
 import { decode, type Attribute } from "../src/index";
+import { materialsOf } from "../src/materials";
 import { kernels, WEB } from "./shared";
 
 const wasm = await WebAssembly.compile(readFileSync(join(WEB, "built/encode.wasm")));
@@ -154,4 +156,10 @@ test("noted: points beside meshes, what is invisible, what some parts lack, wide
     const { notes, faces } = await back(group);
     assert.equal(faces, 24);
     assert.deepEqual(notes, ["Left out: points and lines, what is invisible, uv, wide, textures."]);
+});
+
+test("black beside an image is no color, and MTL has colors of screens", async () => {
+    const words = { Kd: "0 0 0", map_Kd: 0, Ke: "0.5 0.5 0.5" };
+    const [{ color, emissive }] = await materialsOf({ metadata: new Map(Object.entries(words).map(([name, value]) => [`material.0.${name}`, value])), pieces: [] } as unknown as BSMGeometry);
+    assert.deepEqual([color.getHexString(), emissive.getHexString()], ["ffffff", "808080"]);
 });

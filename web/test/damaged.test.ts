@@ -32,38 +32,35 @@ function numbersOf(geometry: BSMGeometry): number[][] {
 }
 
 for (const threads of [12, 0]) {
-    test(`${DAMAGES} damaged streams between good ones, ${threads ? "in threads" : "without threads"}`, { timeout: 3_600_000 }, async () => {
+    test(`${DAMAGES} damaged streams between good ones, ${threads ? "in threads" : "without threads"}`, { timeout: 3_600_000 }, async (context) => {
         const lines = new Lines(drawing(7));
         const { source, restore } = staged(lines);
-        try {
-            const loader = new BSMLoader();
-            const pool = new Pool(threads ? source : { ...source, worker: () => undefined }, threads || 1);
-            const { open } = pool;
-            pool.open = (listener, wishes) => open.call(pool, listener, { ...wishes, worthwhile: 0 }); // helpers for small ones, too
-            (loader as unknown as { own: Pool }).own = pool;
-            const load = async (data: Uint8Array): Promise<BSMGeometry | string> => {
-                let outcome: BSMGeometry | string | undefined;
-                void loader.parseAsync(data, { onBlock: () => {} }).then((geometry) => (outcome = geometry), (error: Error) => (outcome = `${error.name}: ${error.message}`));
-                await lines.run(() => outcome !== undefined);
-                return outcome ?? "nothing came";
-            };
-            const good = [];
-            for (const stream of STREAMS) good.push(numbersOf((await load(stream)) as BSMGeometry));
-            let refused = 0;
-            for (let k = 0; k < DAMAGES; k++) {
-                const outcome = await load(damaged(k));
-                refused += typeof outcome === "string" ? 1 : 0;
-                if (typeof outcome === "string") assert.match(outcome, /^(Corrupt|Truncated|Format|Unsupported|Limit|Numeric)Error: /, `stream ${k}`);
-                const which = (k * 7) % STREAMS.length;
-                const next = await load(STREAMS[which]);
-                assert.ok(typeof next !== "string", `${NAMES[which]} after stream ${k}: ${next}`);
-                assert.deepEqual(numbersOf(next), good[which], `${NAMES[which]} after stream ${k}`);
-            }
-            assert.ok(refused > 0.6 * DAMAGES, `${refused} refused`);
-            console.log(`${DAMAGES} damaged streams, ${refused} refused; ${DAMAGES} good ones after them, 0 differ`);
-        } finally {
-            restore();
+        context.after(restore);
+        const loader = new BSMLoader();
+        const pool = new Pool(threads ? source : { ...source, worker: () => undefined }, threads || 1);
+        const { open } = pool;
+        pool.open = (listener, wishes) => open.call(pool, listener, { ...wishes, worthwhile: 0 }); // helpers for small ones, too
+        (loader as unknown as { own: Pool }).own = pool;
+        const load = async (data: Uint8Array): Promise<BSMGeometry | string> => {
+            let outcome: BSMGeometry | string | undefined;
+            void loader.parseAsync(data, { onBlock: () => {} }).then((geometry) => (outcome = geometry), (error: Error) => (outcome = `${error.name}: ${error.message}`));
+            await lines.run(() => outcome !== undefined);
+            return outcome ?? "nothing came";
+        };
+        const good = [];
+        for (const stream of STREAMS) good.push(numbersOf((await load(stream)) as BSMGeometry));
+        let refused = 0;
+        for (let k = 0; k < DAMAGES; k++) {
+            const outcome = await load(damaged(k));
+            refused += typeof outcome === "string" ? 1 : 0;
+            if (typeof outcome === "string") assert.match(outcome, /^(Corrupt|Truncated|Format|Unsupported|Limit|Numeric)Error: /, `stream ${k}`);
+            const which = (k * 7) % STREAMS.length;
+            const next = await load(STREAMS[which]);
+            assert.ok(typeof next !== "string", `${NAMES[which]} after stream ${k}: ${next}`);
+            assert.deepEqual(numbersOf(next), good[which], `${NAMES[which]} after stream ${k}`);
         }
+        assert.ok(refused > 0.6 * DAMAGES, `${refused} refused`);
+        console.log(`${DAMAGES} damaged streams, ${refused} refused; ${DAMAGES} good ones after them, 0 differ`);
     });
 }
 

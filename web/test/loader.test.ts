@@ -265,8 +265,10 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             loads.push(problem(scenes.loadAsync("/stream/${STREAM}.bsm")));
             scenes.abort();
             const parse = loader.loadAsync("/stream/${STREAM}.bsm");
-            return { stopped: await Promise.all(loads), parses: await Promise.all(parses), faces: (await parse).index.count > 0 };`);
+            const thrown = await problem(loader.loadAsync("/stream/${STREAM}.bsm", undefined, { onConnectivity() { throw new Error("mine"); } }));
+            return { stopped: await Promise.all(loads), parses: await Promise.all(parses), faces: (await parse).index.count > 0, thrown };`);
         assert.ok(seen.faces);
+        assert.match(seen.thrown as string, /^Error .*mine$/);
         for (const text of seen.stopped as string[]) assert.match(text, /^AbortError \/stream\/.*.bsm: /);
         for (const text of seen.parses as string[]) assert.match(text, /^AbortError /);
     });

@@ -123,31 +123,28 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         assert.deepEqual(complaints, []);
     });
 
-    for (const content of ["plain", "coded"]) test(`3d-tiles-renderer shows the ${content} tileset, coarse from afar and fine from near`, async () => {
+    for (const content of ["plain", "coded"]) test(`3d-tiles-renderer shows the ${content} tileset, coarse from afar and fine from near`, async (context) => {
         const site = await serveSite();
-        try {
-            const options = { stdin: { contents: SCRIPT, resolveDir: WEB }, bundle: true, external: ["/bsm/*"], write: false as const, format: "esm" as const, logLevel: "error" as const };
-            site.extra.set("/script.js", (await build(options)).outputFiles[0].text);
-            site.extra.set("/scan/tileset.json", readFileSync(join(folder, content, "tileset.json"), "utf8"));
-            for (const name of readdirSync(join(folder, content, "glb"))) site.extra.set(`/scan/glb/${name}`, readFileSync(join(folder, content, "glb", name)));
-            assert.equal(readFileSync(join(folder, content, "glb", "r.glb")).includes("EXT_bsm_compression"), content === "coded");
-            const page = await opened();
-            await page.goto(site.address);
-            const tileState = async (over: number): Promise<{ loaded: string[]; faces: number }> => {
-                await page.waitForFunction(`tileState().quiet > 5 && tileState().faces > ${over}`, undefined, { timeout: PATIENCE });
-                return (await page.evaluate("tileState()")) as { loaded: string[]; faces: number };
-            };
-            const far = await tileState(0);
-            assert.equal(far.faces, coarsest);
-            assert.deepEqual(far.loaded, ["glb/r.glb"]);
-            await page.evaluate("from(2.5)");
-            const near = await tileState(2 * coarsest); // loads may begin frames after the camera moved
-            assert.ok(near.faces <= faces, `${near.faces} faces`);
-            const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
-            assert.ok(share > 0.1 && Math.abs(x - 0.5) < 0.1 && Math.abs(y - 0.5) < 0.15, `${share} ${x} ${y}`);
-            assert.deepEqual(complaints, []);
-        } finally {
-            site.close();
-        }
+        context.after(() => site.close());
+        const options = { stdin: { contents: SCRIPT, resolveDir: WEB }, bundle: true, external: ["/bsm/*"], write: false as const, format: "esm" as const, logLevel: "error" as const };
+        site.extra.set("/script.js", (await build(options)).outputFiles[0].text);
+        site.extra.set("/scan/tileset.json", readFileSync(join(folder, content, "tileset.json"), "utf8"));
+        for (const name of readdirSync(join(folder, content, "glb"))) site.extra.set(`/scan/glb/${name}`, readFileSync(join(folder, content, "glb", name)));
+        assert.equal(readFileSync(join(folder, content, "glb", "r.glb")).includes("EXT_bsm_compression"), content === "coded");
+        const page = await opened();
+        await page.goto(site.address);
+        const tileState = async (over: number): Promise<{ loaded: string[]; faces: number }> => {
+            await page.waitForFunction(`tileState().quiet > 5 && tileState().faces > ${over}`, undefined, { timeout: PATIENCE });
+            return (await page.evaluate("tileState()")) as { loaded: string[]; faces: number };
+        };
+        const far = await tileState(0);
+        assert.equal(far.faces, coarsest);
+        assert.deepEqual(far.loaded, ["glb/r.glb"]);
+        await page.evaluate("from(2.5)");
+        const near = await tileState(2 * coarsest); // loads may begin frames after the camera moved
+        assert.ok(near.faces <= faces, `${near.faces} faces`);
+        const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
+        assert.ok(share > 0.1 && Math.abs(x - 0.5) < 0.1 && Math.abs(y - 0.5) < 0.15, `${share} ${x} ${y}`);
+        assert.deepEqual(complaints, []);
     });
 });

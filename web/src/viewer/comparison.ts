@@ -1,7 +1,7 @@
 /** The compared meshes (original, stream, Draco's file): which are shown, how, and in which colors. */
 import { BufferAttribute, Vector3 } from "three";
 import type { BSMGeometry } from "../geometry";
-import { imagesOf, materialsOf, turnOf } from "../materials";
+import { materialsOf, turnOf } from "../materials";
 import type { Pool } from "../pool";
 import { colorsOf, fieldOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
 import { distancesOf } from "./distances";
@@ -129,15 +129,14 @@ export class Comparison {
     /** Make materials from the metadata and images; offer them and the colors. */
     async dress(index = this.content.main): Promise<void> {
         const { geometries, scheme } = this;
-        const { attributes, metadata, color, pieces } = geometries[index]!;
+        const geometry = geometries[index]!;
+        const { attributes, metadata, color } = geometry;
         const fields = Object.keys(attributes).flatMap((name) => (/^(position|normal|(uv|color)\d*)$/.test(name) ? [] : new Option(name, `of ${name}`)));
         if (index === this.content.main) this.form.part("fields").replaceChildren(...fields);
         const named = [...metadata.keys()].some((key) => key.startsWith("material."));
         if (named) {
-            const images = await imagesOf(metadata);
-            if (metadata !== this.geometries[index]?.metadata) return; // another mesh has taken its place
-            const materials = materialsOf(metadata, images, 1 + Math.max(0, ...pieces.map(({ material }) => material)));
-            for (const material of materials) material.vertexColors = color !== undefined;
+            const materials = await materialsOf(geometry);
+            if (geometry !== this.geometries[index]) return; // another mesh has taken its place
             this.stage.dress(index, materials);
             this.dressed.add(index);
         }

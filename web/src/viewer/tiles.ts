@@ -1,7 +1,7 @@
 /** Tiles of a mesh of any size: coarse ones first, then those that are worth most where one looks, by ranges; memory has a bound. */
 import { Vector3 } from "three";
 import { BSMGeometry } from "../geometry";
-import { imagesOf, materialsOf } from "../materials";
+import { materialsOf } from "../materials";
 import type { Pool } from "../pool";
 
 const BUDGET = 3_000_000; // faces that are shown at a time
@@ -176,9 +176,8 @@ export class TileSet {
         try {
             const bytes = await ranged(tile.url, offset, size, sha256);
             const geometry = await wholeOf(this.pool, bytes);
-            const images = await imagesOf(geometry.metadata);
-            if (images.size > 0) {
-                const [material] = materialsOf(geometry.metadata, images, 1);
+            if (geometry.metadata.has("image.0.data")) {
+                const [material] = await materialsOf(geometry);
                 geometry.userData.material = material;
                 geometry.addEventListener("dispose", () => (material.map?.dispose(), material.dispose()));
             }
