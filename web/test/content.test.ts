@@ -159,7 +159,7 @@ test("noted: points beside meshes, what is invisible, what some parts lack, wide
 });
 
 test("black beside an image is no color, and MTL has colors of screens", async () => {
-    const words = { Kd: "0 0 0", map_Kd: 0, Ke: "0.5 0.5 0.5" };
-    const [{ color, emissive }] = await materialsOf({ metadata: new Map(Object.entries(words).map(([name, value]) => [`material.0.${name}`, value])), pieces: [] } as unknown as BSMGeometry);
+    const metadata = new Map<string, string | number>([["material.0.Kd", "0 0 0"], ["material.0.map_Kd", 0], ["material.0.Ke", "0.5 0.5 0.5"]]);
+    const [{ color, emissive }] = await materialsOf({ metadata, pieces: [] } as unknown as BSMGeometry);
     assert.deepEqual([color.getHexString(), emissive.getHexString()], ["ffffff", "808080"]);
 });

@@ -156,9 +156,8 @@ describe("the package", () => {
             run(process.execPath, join(folder, "node_modules", own.name, "obj.js"), source, target);
             const glb = new Uint8Array(readFileSync(target));
             assert.equal((await validateBytes(glb)).issues.numErrors, 0);
-            const document = await new NodeIO().readBinary(glb);
+            const root = (await new NodeIO().readBinary(glb)).getRoot();
             const { positions, faces } = meshOfEvents(eventsOf(kernels, new Uint8Array(readFileSync(source)), 1 << 20));
-            const root = document.getRoot();
             const [primitive] = root.listMeshes()[0].listPrimitives();
             const shown = [undefined, ...primitive.listTargets()];
             assert.deepEqual([root.listAnimations().length, root.listTextures().length], shown.length > 1 ? [1, 0] : [0, 1]);
